@@ -1,0 +1,218 @@
+"""The instrument as a chain of stages, with the changes that effects make to it.
+
+One generic accelerometer is written down, at the disc angle phi plus the constant angle of its nominal
+place (cos_j, sin_j); the four of them and G_out follow from it (Eq. 15).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive import stages
+from derive.effect import Effect
+from derive.stages import PAPER, Force, Geometry, Motion, Order, SensedForce
+from derive.symbols import (
+    ACCELEROMETER,
+    COS_J,
+    COS_PHI,
+    MOTION,
+    SIN_J,
+    SIN_PHI,
+    TIME,
+    Channel,
+    symbol,
+)
+from derive.tape import Tape
+
+OMEGA = 2 * sp.pi * symbol("spin_frequency")
+"""Angular rate of the disc, rad/s."""
+
+DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
+_STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
+
+
+@dataclass
+class Context:
+    """What a hook may ask for, beyond its stage's own values.
+
+    ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
+    the stage ``instrument`` sees the force of the unchanged instrument.
+    """
+
+    tape: Tape
+    motion: Motion
+    cos_phi: sp.Expr = COS_PHI
+    sin_phi: sp.Expr = SIN_PHI
+    geometry: Geometry | None = None
+    force: Force | None = None
+    sensed: SensedForce | None = None
+    parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
+    time: sp.Symbol = TIME
+    Omega: sp.Expr = OMEGA
+
+    def channel(self, name: str) -> sp.Symbol:
+        """A recorded channel by its column name."""
+        return symbol(name)
+
+    def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
+        """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
+        z = sp.expand((COS_PHI + sp.I * SIN_PHI) ** n)
+        return sp.re(z), sp.im(z)
+
+    def rate(self, e: sp.Expr) -> sp.Expr:
+        """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
+        return self.tape.rate(sp.sympify(e), _symbol_rate)
+
+    def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
+        """``e`` at the instant t + delta, to second order in delta."""
+        first = self.rate(e)
+        return e + delta * first + delta**2 / 2 * self.rate(first)
+
+
+def _symbol_rate(s: sp.Symbol) -> sp.Expr:
+    if s == COS_PHI:
+        return -OMEGA * SIN_PHI
+    if s == SIN_PHI:
+        return OMEGA * COS_PHI
+    if s == TIME:
+        return sp.Integer(1)
+    name = s.name
+    if name in DERIVATIVE_OF:
+        return symbol(DERIVATIVE_OF[name])
+    if name.startswith("d_"):
+        return symbol(f"d2_{name[2:]}")
+    if name in _MOVING:
+        return symbol(f"d_{name}")
+    return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
+
+
+_MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)
+
+
+def recorded_motion() -> Motion:
+    """The motion as it is recorded: one symbol a channel."""
+    v = {c.name: c.symbol for c in MOTION}
+    vector = {n: sp.Matrix([v[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega", "omegadot")}
+    G = sp.Matrix(3, 3, lambda i, k: v["Gamma_" + "".join(sorted("xyz"[i] + "xyz"[k]))])
+    return Motion(vector["a"], vector["omega"], vector["omegadot"], G)
+
+
+@dataclass(frozen=True)
+class Accelerometer:
+    """The recorded chain of one accelerometer: its tape, V_j in volts, and the specific forces."""
+
+    tape: Tape
+    voltage: sp.Expr
+    sensed: SensedForce
+
+
+def accelerometer(effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None) -> Accelerometer:
+    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
+    tape = Tape() if tape is None else tape
+    let = tape.let
+    hooked = [(e, e.values) for e in effects]
+
+    # 1 sensing
+    c = Context(tape, recorded_motion())
+    for e, p in hooked:
+        if e.sensing:
+            c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
+    M = stages.gradient(c.motion).applyfunc(sp.sympify)
+    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
+
+    # 2 geometry
+    increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
+    if increment != 0:
+        d = let("delta_phi", increment)
+        cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
+        c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
+        c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
+    cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
+    sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
+    k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
+
+    def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
+        angles = {n: k[n] for n in ("beta_x", "beta_z")}
+        if label == "q":  # second-order terms, whose angles the order counting drops
+            angles = {n: sp.Integer(0) for n in angles}
+        g = stages.mounting(symbol("radius") + k["dR"], order=order, **angles)
+        g = _named_geometry(let, f"{label}_disc", g)
+        g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
+        for e, p in hooked:
+            if e.geometry:
+                g = _named_geometry(let, f"{label}_{e.id}", e.geometry(g, p, c))
+        # 3 specific force
+        f = c.motion.a + M * g.r
+        for e, p in hooked:
+            if e.field:
+                f = f + e.field(g.r, p, c)
+        f = sp.Matrix([let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
+        resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
+        if label == "q":
+            return g, SensedForce(*resolved), resolved
+        vartheta = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
+        sensed = stages.sensed_force(resolved, vartheta, order)
+        return g, SensedForce(*(let(f"{label}_f_{n}", v) for n, v in zip("iop", sensed, strict=True))), resolved
+
+    c.parameters = dict(k)
+    if any(e.instrument for e in effects):
+        c.geometry, c.sensed, c.force = forces(k, "b")
+        for e, p in hooked:
+            if e.instrument:
+                changed = e.instrument(k, p, c)
+                k |= {n: let(f"{n}_{e.id}".replace("-", "_"), v) for n, v in changed.items()}
+    c.geometry, f, c.force = forces(k, "f")
+    c.sensed, c.parameters = f, dict(k)
+    q = f if order.second_order_angles else forces(k, "q")[1]
+
+    # 4 transducer
+    for e, p in hooked:
+        if e.second_order:
+            q = SensedForce(
+                *(
+                    let(f"q_{n}_{e.id}".replace("-", "_"), v)
+                    for n, v in zip("iop", e.second_order(q, f, p, c), strict=True)
+                )
+            )
+    i = let("i", stages.transducer(f, q, k))
+    for e, p in hooked:
+        if e.transducer:
+            i = let(f"i_{e.id}".replace("-", "_"), e.transducer(i, f, p, c))
+    return Accelerometer(tape, let("V", k["k_VI"] * k["K1"] * i), f)
+
+
+Let = Callable[[str, sp.Expr], sp.Expr]
+
+
+def _named_motion(let: Let, label: str, m: Motion) -> Motion:
+    label = label.replace("-", "_")
+
+    def vector(name: str, v: sp.Matrix) -> sp.Matrix:
+        return sp.Matrix([let(f"{label}_{name}_{'xyz'[n]}", v[n]) for n in range(3)])
+
+    G = {(i, j): let(f"{label}_Gamma_{'xyz'[i]}{'xyz'[j]}", m.Gamma[i, j]) for i in range(3) for j in range(i, 3)}
+    return Motion(
+        vector("a", m.a),
+        vector("omega", m.omega),
+        vector("omegadot", m.omegadot),
+        sp.Matrix(3, 3, lambda i, j: G[min(i, j), max(i, j)]),
+    )
+
+
+def _named_geometry(let: Let, label: str, g: Geometry) -> Geometry:
+    label = label.replace("-", "_")
+    return Geometry(
+        sp.Matrix([let(f"{label}_r_{'xyz'[n]}", g.r[n]) for n in range(3)]),
+        sp.Matrix(3, 3, lambda i, k: let(f"{label}_tau_{'xyz'[i]}{'xyz'[k]}", g.tau[i, k])),
+    )
+
+
+def auxiliary_channel(name: str) -> Channel:
+    """A channel beyond the motion: a derivative ``d_a_x`` ..., or an auxiliary that an effect declares."""
+    for prefix, meaning in (("d_", "time derivative"), ("d2_", "second time derivative")):
+        if name.startswith(prefix):
+            return Channel(name, name, "", f"{meaning} of {name.removeprefix(prefix)}")
+    return Channel(name, rf"\mathrm{{{name}}}", "", f"auxiliary channel {name}")

@@ -1,0 +1,168 @@
+"""What a physical effect is: a change at one or more stages of the instrument, in one file.
+
+A file ``derive/effects/<id with underscores>.py`` defines ``EFFECT = Effect(...)``; nothing else has to
+be touched. From it follow the extended model, the effect's signature, the calibration of its parameters,
+its page in the documentation and its conformance tests.
+
+An effect is not an additive term of the output: it changes a stage, and the stages after it see the
+change, so that its couplings with misalignment and second-order coefficients are kept.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import sympy as sp
+
+from derive.stages import Geometry, Motion, SensedForce
+from derive.symbols import symbol
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+Kind = Literal["deterministic", "step", "random", "output"]
+
+_ID = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+
+
+@dataclass(frozen=True)
+class EffectParameter:
+    """A parameter that an effect brings.
+
+    Attributes
+    ----------
+    unit
+        Display unit (pint notation); inside the model it is in SI.
+    plausible
+        Size, in ``unit``, at which a careful engineer would no longer be surprised.
+    shared
+        One value for the instrument (True) or one for each accelerometer.
+    neutral
+        Value at which the effect vanishes.
+    channel
+        Recorded channel without which this parameter alone has no influence (``None``: none).
+    fitted
+        False for what is set (or scanned), not calibrated by least squares.
+    """
+
+    name: str
+    latex: str
+    unit: str
+    meaning: str
+    plausible: float
+    shared: bool = False
+    neutral: float = 0.0
+    channel: str | None = None
+    fitted: bool = True
+
+
+class Values(Mapping[str, sp.Expr]):
+    """The symbols of an effect's parameters: ``p.K_iii`` or ``p["K_iii"]``."""
+
+    def __init__(self, effect: Effect) -> None:
+        self._symbols = {q.name: effect.symbol(q) for q in effect.parameters}
+
+    def __getattr__(self, name: str) -> sp.Expr:
+        try:
+            return self._symbols[name]
+        except KeyError:
+            raise AttributeError(f"the effect has no parameter {name}") from None
+
+    def __getitem__(self, name: str) -> sp.Expr:
+        return self._symbols[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._symbols)
+
+    def __len__(self) -> int:
+        return len(self._symbols)
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A physical effect. Hooks are pure functions; those left out change nothing.
+
+    Attributes
+    ----------
+    id, title, physics, source, limits
+        Name in commands and files; a heading; a paragraph; where it is described; where it stops to hold.
+    parameters
+        What it brings. Their symbols are ``p.<name>`` in the hooks.
+    channels
+        Recorded channels it needs beyond the motion, by column name (``temperature`` ...).
+    kind
+        ``deterministic``; ``step`` (starts at an unknown instant, parameter ``t_step``); ``random`` (the
+        parameter is the size of a random process; the hook gives the sensitivity to it); ``output``
+        (acts on the recorded output channel; no hook, recognised by its own test).
+    sensing
+        (motion, p, c) -> motion at the disc centre from the recorded one.
+    disc_angle
+        (p, c) -> increment of the disc angle, rad.
+    geometry
+        (geometry, p, c) -> position and triad in the measurement frame.
+    field
+        (r, p, c) -> specific force in the measurement frame, m/s^2, added to that of Eq. 11 at r.
+    instrument
+        (k, p, c) -> changed parameters of the accelerometer (a mapping of those that change).
+    second_order
+        (q, f, p, c) -> force that the second-order terms see; f is the full sensed force.
+    transducer
+        (i, f, p, c) -> I_j/K_j1, m/s^2, from that of Eq. 1.
+    """
+
+    id: str
+    title: str
+    physics: str
+    source: str
+    equation: str
+    parameters: tuple[EffectParameter, ...]
+    limits: str = ""
+    channels: tuple[str, ...] = ()
+    kind: Kind = "deterministic"
+    sensing: Callable[[Motion, Values, Context], Motion] | None = None
+    disc_angle: Callable[[Values, Context], sp.Expr] | None = None
+    geometry: Callable[[Geometry, Values, Context], Geometry] | None = None
+    field: Callable[[sp.Matrix, Values, Context], sp.Matrix] | None = None
+    instrument: Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]] | None = None
+    second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
+    transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
+
+    def __post_init__(self) -> None:
+        if not _ID.fullmatch(self.id):
+            raise ValueError(f"effect id {self.id!r}: expected lower-case words joined by hyphens")
+        names = [q.name for q in self.parameters]
+        for name in names:
+            if not _NAME.fullmatch(name):
+                raise ValueError(f"{self.id}: parameter name {name!r}: expected words joined by underscores")
+        if len(set(names)) != len(names):
+            raise ValueError(f"{self.id}: parameter names must differ, found {names}")
+        if not names:
+            raise ValueError(f"{self.id}: an effect needs at least one parameter")
+        if self.kind == "output" and any(self.hooks()):
+            raise ValueError(f"{self.id}: an effect of the output channel has no hook")
+        if self.kind != "output" and not any(self.hooks()):
+            raise ValueError(f"{self.id}: no stage is changed; give at least one hook")
+
+    def hooks(self) -> tuple[object, ...]:
+        """The stage functions, in the order of the stages (``None`` where the stage is unchanged)."""
+        return (
+            self.sensing,
+            self.disc_angle,
+            self.geometry,
+            self.field,
+            self.instrument,
+            self.second_order,
+            self.transducer,
+        )
+
+    def symbol(self, q: EffectParameter) -> sp.Symbol:
+        """Symbol of a parameter, unique over all effects."""
+        return symbol(f"{self.id.replace('-', '_')}__{q.name}")
+
+    @property
+    def values(self) -> Values:
+        return Values(self)

@@ -1,0 +1,109 @@
+"""Every symbol of the paper's instrument: name, LaTeX, unit, meaning.
+
+Units are SI. The paper gives specific force in g and the null bias in g; here both are in m/s^2,
+so the scale factor ``K1`` is in A/(m/s^2) and the second-order coefficients in (m/s^2)/(m/s^2)^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A recorded time series that enters the model: its column name, LaTeX, SI unit and meaning."""
+
+    name: str
+    latex: str
+    unit: str
+    meaning: str
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return symbol(self.name)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A constant of the instrument: one value, or one for each accelerometer (A1, A2, A3, A4)."""
+
+    name: str
+    latex: str
+    unit: str
+    meaning: str
+    shared: bool = False
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        return symbol(self.name)
+
+    @property
+    def size(self) -> int:
+        """Number of values: 1 if shared, else 4."""
+        return 1 if self.shared else 4
+
+
+def symbol(name: str) -> sp.Symbol:
+    """The one SymPy symbol of this name (all are real)."""
+    return sp.Symbol(name, real=True)
+
+
+_AXES = "xyz"
+
+MOTION: tuple[Channel, ...] = (
+    *(Channel(f"a_{k}", f"a_{k}", "m/s^2", f"specific force of the disc centre, {k} (f_cmm)") for k in _AXES),
+    *(
+        Channel(f"omega_{k}", rf"\omega_{{im{k}}}", "rad/s", f"angular rate against inertial space, {k}")
+        for k in _AXES
+    ),
+    *(
+        Channel(f"omegadot_{k}", rf"\dot\omega_{{im{k}}}", "rad/s^2", f"angular acceleration, {k}")
+        for k in _AXES
+    ),
+    *(
+        Channel(f"Gamma_{k}", rf"\Gamma_{{{k}}}", "s^-2", f"gravity gradient {k} at the disc centre")
+        for k in ("xx", "xy", "xz", "yy", "yz", "zz")
+    ),
+)
+
+DISC: tuple[Parameter, ...] = (
+    Parameter("radius", "R", "m", "nominal distance of the accelerometers from the disc centre", shared=True),
+    Parameter("spin_frequency", r"\Omega/2\pi", "Hz", "rotation frequency of the disc", shared=True),
+)
+
+ACCELEROMETER: tuple[Parameter, ...] = (
+    Parameter("dR", "dR", "m", "radial distance error"),
+    Parameter("beta_x", r"\beta_x", "rad", "altitude angle of the mounting position"),
+    Parameter("beta_z", r"\beta_z", "rad", "initial phase angle of the mounting position"),
+    Parameter("vartheta_x", r"\vartheta_x", "rad", "misalignment about the tangential axis"),
+    Parameter("vartheta_y", r"\vartheta_y", "rad", "misalignment about the radial axis"),
+    Parameter("vartheta_z", r"\vartheta_z", "rad", "misalignment about the axial axis"),
+    Parameter("K0", "K_0", "m/s^2", "null bias"),
+    Parameter("K1", "K_1", "A/(m/s^2)", "linear scale factor"),
+    Parameter("K2", "K_2", "1/(m/s^2)", "second-order coefficient of f_i^2"),
+    Parameter("K4", "K_4", "1/(m/s^2)", "second-order coefficient of f_i f_p"),
+    Parameter("K5", "K_5", "1/(m/s^2)", "second-order coefficient of f_o^2"),
+    Parameter("K6", "K_6", "1/(m/s^2)", "second-order coefficient of f_i f_o"),
+    Parameter("K7", "K_7", "1/(m/s^2)", "second-order coefficient of f_p^2"),
+    Parameter("K8", "K_8", "1/(m/s^2)", "second-order coefficient of f_o f_p"),
+    Parameter("k_VI", "k_{V/I}", "V/A", "current-to-voltage gain"),
+)
+
+INSTRUMENT: tuple[Parameter, ...] = DISC + ACCELEROMETER
+"""The parameters of the paper's instrument, in the order in which every parameter vector holds them."""
+
+ANGLES: tuple[str, ...] = ("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
+SECOND_ORDER: tuple[str, ...] = ("K2", "K4", "K5", "K6", "K7", "K8")
+
+QUARTER_TURNS: tuple[int, ...] = (0, 2, 1, 3)
+"""Nominal place of A1, A2, A3, A4 on the disc, in quarters of a turn ahead of A1."""
+
+SIGNS: tuple[int, ...] = (1, 1, -1, -1)
+"""Sign of V_1 ... V_4 in G_out (Eq. 15)."""
+
+# Disc angle, and the constant cosine and sine of an accelerometer's nominal place on the disc.
+COS_PHI, SIN_PHI = symbol("cos_phi"), symbol("sin_phi")
+COS_J, SIN_J = symbol("cos_j"), symbol("sin_j")
+TIME = symbol("time")

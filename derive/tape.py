@@ -1,0 +1,141 @@
+"""A straight-line program of SymPy expressions, and its exact derivatives.
+
+The chain of stages is recorded as a tape of small named expressions instead of one large one: it stays
+readable when printed, and differentiating it costs a small multiple of itself (reverse accumulation),
+whereas differentiating the expanded output costs minutes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+import sympy as sp
+
+from derive.symbols import symbol
+
+
+def variables(e: sp.Expr) -> list[sp.Symbol]:
+    """The symbols of an expression, by name: never iterate over ``free_symbols`` (its order is hashed)."""
+    return sorted(e.free_symbols, key=lambda s: s.name)
+
+
+@dataclass(frozen=True)
+class Program:
+    """Assignments in order of evaluation, and the outputs by name."""
+
+    assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    outputs: tuple[tuple[str, sp.Expr], ...]
+
+    def inputs(self) -> list[sp.Symbol]:
+        """Symbols that are read but never assigned, by name."""
+        assigned = {s for s, _ in self.assignments}
+        read = {s for _, e in (*self.assignments, *self.outputs) for s in e.free_symbols}
+        return sorted(read - assigned, key=lambda s: s.name)
+
+
+@dataclass
+class Tape:
+    """Records assignments; knows their partial and total time derivatives."""
+
+    assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
+    _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    _rates: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+
+    def let(self, name: str, value: sp.Expr) -> sp.Expr:
+        """Name a value. Constants, symbols and their negatives are passed through."""
+        value = sp.sympify(value)
+        if value.is_Atom or (-value).is_Atom:
+            return value
+        s = symbol(name)
+        if s in self._values:
+            raise ValueError(f"{name} is assigned twice")
+        self.assignments.append((s, value))
+        self._values[s] = value
+        return s
+
+    def rate(self, e: sp.Expr, base: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
+        """Total time derivative of ``e``; ``base`` gives that of a symbol that is not on the tape."""
+        return sp.Add(*(sp.diff(e, s) * self._rate_of(s, base) for s in variables(e)))
+
+    def _rate_of(self, s: sp.Symbol, base: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
+        if s not in self._values:
+            return base(s)
+        if s not in self._rates:
+            self._rates[s] = self.let(f"rate_{s.name}", self.rate(self._values[s], base))
+        return self._rates[s]
+
+    def derivatives(self, output: sp.Expr, prefix: str = "bar") -> Callable[[sp.Symbol], sp.Expr]:
+        """Record the reverse accumulation of ``output``; returns the derivative by any input symbol."""
+        adjoint: dict[sp.Symbol, list[sp.Expr]] = {}
+
+        def scatter(e: sp.Expr, seed: sp.Expr) -> None:
+            for s in variables(e):
+                d = sp.diff(e, s)
+                if d != 0:
+                    adjoint.setdefault(s, []).append(seed * d)
+
+        scatter(output, sp.Integer(1))
+        for s, e in list(reversed(self.assignments)):
+            if s in adjoint:
+                scatter(e, self.let(f"{prefix}_{s.name}", sp.Add(*adjoint[s])))
+        return lambda s: sp.Add(*adjoint.get(s, []))
+
+
+def simplify(
+    assignments: Iterable[tuple[sp.Symbol, sp.Expr]],
+    outputs: Iterable[tuple[str, sp.Expr]],
+    values: Mapping[sp.Symbol, sp.Expr],
+) -> Program:
+    """Put ``values`` in, propagate what became constant, share subexpressions, drop what nobody reads."""
+    known: dict[sp.Symbol, sp.Expr] = dict(values)
+    kept: list[tuple[sp.Symbol, sp.Expr]] = []
+    for s, e in assignments:
+        e = e.xreplace(known) if known else e
+        if e.is_Atom or (-e).is_Atom:
+            known[s] = e
+        else:
+            kept.append((s, e))
+    final = [(name, sp.sympify(e).xreplace(known)) for name, e in outputs]
+    return _share(_live(kept, final), final)
+
+
+def _live(
+    assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
+) -> list[tuple[sp.Symbol, sp.Expr]]:
+    needed = {s for _, e in outputs for s in e.free_symbols}
+    kept = []
+    for s, e in reversed(assignments):
+        if s in needed:
+            kept.append((s, e))
+            needed |= e.free_symbols
+    return kept[::-1]
+
+
+def _share(assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]) -> Program:
+    """Common subexpressions, each assigned just before its first use."""
+    expressions = [e for _, e in assignments] + [e for _, e in outputs]
+    names = sp.numbered_symbols("x", cls=symbol_factory)
+    shared, reduced = sp.cse(expressions, symbols=names, order="canonical")
+    pending = dict(shared)
+    placed: list[tuple[sp.Symbol, sp.Expr]] = []
+
+    def place(e: sp.Expr) -> None:
+        for s in variables(e):
+            if s in pending:
+                value = pending.pop(s)
+                place(value)
+                placed.append((s, value))
+
+    for (s, _), e in zip(assignments, reduced, strict=False):
+        place(e)
+        placed.append((s, e))
+    tail = reduced[len(assignments) :]
+    for e in tail:
+        place(e)
+    return Program(tuple(placed), tuple((n, e) for (n, _), e in zip(outputs, tail, strict=True)))
+
+
+def symbol_factory(name: str, **_: object) -> sp.Symbol:
+    """``sympy.numbered_symbols`` passes assumptions of its own; ours are fixed."""
+    return symbol(name)
