@@ -177,7 +177,7 @@ def accelerometer(effects: Sequence[Effect] = (), order: Order = PAPER, tape: Ta
                     for n, v in zip("iop", e.second_order(q, f, p, c), strict=True)
                 )
             )
-    i = let("i", stages.transducer(f, q, k))
+    i = let("i_sensed", stages.transducer(f, q, k))
     for e, p in hooked:
         if e.transducer:
             i = let(f"i_{e.id}".replace("-", "_"), e.transducer(i, f, p, c))

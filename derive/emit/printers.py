@@ -1,0 +1,97 @@
+"""Expressions as source text: NumPy, C and LaTeX."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import sympy as sp
+from sympy.printing.c import C99CodePrinter
+from sympy.printing.latex import LatexPrinter
+from sympy.printing.numpy import NumPyPrinter
+
+from derive.symbols import INSTRUMENT, MOTION
+
+
+class _NumPy(NumPyPrinter):  # type: ignore[misc]
+    def __init__(self) -> None:
+        super().__init__({"fully_qualified_modules": False})
+
+    def _print_Rational(self, e: sp.Rational) -> str:
+        return _decimal(e) or super()._print_Rational(e)
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        if item.is_Rational and item.is_positive and _decimal(item):
+            return _decimal(item)
+        return str(super().parenthesize(item, level, strict))
+
+    def _print_Heaviside(self, e: sp.Expr) -> str:
+        return f"np.heaviside({self._print(e.args[0])}, 1.0)"
+
+    def _print_Function(self, e: sp.Expr) -> str:
+        return f"np.{super()._print_Function(e)}"
+
+    def _print_Abs(self, e: sp.Expr) -> str:
+        return f"np.abs({self._print(e.args[0])})"
+
+    def _print_sign(self, e: sp.Expr) -> str:
+        return f"np.sign({self._print(e.args[0])})"
+
+    def _module_format(self, fqn: str, register: bool = True) -> str:
+        return fqn.replace("numpy.", "np.")
+
+
+class _C(C99CodePrinter):  # type: ignore[misc]
+    def _print_Pow(self, e: sp.Pow) -> str:
+        if e.exp.is_Integer and 2 <= e.exp <= 6:
+            base = self.parenthesize(e.base, sp.printing.precedence.PRECEDENCE["Mul"] + 1)
+            return "(" + "*".join([base] * int(e.exp)) + ")"
+        return str(super()._print_Pow(e))
+
+    def _print_Rational(self, e: sp.Rational) -> str:
+        return _decimal(e) or str(super()._print_Rational(e))
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        if item.is_Rational and item.is_positive and _decimal(item):
+            return _decimal(item)
+        return str(super().parenthesize(item, level, strict))
+
+    def _print_Integer(self, e: sp.Integer) -> str:
+        return f"{int(e)}.0"
+
+    def _print_Pi(self, e: sp.Expr) -> str:
+        return repr(math.pi)  # M_PI is not in standard C
+
+    def _print_Heaviside(self, e: sp.Expr) -> str:
+        return f"(({self._print(e.args[0])}) >= 0.0 ? 1.0 : 0.0)"
+
+    def _print_sign(self, e: sp.Expr) -> str:
+        x = self._print(e.args[0])
+        return f"((double)(({x}) > 0.0) - (double)(({x}) < 0.0))"
+
+
+def _decimal(e: sp.Rational) -> str:
+    """A rational that is a short decimal, exactly; otherwise nothing."""
+    value = int(e.p) / int(e.q)
+    text = repr(value)
+    return text if sp.Rational(text) == e and "e" not in text else ""
+
+
+class _LaTeX(LatexPrinter):  # type: ignore[misc]
+    def _print_Symbol(self, e: sp.Symbol, style: str = "plain") -> str:
+        return _SYMBOLS.get(e.name) or str(super()._print_Symbol(e, style))
+
+
+_SYMBOLS = {c.name: c.latex for c in (*MOTION, *INSTRUMENT)} | {"k1": "k_1", "R": "R"}
+
+
+def to_numpy(e: sp.Expr) -> str:
+    return str(_NumPy().doprint(e))
+
+
+def to_c(e: sp.Expr) -> str:
+    return str(_C({"contract": False}).doprint(e))
+
+
+def to_latex(e: sp.Expr, **settings: Any) -> str:
+    return str(_LaTeX(settings).doprint(e))

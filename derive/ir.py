@@ -1,0 +1,223 @@
+"""The frozen result of the derivation: the only thing that emitters see.
+
+Two products of one derivation. :class:`Harmonic` is the paper's form (amplitudes of harmonics, for the
+analytical and the simplified model). :class:`Chain` is the same instrument unexpanded, one accelerometer
+at a time, with exact derivatives: it holds for any list of effects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.polys.rings import PolyElement
+
+from derive.chain import accelerometer, auxiliary_channel
+from derive.effect import Effect
+from derive.propagation import (
+    COEFFICIENT_PARAMETERS,
+    MOTION_NUMBERS,
+    Collected,
+    motion_numbers,
+)
+from derive.stages import PAPER, Order
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter
+from derive.tape import Program, simplify, symbol_factory
+
+
+@dataclass(frozen=True)
+class Coefficient:
+    """An error-propagation coefficient: ``combination`` (D12 ...) of an expression per accelerometer."""
+
+    combination: str
+    expression: sp.Expr
+
+
+@dataclass(frozen=True)
+class AmplitudeTerm:
+    """Sum of coefficients, times a product of motion numbers (``1`` if empty)."""
+
+    coefficients: tuple[Coefficient, ...]
+    motion: sp.Expr
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """A model in the paper's form.
+
+    Attributes
+    ----------
+    amplitudes
+        A_0, A_1c, A_1s ... in order, each a tuple of terms.
+    numbers
+        T_1 ... by omega, omegadot and Gamma, those that are used.
+    basis
+        (harmonic, phase, motion monomial) of one accelerometer in its own angle.
+    slopes
+        d(coefficient)/d(parameter): parameter name -> ((index into ``basis``, expression), ...).
+    """
+
+    name: str
+    title: str
+    amplitudes: tuple[tuple[str, tuple[AmplitudeTerm, ...]], ...]
+    numbers: tuple[tuple[str, sp.Expr], ...]
+    basis: tuple[tuple[int, str, sp.Expr], ...]
+    slopes: tuple[tuple[str, tuple[tuple[int, sp.Expr], ...]], ...]
+    inputs: tuple[Channel, ...] = MOTION
+    parameters: tuple[Parameter, ...] = INSTRUMENT
+
+    @property
+    def highest(self) -> int:
+        return max(n for n, _, _ in self.basis)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One derivative of V_j: by which parameter, and whether that has one value or four."""
+
+    name: str
+    shared: bool
+
+
+@dataclass(frozen=True)
+class Chain:
+    """One accelerometer as a straight-line program: V_j and its derivatives (``rows``)."""
+
+    name: str
+    title: str
+    value: Program
+    derivatives: Program
+    rows: tuple[Row, ...]
+    inputs: tuple[Channel, ...]
+    parameters: tuple[Parameter, ...]
+    effects: tuple[Effect, ...]
+
+
+def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
+    """The paper's form of a collected model."""
+    amplitudes = []
+    for amplitude, terms in collected.amplitudes.items():
+        grouped: dict[tuple[int, ...], list[Coefficient]] = {}
+        for t in terms:
+            grouped.setdefault(t.motion, []).append(Coefficient(t.combination, _readable(t.coefficient)))
+        amplitudes.append(
+            (amplitude, tuple(AmplitudeTerm(tuple(c), _monomial(m)) for m, c in grouped.items()))
+        )
+    basis, slopes = [], {p: [] for p in COEFFICIENT_PARAMETERS}
+    for (n, phase), terms_of in collected.generic.items():
+        for motion in sorted(terms_of, reverse=True):
+            for p, generator in zip(COEFFICIENT_PARAMETERS, collected.ring.gens, strict=True):
+                slope = terms_of[motion].diff(generator)
+                if slope:
+                    slopes[p].append((len(basis), _readable(slope)))
+            basis.append((n, phase, _monomial(motion)))
+    used = {s.name for _, terms in amplitudes for t in terms for s in t.motion.free_symbols}
+    numbers = tuple((k, v) for k, v in motion_numbers().items() if k in used)
+    return Harmonic(
+        name,
+        title,
+        tuple(amplitudes),
+        numbers,
+        tuple(basis),
+        tuple((p, tuple(s)) for p, s in slopes.items()),
+    )
+
+
+def _monomial(powers: Sequence[int]) -> sp.Expr:
+    from derive.symbols import symbol
+
+    return sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, powers, strict=True)))
+
+
+def _readable(p: PolyElement) -> sp.Expr:
+    """k1 R (...): the common factor first, as the paper writes it."""
+    content, primitive = p.primitive()
+    lowest = tuple(min(m[n] for m in primitive.monoms()) for n in range(len(p.ring.gens)))
+    divided = p.ring.from_dict(
+        {tuple(a - b for a, b in zip(m, lowest, strict=True)): c for m, c in primitive.terms()}
+    )
+    common = p.ring.from_dict({lowest: content}).as_expr()
+    return sp.Mul(common, divided.as_expr(), evaluate=len(divided) == 1)
+
+
+def effect_parameters(effects: Sequence[Effect]) -> tuple[Parameter, ...]:
+    """The parameters that effects bring, under the names they have in a parameter vector."""
+    return tuple(
+        Parameter(e.symbol(q).name, q.latex, q.unit, f"{e.title}: {q.meaning}", q.shared)
+        for e in effects
+        for q in e.parameters
+    )
+
+
+def chain(
+    effects: Sequence[Effect], name: str, title: str, order: Order = PAPER, candidates: Sequence[Effect] = ()
+) -> Chain:
+    """V_j of the instrument with ``effects``, and its derivatives.
+
+    Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
+    their neutral values, that is, the signature that each would leave in this instrument.
+    """
+    a = accelerometer([*effects, *candidates], order)
+    neutral = {e.symbol(q): sp.Float(q.neutral) if q.neutral else sp.Integer(0) for e in candidates for q in e.parameters}
+    value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
+    by = a.tape.derivatives(a.voltage)
+    if candidates:
+        named = [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in candidates for q in e.parameters if q.fitted]
+    else:
+        named = [(q.symbol, q.name, False) for q in ACCELEROMETER]
+        named += [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted]
+    # The disc angle itself: what an error of it does to V_j.
+    outputs = [(n, by(s)) for s, n, _ in named]
+    derivatives = simplify(a.tape.assignments, outputs, neutral)
+    known = {p.name for p in (*INSTRUMENT, *effect_parameters(effects))}
+    reserved = known | {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"} | {c.name for c in MOTION}
+    read = {s.name for program in (value, derivatives) for s in program.inputs()}
+    extra = sorted(read - reserved)
+    return Chain(
+        name,
+        title,
+        value,
+        derivatives,
+        tuple(Row(n, shared) for _, n, shared in named),
+        (*MOTION, *(auxiliary_channel(n) for n in extra)),
+        (*INSTRUMENT, *effect_parameters(effects)),
+        tuple(candidates) or tuple(effects),
+    )
+
+
+def operations(program: Program) -> int:
+    """Arithmetic operations of a straight-line program, as SymPy counts them."""
+    return int(sum(sp.count_ops(e) for _, e in (*program.assignments, *program.outputs)))
+
+
+def manifest_of_effect(e: Effect) -> Mapping[str, object]:
+    """What the runtime has to know of an effect."""
+    return {
+        "id": e.id,
+        "title": e.title,
+        "physics": e.physics,
+        "source": e.source,
+        "equation": e.equation,
+        "limits": e.limits,
+        "channels": list(e.channels),
+        "kind": e.kind,
+        "parameters": [
+            {
+                "name": q.name,
+                "symbol": e.symbol(q).name,
+                "latex": q.latex,
+                "unit": q.unit,
+                "meaning": q.meaning,
+                "plausible": q.plausible,
+                "shared": q.shared,
+                "neutral": q.neutral,
+                "channel": q.channel,
+                "fitted": q.fitted,
+            }
+            for q in e.parameters
+        ],
+    }
+
+
+__all__ = ["Chain", "Harmonic", "chain", "harmonic", "manifest_of_effect", "operations", "symbol_factory"]
