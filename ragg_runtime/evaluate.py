@@ -1,0 +1,150 @@
+"""A model over a flight: parameter vectors, inputs, output voltages and their derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Chain, Effect, EffectParameter, Model
+from ragg_runtime.timeseries import differentiate
+from ragg_runtime.units import Units
+
+Array = NDArray[np.float64]
+
+EOTVOS = 1e-9
+"""1 Eo in s^-2."""
+
+GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
+
+
+@dataclass(frozen=True)
+class Record:
+    """What of a flight enters a model.
+
+    Attributes
+    ----------
+    time
+        (N,) s since the first sample.
+    cos_phi, sin_phi
+        (N,) of the disc angle: the encoder's, or 2 pi spin_frequency time.
+    channels
+        Name -> (N,), SI.
+    rate
+        Sampling rate, Hz.
+    valid
+        (N,) bool: False where a sample must not be used.
+    """
+
+    time: Array
+    cos_phi: Array
+    sin_phi: Array
+    channels: Mapping[str, Array]
+    rate: float
+    valid: NDArray[np.bool_]
+
+    def inputs(self, chain: Chain) -> Array:
+        """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
+        x = np.zeros((len(chain.INPUTS), len(self.time)))
+        for n, name in enumerate(chain.INPUTS):
+            series = self.series(name)
+            if series is not None:
+                x[n] = series
+        return x
+
+    def series(self, name: str) -> Array | None:
+        """A channel, or the time derivative ``d_<channel>``, ``d2_<channel>`` of one; ``None`` if unknown."""
+        if name in self.channels:
+            return self.channels[name]
+        for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
+            if name.startswith(prefix):
+                inner = self.series(base)
+                return None if inner is None else differentiate(inner, self.rate)
+        return None
+
+
+def disc_angle(time: Array, spin_frequency: float) -> Array:
+    """2 pi frac(spin_frequency t), rad, with the rounding error of the product kept (Dekker)."""
+    turns = spin_frequency * time
+    split = 134217729.0
+    f_high = (f := split * spin_frequency) - (f - spin_frequency)
+    t_high = (s := split * time) - (s - time)
+    f_low, t_low = spin_frequency - f_high, time - t_high
+    error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
+    return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
+
+
+def record(flight: Flight, instrument: Instrument) -> Record:
+    """What of this flight enters a model of this instrument."""
+    time = flight.time - flight.time[0]
+    if "spin_angle" in flight.channels:
+        phi = flight.channels["spin_angle"]
+    else:
+        phi = disc_angle(time, instrument.spin_frequency)
+    return Record(time, np.cos(phi), np.sin(phi), flight.channels, flight.rate, flight.valid)
+
+
+def voltages(chain: Chain, r: Record, p: Array) -> Array:
+    """V_1 ... V_4, (4, N), V."""
+    x = r.inputs(chain)
+    return np.stack(
+        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in range(4)]
+    )
+
+
+def output(chain: Chain, r: Record, p: Array) -> Array:
+    """G_out, (N,), V (Eq. 15)."""
+    v = voltages(chain, r, p)
+    return np.asarray((v[0] + v[1]) - (v[2] + v[3]))
+
+
+def scale_factor(chain: Chain, p: Array) -> float:
+    """k_ggi = sum of k_VI K1 R_j, V/Eo (Eq. 30)."""
+    values = named(chain, p)
+    k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
+    return float(np.sum(k1 * R)) * EOTVOS
+
+
+def named(chain: Chain, p: Array) -> dict[str, Array]:
+    """A parameter vector as name -> values (one or four)."""
+    result, start = {}, 0
+    for name, size in chain.PARAMETERS:
+        result[name] = p[start : start + size]
+        start += size
+    return result
+
+
+def vector(model: Model, instrument: Instrument) -> Array:
+    """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
+    units = Units(instrument.g0)
+    values: dict[str, Array] = {
+        "radius": np.array([instrument.radius]),
+        "spin_frequency": np.array([instrument.spin_frequency]),
+    }
+    values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
+    settings = {s.id: s for s in instrument.effects}
+    for e in model.effects:
+        setting = settings.get(e.id)
+        for q in e.parameters:
+            size = 1 if q.shared else 4
+            given = setting.values.get(q.name) if setting else None
+            if given is None:
+                values[q.symbol] = np.full(size, q.neutral * unit_factor(q, units))
+            else:
+                si = units.to_si(given, q.unit, where=f"effect {e.id}, {q.name}")
+                values[q.symbol] = np.broadcast_to(si, size).astype(float)
+    return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
+
+
+def unit_factor(q: EffectParameter, units: Units) -> float:
+    """SI value of one display unit of a parameter."""
+    return units.factor(q.unit)
+
+
+def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:
+    """The channels that an effect needs and the flight does not have."""
+    return tuple(c for c in e.channels if c not in r.channels)

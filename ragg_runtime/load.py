@@ -1,0 +1,138 @@
+"""Derived models as Python objects: the packaged one, or one derived for a list of effects."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from types import ModuleType
+from typing import Any, Protocol, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Chain(Protocol):
+    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
+
+    INPUTS: tuple[str, ...]
+    PARAMETERS: tuple[tuple[str, int], ...]
+    ROWS: tuple[tuple[str, bool], ...]
+    SIGNS: tuple[int, ...]
+    SIZE: int
+
+    def accelerometer(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def derivatives(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def values_of(self, j: int, p: Array) -> Array: ...
+
+
+@dataclass(frozen=True)
+class EffectParameter:
+    """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector."""
+
+    name: str
+    symbol: str
+    latex: str
+    unit: str
+    meaning: str
+    plausible: float
+    shared: bool
+    neutral: float
+    channel: str | None
+    fitted: bool
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What the runtime knows of a physical effect, from the manifest of the derivation."""
+
+    id: str
+    title: str
+    physics: str
+    source: str
+    equation: str
+    limits: str
+    channels: tuple[str, ...]
+    kind: str
+    parameters: tuple[EffectParameter, ...]
+
+
+@dataclass(frozen=True)
+class Model:
+    """A derived model.
+
+    Attributes
+    ----------
+    effects
+        Effects in the model beyond the paper's instrument.
+    candidates
+        Effects known but not in the model; their signatures are in ``signatures``.
+    chain, signatures
+        Generated modules.
+    digest
+        Digest of the derivation.
+    """
+
+    effects: tuple[Effect, ...]
+    candidates: tuple[Effect, ...]
+    chain: Chain
+    signatures: Chain
+    digest: str
+
+    def effect(self, identifier: str) -> Effect | None:
+        """The effect of this id, in the model or not; ``None`` if unknown."""
+        return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
+
+
+@cache
+def packaged() -> Model:
+    """The model of the paper, without further effects, as derived and committed."""
+    import generated
+    from generated import chain, signatures
+
+    manifest = json.loads(resources.files(generated).joinpath("manifest.json").read_text("utf-8"))
+    return _model(manifest, chain, signatures)
+
+
+def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
+    """A model from derived source texts (``derive.pipeline.derive_model``).
+
+    The texts are executed: pass only what the derivation of this program has just yielded or what is,
+    byte for byte, the same.
+    """
+    modules = {}
+    for name in ("chain", "signatures"):
+        module = ModuleType(f"ragg_{label}_{name}")
+        sys.modules[module.__name__] = module
+        exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
+        modules[name] = module
+    return _model(json.loads(files["manifest.json"]), modules["chain"], modules["signatures"])
+
+
+def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType) -> Model:
+    effects = tuple(_effect(e) for e in manifest["catalogue"])
+    present = list(manifest["effects"])
+    by_id = {e.id: e for e in effects}
+    return Model(
+        tuple(by_id[i] for i in present),
+        tuple(e for e in effects if e.id not in present),
+        cast(Chain, chain),
+        cast(Chain, signatures),
+        manifest["digest"],
+    )
+
+
+def _effect(entry: Mapping[str, Any]) -> Effect:
+    parameters = tuple(EffectParameter(**q) for q in entry["parameters"])
+    return Effect(**{**entry, "channels": tuple(entry["channels"]), "parameters": parameters})
