@@ -1,0 +1,28 @@
+"""The numerical model of the instrument (Eq. 49-53): an independent reference for the derived ones.
+
+Built from vectors, rotations and cross products, not from the derivation's algebra, and free of its
+truncations where asked (``rotations="exact"``, Newton's law, effects in full form).
+"""
+
+from __future__ import annotations
+
+from ragg_runtime.reference.angle import disc_angle, turns
+from ragg_runtime.reference.effects import CATALOGUE, EffectValues
+from ragg_runtime.reference.motion import Motion, MotionState, Recorded, Sinusoids, recorded_motion, still
+from ragg_runtime.reference.simulate import Simulation, instants, simulate
+
+__all__ = [
+    "CATALOGUE",
+    "EffectValues",
+    "Motion",
+    "MotionState",
+    "Recorded",
+    "Simulation",
+    "Sinusoids",
+    "disc_angle",
+    "instants",
+    "recorded_motion",
+    "simulate",
+    "still",
+    "turns",
+]

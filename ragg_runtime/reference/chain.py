@@ -1,0 +1,176 @@
+"""The numerical model, Eq. 49-52: from the true motion to the four voltages, with vectors and rotations.
+
+Effects hook in stage by stage (``reference.effects``); without any, this is the paper's model, term by term.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.masses import Gravity
+from ragg_runtime.reference.angle import disc_angle
+from ragg_runtime.reference.effects import Injected, force, geometry, transducer
+from ragg_runtime.reference.geometry import Mount, mount
+from ragg_runtime.reference.motion import Motion, MotionState
+from ragg_runtime.reference.rotation import Rotations, frame_rotation, spin
+
+if TYPE_CHECKING:
+    from ragg_runtime.instrument import Instrument
+
+Array = NDArray[np.float64]
+Triple = tuple[Array, Array, Array]
+Auxiliary = Callable[[Array], Array]
+
+_ARM_ITERATIONS = 3
+"""The arm's stretch changes the force that stretches it by a part in a million."""
+
+
+@dataclass(frozen=True)
+class Instant:
+    """The truth at N instants: time (N,) s, disc angle (N,) rad, motion, auxiliary channels."""
+
+    time: Array
+    phi: Array
+    motion: MotionState
+    auxiliaries: Mapping[str, Array]
+
+
+@dataclass(frozen=True)
+class Chain:
+    """An instrument in a world: everything that determines its noise-free voltages.
+
+    Attributes
+    ----------
+    instrument
+        True parameters (SI).
+    motion, gravity, auxiliaries
+        The world; gravity ``None`` is none.
+    rotations
+        ``first-order`` (Eq. 2 and the paper's geometry) or ``exact``.
+    effects
+        Resolved.
+    """
+
+    instrument: Instrument
+    motion: Motion
+    gravity: Gravity | None
+    rotations: Rotations
+    effects: Injected
+    auxiliaries: Mapping[str, Auxiliary]
+
+    def voltages(self, time: Array, angle_error: Array) -> Array:
+        """V_1 ... V_4 without noise, (4, N) V, at (N,) s; ``angle_error`` (N,) rad is the random part of phi."""
+        tau = transducer.lags(self.effects)
+        shaken = force.vibration(self.effects)
+        V = np.empty((4, time.size))
+        now = self._instant(time, 0.0, angle_error)
+        for j in range(4):
+            V[j] = self._average(j, now, shaken)
+        for lag in np.unique(tau[tau > 0]):
+            group = np.flatnonzero(tau == lag)
+            # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
+            present, change = V[group], np.zeros((group.size, time.size))
+            for delay, weight in transducer.lag_quadrature(float(lag)):
+                past = self._instant(time, delay, angle_error)
+                for row, member in enumerate(group):
+                    change[row] += weight * (self._average(int(member), past, shaken) - present[row])
+            V[group] = present + change
+        return V
+
+    def scale(self, time: Array) -> Array:
+        """k_VI K1 of the four accelerometers as they are at the time, (4, N) V/(m/s^2)."""
+        auxiliaries = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        k = self.instrument.accelerometers
+        return np.stack(
+            [
+                k["k_VI"][j]
+                * k["K1"][j]
+                * transducer.gain(j, time, auxiliaries, self.effects)
+                * np.ones(time.size)
+                for j in range(4)
+            ]
+        )
+
+    def _instant(self, time: Array, delay: float, angle_error: Array) -> Instant:
+        nominal = disc_angle(self.instrument.spin_frequency, time, delay)
+        past = time - delay
+        return Instant(
+            time=past,
+            phi=geometry.disc_angle(nominal, angle_error, self.effects),
+            motion=self.motion.at(time, delay),
+            auxiliaries={name: channel(past) for name, channel in self.auxiliaries.items()},
+        )
+
+    def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
+        """Voltage of accelerometer j, averaged over the instances of the unrecorded vibration."""
+        voltages = (weight * self._voltage(j, instant, v) for v, weight in shaken)
+        return np.asarray(sum(voltages), dtype=np.float64)
+
+    def _voltage(self, j: int, instant: Instant, shake: Array) -> Array:
+        """Eq. 49-52 for accelerometer j (0 ... 3), (N,) V."""
+        k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
+        arm, triad = self._in_measurement_frame(
+            mount(j, k["beta_x"], k["beta_z"], self.rotations), instant.phi
+        )
+        radius = self.instrument.radius + k["dR"]
+        nominal = self._specific_force(radius * arm, triad, instant, shake)
+        if geometry.bends(j, self.effects):
+            for _ in range(_ARM_ITERATIONS):
+                length = geometry.arm_length(j, radius, nominal, self.effects)
+                nominal = self._specific_force(length * arm, triad, instant, shake)
+        angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
+        C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.rotations)
+        measured = _rows(C, nominal)
+        second = transducer.second_order_forces(nominal, measured, self.effects)
+        i, o, p = second
+        bracket = (
+            measured[0]
+            + transducer.bias(j, k["K0"], instant.time, instant.auxiliaries, self.effects)
+            + k["K2"] * i**2
+            + k["K5"] * o**2
+            + k["K7"] * p**2
+            + k["K4"] * i * p
+            + k["K6"] * i * o
+            + k["K8"] * o * p
+            + transducer.further_terms(
+                j, measured, np.sum(instant.motion.omegadot * triad[1], axis=0), self.effects
+            )
+        )
+        gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
+        return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
+
+    def _in_measurement_frame(self, fixed: Mount, phi: Array) -> tuple[Array, Triple]:
+        """Arm (3, N) and triad (three of (3, N)) of a mount when the disc stands at phi."""
+        vectors = np.stack([fixed.arm, *fixed.triad])
+        if (lean := geometry.wobble(self.effects)) is not None:
+            vectors = vectors @ lean.T
+        turned = [spin(v, phi) for v in vectors]
+        if (axis := geometry.spin_axis(self.effects)) is not None:
+            turned = [axis @ v for v in turned]
+        arm, tau_x, tau_y, tau_z = turned
+        return arm, (tau_x, tau_y, tau_z)
+
+    def _specific_force(self, r: Array, triad: Triple, instant: Instant, shake: Array) -> Triple:
+        """Eq. 49 at position r (3, N), and Eq. 50: its components along the triad."""
+        m = instant.motion
+        f = (
+            m.a
+            + shake
+            + np.cross(m.omegadot, r, axis=0)
+            + np.cross(m.omega, np.cross(m.omega, r, axis=0), axis=0)
+        )
+        if self.gravity is not None:
+            f = f - self.gravity.difference(instant.time, r)
+        f = f - force.attraction(r, instant.auxiliaries, self.effects)
+        x, y, z = (np.sum(f * tau, axis=0) for tau in triad)
+        return x, y, z
+
+
+def _rows(C: Array, f: Triple) -> Triple:
+    i, o, p = (row[0] * f[0] + row[1] * f[1] + row[2] * f[2] for row in C)
+    return i, o, p

@@ -1,0 +1,18 @@
+"""Effects beyond the paper's model, injected into the numerical reference in full, nonlinear form.
+
+One module per stage of the instrument. They share no formula with the derivation: a lag is an integral
+over the past, vibration an average over its instances, a lean a rotation, a clock offset another instant.
+"""
+
+from __future__ import annotations
+
+from ragg_runtime.reference.effects.catalogue import (
+    CATALOGUE,
+    EffectValues,
+    Injected,
+    Parameter,
+    channels_needed,
+    resolve,
+)
+
+__all__ = ["CATALOGUE", "EffectValues", "Injected", "Parameter", "channels_needed", "resolve"]

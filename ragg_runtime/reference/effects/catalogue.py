@@ -1,0 +1,148 @@
+"""What the simulator can inject: effect ids, their parameters, SI units and neutral values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ragg_runtime.errors import UserError, did_you_mean
+
+Values = Mapping[str, NDArray[np.float64]]
+"""Parameters of one effect: (4,) per accelerometer, or () shared, SI."""
+
+Injected = Mapping[str, Values]
+"""Effects by id."""
+
+EffectValues = Mapping[str, Mapping[str, ArrayLike]]
+"""What a user passes: {id: {parameter: value or four values, SI}}; parameters left out are neutral."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number (or one per accelerometer) of an effect.
+
+    Attributes
+    ----------
+    unit
+        SI unit; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 stands for the paper's g/g^3.
+    per_accelerometer
+        Four values, or one for all.
+    neutral
+        Value at which the effect is absent.
+    """
+
+    unit: str
+    per_accelerometer: bool = False
+    neutral: float = 0.0
+
+
+def _each(unit: str, *names: str) -> dict[str, Parameter]:
+    return {name: Parameter(unit, per_accelerometer=True) for name in names}
+
+
+def _shared(unit: str, *names: str, neutral: float = 0.0) -> dict[str, Parameter]:
+    return {name: Parameter(unit, neutral=neutral) for name in names}
+
+
+_TURNING = tuple(f"G_{c}_{axis}" for axis in ("roll", "pitch") for c in ("xx", "xy", "xz", "yy", "yz"))
+
+CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
+    "cubic-input": _each("1/(m/s^2)^2", "K_iii"),
+    "cubic-cross": _each(
+        "1/(m/s^2)^2", "K_iio", "K_iip", "K_ioo", "K_iop", "K_ipp", "K_ooo", "K_oop", "K_opp", "K_ppp"
+    ),
+    "odd-quadratic": _each("1/(m/s^2)", "K_oq"),
+    # The reference's own form is Eq. 52, with the second-order terms along the measured axes: kappa = 1.
+    "second-order-misalignment": _shared("1", "kappa", neutral=1.0),
+    "lag": _each("s", "tau"),
+    "pendulum-angular": _each("(m/s^2)/(rad/s^2)", "K_pa"),
+    "thermal-bias": _each("(m/s^2)/K", "dK0_dT"),
+    "thermal-scale": _each("1/K", "dK1_dT"),
+    "bias-drift": _each("(m/s^2)/s", "dK0_dt"),
+    "gain-drift": _each("1/s", "dK1_dt"),
+    "gain-step": _each("1", "dK1") | _shared("s", "t_step"),
+    "arm-stretch": _each("m/(m/s^2)", "c_r"),
+    "arm-sag": _each("m/(m/s^2)", "c_z"),
+    "mount-compliance": _each("rad/(m/s^2)", "c_yx", "c_yy", "c_yz", "c_zx", "c_zy", "c_zz"),
+    "spin-axis-tilt": _shared("rad", "alpha_x", "alpha_y"),
+    "spin-axis-wobble": _shared("rad", "w_x", "w_y"),
+    "spin-phase-offset": _shared("rad", "phi_0"),
+    "encoder-harmonic": _shared("rad", "c_1", "s_1", "c_2", "s_2", "c_3", "s_3", "c_4", "s_4"),
+    "spin-rate-jitter": _shared("rad", "sigma_phi") | _shared("rad/s^0.5", "sigma_walk"),
+    "time-offset": _shared("s", "delta_t"),
+    "imu-lever-arm": _shared("m", "l_x", "l_y", "l_z"),
+    "imu-misalignment": _shared("rad", "e_x", "e_y", "e_z"),
+    "gyro-scale": _shared("1", "s_x", "s_y", "s_z"),
+    "self-gradient": _shared("1/s^2/rad", *_TURNING),
+    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz"),
+    "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
+    "saturation": _shared("V", "V_max", neutral=np.inf),
+    "quantisation": _shared("V", "q"),
+}
+"""Every effect and its parameters, in the order of the interface."""
+
+
+def resolve(effects: EffectValues | None) -> Injected:
+    """Check what a user asked for and fill in the neutral values.
+
+    Returns
+    -------
+    For each effect, all of its parameters: (4,) arrays per accelerometer, () arrays shared.
+
+    Raises
+    ------
+    UserError
+        On an unknown effect or parameter, a wrong number of values, or one that is not a number.
+    """
+    resolved: dict[str, Values] = {}
+    for effect, given in (effects or {}).items():
+        if effect not in CATALOGUE:
+            raise UserError(
+                f"the simulator knows no effect {effect!r}",
+                expected=", ".join(CATALOGUE),
+                remedy=did_you_mean(effect, CATALOGUE),
+            )
+        known = CATALOGUE[effect]
+        for name in given:
+            if name not in known:
+                raise UserError(
+                    f"the effect {effect!r} has no parameter {name!r}",
+                    expected=", ".join(known),
+                    remedy=did_you_mean(name, known),
+                )
+        resolved[effect] = {
+            name: _values(effect, name, parameter, given.get(name, parameter.neutral))
+            for name, parameter in known.items()
+        }
+    return resolved
+
+
+def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
+    """Auxiliary channels without which an effect of these parameters has no meaning."""
+    if effect in ("thermal-bias", "thermal-scale"):
+        return ("temperature",)
+    if effect == "self-gradient":
+        turning = any(value != 0 for name, value in parameters.items() if name.endswith("_pitch"))
+        return ("roll", "pitch") if turning else ("roll",)
+    return ()
+
+
+def _values(effect: str, name: str, parameter: Parameter, given: ArrayLike) -> NDArray[np.float64]:
+    expected = (
+        f"four numbers, or one for all, in {parameter.unit}"
+        if parameter.per_accelerometer
+        else (f"one number in {parameter.unit}")
+    )
+    try:
+        value = np.asarray(given, dtype=np.float64)
+        value = np.broadcast_to(value, (4,)) if parameter.per_accelerometer else value.reshape(())
+    except (TypeError, ValueError):
+        raise UserError(
+            f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected
+        ) from None
+    if np.any(np.isnan(value)):
+        raise UserError(f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected)
+    return value

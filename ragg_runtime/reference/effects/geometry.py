@@ -1,0 +1,81 @@
+"""Stage 2: the disc angle, the spin axis, the arms and the mounts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.rotation import by_vector
+
+Array = NDArray[np.float64]
+
+
+def disc_angle(nominal: Array, error: Array, effects: Injected) -> Array:
+    """True angle of the disc where the model believes ``nominal`` (N,) rad; ``error`` is the random part."""
+    phi = nominal
+    if offset := effects.get("spin-phase-offset"):
+        phi = phi + offset["phi_0"]
+    if encoder := effects.get("encoder-harmonic"):
+        phi = phi + sum(
+            encoder[f"c_{n}"] * np.cos(n * nominal) + encoder[f"s_{n}"] * np.sin(n * nominal)
+            for n in (1, 2, 3, 4)
+        )
+    return phi + error
+
+
+def random_angle(rng: np.random.Generator, size: int, rate: float, effects: Injected) -> Array:
+    """Angle error of ``spin-rate-jitter`` at ``size`` samples, rad: white, plus a random walk from zero."""
+    jitter = effects.get("spin-rate-jitter")
+    if jitter is None or size == 0:
+        return np.zeros(size)
+    white, steps = rng.standard_normal((2, size))
+    steps[0] = 0.0
+    angle: Array = jitter["sigma_phi"] * white + jitter["sigma_walk"] / np.sqrt(rate) * np.cumsum(steps)
+    return angle
+
+
+def spin_axis(effects: Injected) -> Array | None:
+    """Constant lean of the whole disc in the measurement frame, (3, 3), or None."""
+    tilt = effects.get("spin-axis-tilt")
+    return None if tilt is None else by_vector(np.array([tilt["alpha_x"], tilt["alpha_y"], 0.0]))
+
+
+def wobble(effects: Injected) -> Array | None:
+    """Lean of the disc about axes that turn with it, (3, 3) in the disc frame, or None."""
+    lean = effects.get("spin-axis-wobble")
+    return None if lean is None else by_vector(np.array([lean["w_x"], lean["w_y"], 0.0]))
+
+
+def bends(j: int, effects: Injected) -> bool:
+    """Whether accelerometer j's radius depends on its specific force."""
+    return any(
+        effect in effects and effects[effect][name][j] != 0
+        for effect, name in (("arm-stretch", "c_r"), ("arm-sag", "c_z"))
+    )
+
+
+def arm_length(j: int, radius: float, f: tuple[Array, Array, Array], effects: Injected) -> Array:
+    """Radius of accelerometer j under the specific force f_x, f_y, f_z, (N,) m."""
+    length = np.full(f[0].shape, radius)
+    if stretch := effects.get("arm-stretch"):
+        length = length + stretch["c_r"][j] * f[1]
+    if sag := effects.get("arm-sag"):
+        length = length + sag["c_z"][j] * f[2]
+    return length
+
+
+def misalignment(
+    j: int, angles: tuple[float, float, float], f: tuple[Array, Array, Array], effects: Injected
+) -> tuple[Array | float, Array | float, Array | float]:
+    """Misalignment angles of accelerometer j under the specific force f_x, f_y, f_z, rad."""
+    about_x, about_y, about_z = angles
+    compliance = effects.get("mount-compliance")
+    if compliance is None:
+        return angles
+    c = {name: value[j] for name, value in compliance.items()}
+    return (
+        about_x,
+        about_y + c["c_yx"] * f[0] + c["c_yy"] * f[1] + c["c_yz"] * f[2],
+        about_z + c["c_zx"] * f[0] + c["c_zy"] * f[1] + c["c_zz"] * f[2],
+    )

@@ -1,0 +1,92 @@
+"""Stage 4: bias, scale factor, higher-order terms and the lag of an accelerometer."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.reference.effects.catalogue import Injected
+
+Array = NDArray[np.float64]
+Triple = tuple[Array, Array, Array]
+
+REFERENCE_TEMPERATURE = 293.15
+"""Temperature (K) at which bias and scale factor have their test-sheet values."""
+
+_CUBIC_POWERS = {
+    f"K_{name}": tuple(name.count(axis) for axis in "iop")
+    for name in ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
+}
+
+
+def bias(
+    j: int, K0: float, time: Array, auxiliaries: Mapping[str, Array], effects: Injected
+) -> Array | float:
+    """Null bias of accelerometer j, m/s^2."""
+    value: Array | float = K0
+    if thermal := effects.get("thermal-bias"):
+        value = value + thermal["dK0_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
+    if drift := effects.get("bias-drift"):
+        value = value + drift["dK0_dt"][j] * time
+    return value
+
+
+def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
+    """Factor on the scale factor of accelerometer j."""
+    factor: Array | float = 1.0
+    if thermal := effects.get("thermal-scale"):
+        factor = factor * (1 + thermal["dK1_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE))
+    if drift := effects.get("gain-drift"):
+        factor = factor * (1 + drift["dK1_dt"][j] * time)
+    if step := effects.get("gain-step"):
+        factor = factor * (1 + step["dK1"][j] * (time >= step["t_step"]))
+    return factor
+
+
+def second_order_forces(nominal: Triple, measured: Triple, effects: Injected) -> Triple:
+    """Forces in the second-order terms: along the measured axes (Eq. 52), or the nominal ones (Eq. 5)."""
+    order = effects.get("second-order-misalignment")
+    if order is None or order["kappa"] == 1:
+        return measured
+    x, y, z = (n + order["kappa"] * (m - n) for n, m in zip(nominal, measured, strict=True))
+    return x, y, z
+
+
+def further_terms(j: int, f: Triple, radial_angular_acceleration: Array, effects: Injected) -> Array | float:
+    """What accelerometer j adds to Eq. 1, m/s^2; ``f`` is f_i, f_o, f_p."""
+    f_i = f[0]
+    total: Array | float = 0.0
+    if cubic := effects.get("cubic-input"):
+        total = total + cubic["K_iii"][j] * f_i**3
+    if cross := effects.get("cubic-cross"):
+        for name, powers in _CUBIC_POWERS.items():
+            total = total + cross[name][j] * np.prod([v**n for v, n in zip(f, powers, strict=True)], axis=0)
+    if odd := effects.get("odd-quadratic"):
+        total = total + odd["K_oq"][j] * f_i * np.abs(f_i)
+    if pendulum := effects.get("pendulum-angular"):
+        total = total + pendulum["K_pa"][j] * radial_angular_acceleration
+    return total
+
+
+LONGEST_LAG = 0.03
+"""Time constant (s) up to which the quadrature is good to 1e-10 for forces below 2.5 Hz."""
+
+_NODES, _WEIGHTS = np.polynomial.laguerre.laggauss(10)
+
+
+def lags(effects: Injected) -> Array:
+    """Time constants of the four accelerometers, (4,) s."""
+    if "lag" not in effects:
+        return np.zeros(4)
+    tau = effects["lag"]["tau"]
+    if np.any(tau < 0) or np.any(tau > LONGEST_LAG):
+        raise UserError("a lag is out of range", found=tau.tolist(), expected=f"0 to {LONGEST_LAG} s")
+    return tau
+
+
+def lag_quadrature(tau: float) -> tuple[tuple[float, float], ...]:
+    """Delays (s) and weights of 1/(1 + tau s): u(t) = integral of exp(-x) V(t - tau x) dx, Gauss-Laguerre."""
+    return tuple((tau * float(x), float(w)) for x, w in zip(_NODES, _WEIGHTS, strict=True))

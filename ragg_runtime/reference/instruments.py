@@ -1,0 +1,107 @@
+"""Instruments to simulate: the paper's Table V, a trimmed and a perfect one, and draws about them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ragg_runtime.instrument import Instrument
+
+Array = NDArray[np.float64]
+
+_ARCSEC = np.pi / 180 / 3600
+_G0 = 9.8
+_MICRO_G = 1e-6 * _G0
+_PER_MICRO = 1e-6 / _G0
+
+# Table V, in the units of its rows. The paper gives no vartheta_x; it leaves the linear terms alone.
+_SHEET: Mapping[str, tuple[float, Sequence[float]]] = {
+    "dR": (1e-6, (0, 30, 35, 25)),
+    "beta_x": (_ARCSEC, (21, 14, 17, 19)),
+    "beta_z": (_ARCSEC, (18, 8, 10, 20)),
+    "vartheta_x": (_ARCSEC, (0, 0, 0, 0)),
+    "vartheta_y": (_ARCSEC, (21, 10, 7, 19)),
+    "vartheta_z": (_ARCSEC, (30, 19, 20, 9)),
+    "K0": (_MICRO_G, (10, 2, 5, 8)),
+    "K1": (1e-3 / _G0, (10, 11, 11.5, 12)),
+    "K2": (_PER_MICRO, (5, 1, 8, 7)),
+    "K4": (_PER_MICRO, (6, 12, 5, 16)),
+    "K5": (_PER_MICRO, (4, 11, 9, 13)),
+    "K6": (_PER_MICRO, (3, 12, 8, 10)),
+    "K7": (_PER_MICRO, (5, 15, 7, 17)),
+    "K8": (_PER_MICRO, (0, 7, 11, 20)),
+    "k_VI": (1.0, (1e9, 1e9, 1e9, 1e9)),
+}
+
+_TRIMMED = (10, 10.001, 10.0015, 10.002)
+
+_UNCERTAINTY: Mapping[str, float] = {
+    "dR": 2e-6,
+    "beta_x": 2 * _ARCSEC,
+    "beta_z": 2 * _ARCSEC,
+    "vartheta_x": 2 * _ARCSEC,
+    "vartheta_y": 2 * _ARCSEC,
+    "vartheta_z": 2 * _ARCSEC,
+    "K0": _MICRO_G,
+    "K1": 1e-5 * 1e-2 / _G0,
+    "K2": _PER_MICRO,
+    "K4": _PER_MICRO,
+    "K5": _PER_MICRO,
+    "K6": _PER_MICRO,
+    "K7": _PER_MICRO,
+    "K8": _PER_MICRO,
+    "k_VI": 0.0,
+}
+"""Standard deviation of a true parameter about its test sheet, SI."""
+
+
+def _instrument(accelerometers: Mapping[str, Array]) -> Instrument:
+    from ragg_runtime.instrument import Instrument
+
+    return Instrument(
+        radius=0.1, spin_frequency=0.25, g0=_G0, accelerometers=dict(accelerometers), effects=(), path=None
+    )
+
+
+def table_v() -> Instrument:
+    """The paper's instrument (Table V): R = 0.1 m, 0.25 Hz, scale factors 10, 11, 11.5 and 12 mA/g."""
+    return _instrument(
+        {name: unit * np.array(values, dtype=np.float64) for name, (unit, values) in _SHEET.items()}
+    )
+
+
+def trimmed() -> Instrument:
+    """Table V with scale factors matched to 2e-4, as a feedback loop would leave them in flight."""
+    return replace(table_v(), K1=1e-3 / _G0 * np.array(_TRIMMED))
+
+
+def perfect() -> Instrument:
+    """No errors at all: equal scale factors of 10 mA/g, everything else zero."""
+    nothing = {name: np.zeros(4) for name in _SHEET}
+    return _instrument(nothing | {"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
+
+
+def replace(instrument: Instrument, **parameters: Sequence[float] | Array) -> Instrument:
+    """The same instrument with some parameters of the accelerometers (four values each, SI) replaced."""
+    changed = {name: np.asarray(values, dtype=np.float64) for name, values in parameters.items()}
+    return dataclasses.replace(instrument, accelerometers=dict(instrument.accelerometers) | changed)
+
+
+def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
+    """True parameters drawn about a test sheet, ``amount`` times as uncertain as such sheets are."""
+    drawn = {
+        name: values + amount * _UNCERTAINTY.get(name, 0.0) * rng.standard_normal(4)
+        for name, values in instrument.accelerometers.items()
+    }
+    return replace(instrument, **drawn)
+
+
+def k_ggi(instrument: Instrument) -> float:
+    """Scale factor of the gradiometer, sum of k_VI K1 R over the accelerometers, V per s^-2."""
+    k = instrument.accelerometers
+    return float(np.sum(k["k_VI"] * k["K1"] * (instrument.radius + k["dR"])))

@@ -1,0 +1,204 @@
+"""The true motion of the disc centre as smooth functions of time.
+
+A simulator needs a(t), omega(t) and omegadot(t) that belong to each other at any instant, not only at
+the samples: a lag looks backwards, a clock offset sideways. A signal gives its value and its derivative
+at time - shift, where the shift is kept apart from the time so that nanoseconds survive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PPoly, make_interp_spline
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.reference.angle import turns
+
+Array = NDArray[np.float64]
+
+# Above this many numbers a block of sines is worked through in pieces.
+_BLOCK = 2_000_000
+
+
+class Signal(Protocol):
+    """A smooth scalar function of time."""
+
+    def value(self, time: Array, shift: float = 0.0) -> Array:
+        """Value at ``time - shift``, (N,)."""
+        ...
+
+    def rate(self, time: Array, shift: float = 0.0) -> Array:
+        """Time derivative at ``time - shift``, (N,), 1/s."""
+        ...
+
+
+@dataclass(frozen=True)
+class Sinusoids:
+    """mean + envelope(t) * sum of amplitude * sin(2 pi frequency t + phase).
+
+    Attributes
+    ----------
+    mean
+        In the signal's SI unit.
+    amplitude, frequency, phase
+        (K,) each: SI unit, Hz, rad.
+    envelope
+        Makes the signal non-stationary; ``None`` is 1.
+    """
+
+    mean: float = 0.0
+    amplitude: Sequence[float] | Array = ()
+    frequency: Sequence[float] | Array = ()
+    phase: Sequence[float] | Array = ()
+    envelope: Signal | None = None
+
+    def __post_init__(self) -> None:
+        sizes = {len(self.amplitude), len(self.frequency), len(self.phase)}
+        if len(sizes) != 1:
+            raise UserError(
+                "a sum of sinusoids needs one amplitude, one frequency and one phase each",
+                found=f"{len(self.amplitude)}, {len(self.frequency)} and {len(self.phase)} of them",
+            )
+
+    def _sum(self, time: Array, shift: float, derivative: bool) -> Array:
+        A = np.asarray(self.amplitude, dtype=np.float64)
+        f = np.asarray(self.frequency, dtype=np.float64)
+        if A.size == 0:
+            return np.zeros(time.shape)
+        phase = np.asarray(self.phase, dtype=np.float64) - 2 * np.pi * turns(f, shift)
+        if derivative:
+            A, phase = 2 * np.pi * f * A, phase + np.pi / 2
+        step = max(1, _BLOCK // A.size)
+        blocks = [
+            A @ np.sin(2 * np.pi * turns(f[:, None], time[start : start + step]) + phase[:, None])
+            for start in range(0, time.size, step)
+        ]
+        return np.concatenate(blocks) if blocks else np.zeros(0)
+
+    def value(self, time: Array, shift: float = 0.0) -> Array:
+        """Value at ``time - shift``, (N,)."""
+        total = self._sum(time, shift, derivative=False)
+        if self.envelope is not None:
+            total = total * self.envelope.value(time, shift)
+        return self.mean + total
+
+    def rate(self, time: Array, shift: float = 0.0) -> Array:
+        """Time derivative at ``time - shift``, (N,)."""
+        total = self._sum(time, shift, derivative=True)
+        if self.envelope is None:
+            return total
+        return self.envelope.value(time, shift) * total + self.envelope.rate(time, shift) * self._sum(
+            time, shift, derivative=False
+        )
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A record, evenly sampled or not, interpolated by a quintic spline (four continuous derivatives).
+
+    The spline *is* the motion: value and derivative agree with each other exactly, and with the record
+    at its samples.
+
+    Attributes
+    ----------
+    time
+        (M,) s, increasing, M >= 6.
+    samples
+        (M,) SI unit.
+    """
+
+    time: Array
+    samples: Array
+    _knots: Array = field(init=False, repr=False, compare=False)
+    _coefficients: Array = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        time = np.asarray(self.time, dtype=np.float64)
+        samples = np.asarray(self.samples, dtype=np.float64)
+        if time.ndim != 1 or time.shape != samples.shape or time.size < 6:
+            raise UserError(
+                "a recorded signal needs at least six instants and as many samples",
+                found=f"shapes {time.shape} and {samples.shape}",
+            )
+        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(samples)) and np.all(np.diff(time) > 0)):
+            raise UserError("a recorded signal must be finite, at increasing times")
+        pieces = PPoly.from_spline(make_interp_spline(time, samples, k=5).tck)
+        # The spline repeats its end knots: those pieces are empty.
+        kept = np.diff(pieces.x) > 0
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, "samples", samples)
+        object.__setattr__(self, "_knots", np.append(pieces.x[:-1][kept], pieces.x[-1]))
+        object.__setattr__(self, "_coefficients", pieces.c[:, kept])
+
+    def _evaluate(self, time: Array, shift: float, derivative: bool) -> Array:
+        knots, c = self._knots, self._coefficients
+        reach = (self.time[-1] - self.time[0]) / (self.time.size - 1)
+        if time.size and (time.min() < knots[0] - reach or time.max() > knots[-1] + reach):
+            raise UserError(
+                "the recorded motion does not cover the simulated time",
+                found=f"{time.min():g} to {time.max():g} s",
+                expected=f"within {knots[0]:g} to {knots[-1]:g} s",
+                remedy="simulate a shorter flight, or another start",
+            )
+        piece = np.clip(np.searchsorted(knots, time - shift, side="right") - 1, 0, knots.size - 2)
+        # The difference to the knot is exact, so a shift of nanoseconds is not rounded away.
+        x = (time - knots[piece]) - shift
+        order = c.shape[0] - 1
+        weights = np.arange(order, 0, -1) if derivative else np.ones(order + 1)
+        total = np.zeros(time.shape)
+        for weight, row in zip(weights, c, strict=False):
+            total = total * x + weight * row[piece]
+        return total
+
+    def value(self, time: Array, shift: float = 0.0) -> Array:
+        """Value at ``time - shift``, (N,)."""
+        return self._evaluate(time, shift, derivative=False)
+
+    def rate(self, time: Array, shift: float = 0.0) -> Array:
+        """Time derivative at ``time - shift``, (N,)."""
+        return self._evaluate(time, shift, derivative=True)
+
+
+@dataclass(frozen=True)
+class MotionState:
+    """Motion of the disc centre at N instants, all (3, N): a in m/s^2, omega in rad/s, omegadot in rad/s^2."""
+
+    a: Array
+    omega: Array
+    omegadot: Array
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Specific force of the disc centre (f_cmm) and angular rate of the measurement frame, three signals each."""
+
+    a: tuple[Signal, Signal, Signal]
+    omega: tuple[Signal, Signal, Signal]
+
+    def at(self, time: ArrayLike, shift: float = 0.0) -> MotionState:
+        """The motion at ``time - shift``; omegadot is the derivative of omega."""
+        t = np.atleast_1d(np.asarray(time, dtype=np.float64))
+        return MotionState(
+            np.stack([s.value(t, shift) for s in self.a]),
+            np.stack([s.value(t, shift) for s in self.omega]),
+            np.stack([s.rate(t, shift) for s in self.omega]),
+        )
+
+
+def still(a: Sequence[float] = (0.0, 0.0, 0.0), omega: Sequence[float] = (0.0, 0.0, 0.0)) -> Motion:
+    """Constant specific force (m/s^2) and angular rate (rad/s)."""
+    ax, ay, az = (Sinusoids(float(v)) for v in a)
+    wx, wy, wz = (Sinusoids(float(v)) for v in omega)
+    return Motion((ax, ay, az), (wx, wy, wz))
+
+
+def recorded_motion(time: ArrayLike, a: ArrayLike, omega: ArrayLike) -> Motion:
+    """Motion through a record: time (M,) s, a (3, M) m/s^2, omega (3, M) rad/s."""
+    t = np.asarray(time, dtype=np.float64)
+    ax, ay, az = (Recorded(t, v) for v in np.asarray(a, dtype=np.float64))
+    wx, wy, wz = (Recorded(t, v) for v in np.asarray(omega, dtype=np.float64))
+    return Motion((ax, ay, az), (wx, wy, wz))

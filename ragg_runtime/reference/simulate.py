@@ -1,0 +1,202 @@
+"""A flight of the numerical model: motion, gravity, noise and hidden effects in, record out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.masses import COMPONENTS, Gravity
+from ragg_runtime.noise import Noise
+from ragg_runtime.reference.auxiliaries import plausible
+from ragg_runtime.reference.chain import Auxiliary, Chain
+from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
+from ragg_runtime.reference.effects.geometry import random_angle
+from ragg_runtime.reference.effects.output import record_output
+from ragg_runtime.reference.effects.sensing import record_motion
+from ragg_runtime.reference.motion import Motion
+from ragg_runtime.reference.rotation import Rotations
+
+if TYPE_CHECKING:
+    from ragg_runtime.flight import Flight
+    from ragg_runtime.instrument import Instrument
+
+Array = NDArray[np.float64]
+
+_CHUNK = 65536
+
+# Independent streams, so that switching one source of randomness on or off leaves the others as they were.
+_NOISE_STREAM, _ANGLE_STREAM, _AUXILIARY_STREAM = 1, 2, 3
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What was recorded, and what a real instrument never tells.
+
+    Attributes
+    ----------
+    time
+        (N,) s.
+    channels
+        Recorded motion, gradients and auxiliaries, (N,) each, SI.
+    voltages, G_out
+        (4, N) and (N,) V, as recorded.
+    voltages_noise_free, G_out_noise_free
+        The same without accelerometer noise, effects included.
+    instrument
+        The true parameters.
+    effects
+        What was injected, all parameters, SI.
+    """
+
+    time: Array
+    channels: Mapping[str, Array]
+    voltages: Array
+    G_out: Array
+    voltages_noise_free: Array
+    G_out_noise_free: Array
+    instrument: Instrument
+    effects: Injected
+
+    def flight(self, name: str = "simulated", *, voltages: bool = False) -> Flight:
+        """The record as a flight: G_out, and the four voltages if asked for."""
+        from ragg_runtime.flight import Flight
+
+        outputs = {"G_out": self.G_out}
+        if voltages:
+            outputs |= {f"V_{j + 1}": v for j, v in enumerate(self.voltages)}
+        return Flight(
+            time=self.time,
+            channels=dict(self.channels),
+            outputs=outputs,
+            name=name,
+            path=None,
+            digest="",
+            notes=(),
+        )
+
+
+def combine(voltages: Array) -> Array:
+    """Output before demodulation, V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
+    V_1, V_2, V_3, V_4 = voltages
+    G_out: Array = V_1 + V_2 - V_3 - V_4
+    return G_out
+
+
+def instants(duration: float, rate: float, start: float = 0.0) -> Array:
+    """Uniform sampling times start + n/rate, n = 0 ... duration * rate - 1, s."""
+    if not (
+        np.isfinite(duration) and np.isfinite(rate) and duration > 0 and rate > 0 and duration * rate >= 1
+    ):
+        raise UserError(
+            "a simulated flight needs a positive duration and sampling rate",
+            found=f"{duration:g} s at {rate:g} Hz",
+        )
+    return start + np.arange(round(duration * rate)) / rate
+
+
+def simulate(
+    instrument: Instrument,
+    motion: Motion,
+    duration: float,
+    rate: float,
+    *,
+    start: float = 0.0,
+    gravity: Gravity | None = None,
+    record_gradient: bool = True,
+    noise: Noise | None = None,
+    rotations: Rotations = "first-order",
+    effects: EffectValues | None = None,
+    seed: int = 0,
+    auxiliaries: Mapping[str, Auxiliary] | None = None,
+) -> Simulation:
+    """Simulate a flight with the numerical model (Eq. 49-53).
+
+    Parameters
+    ----------
+    instrument
+        True parameters, SI.
+    motion
+        True motion of the disc centre.
+    duration, rate, start
+        s, Hz, s.
+    gravity
+        Attracting masses or a gradient; ``None`` is none.
+    record_gradient
+        Whether the gradient at the centre is known to the record, as Gamma_xx ... Gamma_zz.
+    noise
+        Of each accelerometer, independent; ``None`` is none.
+    rotations
+        ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles.
+    effects
+        ``{id: {parameter: value or four values, SI}}`` (see ``reference.effects.CATALOGUE``).
+    seed
+        Of noise, angle jitter and the default auxiliaries.
+    auxiliaries
+        Channel name -> function of time (N,) s; ``None``: plausible temperature, roll and pitch.
+
+    Raises
+    ------
+    UserError
+        On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
+    """
+    time = instants(duration, rate, start)
+    if rotations not in ("first-order", "exact"):
+        raise UserError("unknown kind of rotations", found=rotations, expected="first-order or exact")
+    injected = resolve(effects)
+    if auxiliaries is None:
+        auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
+    _require_channels(injected, auxiliaries)
+    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries)
+    error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, injected)
+    clean = np.empty((4, time.size))
+    for begin in range(0, time.size, _CHUNK):
+        part = slice(begin, begin + _CHUNK)
+        clean[:, part] = chain.voltages(time[part], error[part])
+    voltages = clean
+    if noise is not None:
+        streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(4))
+        drawn = np.stack([noise.sample(stream, time.size, rate) for stream in streams])
+        voltages = clean + chain.scale(time) * drawn
+    return Simulation(
+        time=time,
+        channels=_channels(chain, time, record_gradient),
+        voltages=voltages,
+        G_out=record_output(combine(voltages), injected),
+        voltages_noise_free=clean,
+        G_out_noise_free=record_output(combine(clean), injected),
+        instrument=instrument,
+        effects=injected,
+    )
+
+
+def _channels(chain: Chain, time: Array, record_gradient: bool) -> dict[str, Array]:
+    recorded = record_motion(chain.motion, time, chain.effects)
+    channels = {
+        f"{quantity}_{axis}": values[k]
+        for quantity, values in (
+            ("a", recorded.a),
+            ("omega", recorded.omega),
+            ("omegadot", recorded.omegadot),
+        )
+        for k, axis in enumerate("xyz")
+    }
+    if record_gradient:
+        gradient = np.zeros((6, time.size)) if chain.gravity is None else chain.gravity.gradient(time)
+        channels |= {f"Gamma_{c}": gradient[k] for k, c in enumerate(COMPONENTS)}
+    return channels | {name: channel(time) for name, channel in chain.auxiliaries.items()}
+
+
+def _require_channels(effects: Injected, auxiliaries: Mapping[str, Auxiliary]) -> None:
+    for effect, parameters in effects.items():
+        for name in channels_needed(effect, parameters):
+            if name not in auxiliaries:
+                raise UserError(
+                    f"the effect {effect!r} needs the auxiliary channel {name!r}",
+                    found=", ".join(auxiliaries) or "none",
+                    remedy="give it as a function of time in auxiliaries",
+                )

@@ -1,0 +1,86 @@
+"""The demodulator: signs, gain, bandwidth, edges."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.signal import freqz
+
+from ragg_runtime.demodulate import demodulate, low_pass
+from ragg_runtime.errors import UserError
+from ragg_runtime.masses import Gradient
+from ragg_runtime.reference import disc_angle, simulate, still
+from ragg_runtime.reference.instruments import k_ggi, perfect
+
+RATE = 16.0
+
+
+def _channels(tensor: object, a: tuple[float, float, float] = (0.15, -0.1, 1.0)):
+    flight = simulate(perfect(), still(a=a), 300, RATE, gravity=Gradient(np.asarray(tensor) * 1e-9))
+    return demodulate(flight.G_out, disc_angle(0.25, flight.time), RATE, k_ggi(perfect()))
+
+
+@pytest.mark.parametrize(
+    ("tensor", "inline", "cross"),
+    [
+        ([1, 0, 0, 0, 0, -1], 1, 0),
+        ([0, 0, 0, 1, 0, -1], -1, 0),
+        ([0, 1, 0, 0, 0, 0], 0, 1),
+        ([300, 120, 50, 200, -80, -500], 100, 120),
+        ([0, 0, 1, 0, 1, 0], 0, 0),
+    ],
+)
+def test_channels_are_the_gradients_with_their_signs(
+    tensor: list[float], inline: float, cross: float
+) -> None:
+    out = _channels(tensor)
+    np.testing.assert_allclose(out.inline * 1e9, inline, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(out.cross * 1e9, cross, rtol=0, atol=1e-5)
+
+
+def test_neighbouring_harmonics_are_stopped() -> None:
+    t = np.arange(0, 600, 1 / RATE)
+    phi = disc_angle(0.25, t)
+    for harmonic in (0, 1, 3, 4, 5):
+        out = demodulate(np.cos(harmonic * phi + 0.3), phi, RATE, 1.0)
+        assert max(np.abs(out.inline).max(), np.abs(out.cross).max()) < 4e-5
+
+
+def test_a_slow_gradient_comes_through_undelayed() -> None:
+    t = np.arange(0, 900, 1 / RATE)
+    phi = disc_angle(0.25, t)
+    slow = np.sin(2 * np.pi * 0.02 * t)
+    out = demodulate(0.5 * slow * np.sin(2 * phi), phi, RATE, 1.0)
+    np.testing.assert_allclose(out.inline, slow[out.valid], rtol=0, atol=3e-5)
+    assert out.trimmed == out.valid.start
+    assert out.inline.size == t.size - 2 * out.trimmed
+
+
+def test_any_angle_series_will_do() -> None:
+    t = np.arange(0, 400, 1 / RATE)
+    phi = disc_angle(0.25, t) + 0.3 * np.sin(2 * np.pi * 0.011 * t) + 1.0
+    out = demodulate(3 * np.sin(2 * phi) - 5 * np.cos(2 * phi), phi, RATE, 2.0)
+    np.testing.assert_allclose(out.inline, 3.0, atol=1e-4)
+    np.testing.assert_allclose(out.cross, 2.5, atol=1e-4)
+
+
+def test_filter_is_symmetric_with_half_amplitude_at_the_cutoff() -> None:
+    taps = low_pass(RATE)
+    np.testing.assert_allclose(taps, taps[::-1], rtol=0, atol=1e-17)
+    assert taps.size % 2 == 1
+    _, response = freqz(taps, worN=[0.0, 0.1, 0.15, 0.2, 0.25, 1.0], fs=RATE)
+    gain = np.abs(response)
+    assert gain[:3] == pytest.approx(1, abs=2e-5)
+    assert gain[3] == pytest.approx(0.5, abs=2e-3)
+    assert np.all(gain[4:] < 2e-5)
+    # The equivalent noise bandwidth is the paper's 0.2 Hz.
+    assert np.sum(taps**2) * RATE / 2 == pytest.approx(0.2, rel=0.1)
+
+
+def test_bad_records_are_refused() -> None:
+    with pytest.raises(UserError, match="shorter"):
+        demodulate(np.zeros(100), np.zeros(100), RATE, 1.0)
+    with pytest.raises(UserError, match="one length"):
+        demodulate(np.zeros(100), np.zeros(99), RATE, 1.0)
+    with pytest.raises(UserError, match="sampling rate"):
+        demodulate(np.zeros(100), np.zeros(100), 0.4, 1.0)
