@@ -1,0 +1,69 @@
+"""The one error that a user sees: what is wrong, where, what was found, what is expected, what to do."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+
+class UserError(Exception):
+    """Bad input or usage; the command line prints it and exits with status 2.
+
+    Parameters
+    ----------
+    what
+        What is wrong, as a sentence without a full stop.
+    where
+        File, key, column, line; ``at`` builds it.
+    found, expected
+        What was there; what may stand there.
+    remedy
+        What to do.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        *,
+        where: str | Path | None = None,
+        found: object = None,
+        expected: object = None,
+        remedy: str | None = None,
+    ) -> None:
+        self.what = what
+        self.where = None if where is None else str(where)
+        self.found = None if found is None else str(found)
+        self.expected = None if expected is None else str(expected)
+        self.remedy = remedy
+        super().__init__(self.message)
+
+    @property
+    def message(self) -> str:
+        """The whole message, one fact a line."""
+        head = self.what if self.where is None else f"{self.where}: {self.what}"
+        facts = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
+        return "\n".join([head, *(f"  {name}: {text}" for name, text in facts if text is not None)])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # Keyword arguments would be lost between processes otherwise.
+        return (_rebuild, (self.what, self.where, self.found, self.expected, self.remedy))
+
+
+def _rebuild(
+    what: str, where: str | None, found: str | None, expected: str | None, remedy: str | None
+) -> UserError:
+    return UserError(what, where=where, found=found, expected=expected, remedy=remedy)
+
+
+def at(*places: object) -> str:
+    """Join file, table and key into one place: ``model.toml: [disc] radius``."""
+    return ": ".join(str(p) for p in places if p is not None and str(p))
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str | None:
+    """A remedy that names the nearest known word, or ``None`` if none is near."""
+    known = list(known)
+    folded = {k.casefold(): k for k in reversed(known)}
+    near = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
+    return f"did you mean {folded[near[0]]!r}?" if near else None

@@ -1,0 +1,415 @@
+"""The instrument: nominal parameters and effects of one gradiometer, read from ``model.toml``."""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.units import RawQuantity, Units, read_quantity, units
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of an accelerometer.
+
+    ``plausible`` is the size of error, in ``si_unit``, that would not surprise a careful engineer who holds
+    the maker's test sheet; if ``relative``, it is a fraction of the nominal value.
+    ``display_unit`` is the one to print in. Parameters not ``required`` are 0 where model.toml leaves them out.
+    """
+
+    name: str
+    symbol: str
+    si_unit: str
+    display_unit: str
+    description: str
+    plausible: float
+    relative: bool = False
+    required: bool = False
+
+    def plausible_si(self, nominal: Vector) -> Vector:
+        """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``."""
+        if self.relative:
+            return np.abs(nominal) * self.plausible
+        return np.full_like(nominal, self.plausible)
+
+
+_MICRO_G = 9.8e-6
+_MICRO_PER_G = 1e-6 / 9.8
+
+
+def _second_order(index: int, product: str) -> Parameter:
+    text = f"second-order coefficient of {product}"
+    return Parameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20 * _MICRO_PER_G)
+
+
+def _angle(name: str, symbol: str, text: str) -> Parameter:
+    return Parameter(name, symbol, "rad", "arcsec", text, 5e-4)
+
+
+PARAMETERS: Mapping[str, Parameter] = MappingProxyType(
+    {
+        p.name: p
+        for p in (
+            Parameter("dR", "dR", "m", "um", "radial distance error", 50e-6),
+            _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
+            _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
+            _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
+            _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
+            _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
+            Parameter("K0", "K_0", "m/s^2", "ug", "null bias", 50 * _MICRO_G),
+            Parameter(
+                "K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True
+            ),
+            _second_order(2, "f_i^2"),
+            _second_order(4, "f_i f_p"),
+            _second_order(5, "f_o^2"),
+            _second_order(6, "f_i f_o"),
+            _second_order(7, "f_p^2"),
+            _second_order(8, "f_o f_p"),
+            Parameter(
+                "k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True
+            ),
+        )
+    }
+)
+"""The accelerometer's parameters, in the order in which every parameter vector holds them."""
+
+DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})
+
+
+@dataclass(frozen=True)
+class EffectSetting:
+    """An entry of ``effects`` in model.toml.
+
+    ``values`` holds the parameters as the user wrote them (value and unit): the effect's own definition
+    knows their SI unit, see :meth:`si`. ``expression`` is ``None`` for an effect of the catalogue, else the
+    keys ``stage``, ``add`` and ``params`` of an effect that the user wrote as one line; ``params`` maps the
+    name of a parameter to at least ``{"unit": ...}``.
+    """
+
+    id: str
+    values: Mapping[str, RawQuantity] = field(default_factory=lambda: MappingProxyType({}))
+    expression: Mapping[str, Any] | None = None
+
+    def si(
+        self, name: str, si_unit: str, g0: float, *, shared: bool = False, where: str | None = None
+    ) -> Vector | None:
+        """Value of parameter ``name`` in ``si_unit``: shape (1,) if ``shared``, else (4,); None if not given."""
+        if name not in self.values:
+            return None
+        raw = self.values[name]
+        place = at(where, f"effect {self.id}", name)
+        if shared and isinstance(raw.value, tuple):
+            raise UserError(
+                "the parameter is shared by the accelerometers", where=place, found=raw, expected="one number"
+            )
+        value = np.atleast_1d(np.asarray(raw.value, dtype=np.float64))
+        converted = np.asarray(units(g0).to_si(value, raw.unit, si_unit, place), dtype=np.float64)
+        return _finite(converted if shared else np.broadcast_to(converted, (4,)).copy(), place)
+
+
+@dataclass(frozen=True, eq=False)
+class Instrument:
+    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (4,) for A1 ... A4, effects.
+
+    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`.
+    """
+
+    radius: float
+    spin_frequency: float
+    g0: float
+    accelerometers: Mapping[str, Vector]
+    effects: tuple[EffectSetting, ...] = ()
+    path: Path | None = None
+    effects_folder: Path | None = None
+
+    @classmethod
+    def build(
+        cls,
+        radius: float,
+        spin_frequency: float,
+        g0: float,
+        accelerometers: Mapping[str, ArrayLike],
+        effects: tuple[EffectSetting, ...] = (),
+        path: Path | None = None,
+        effects_folder: Path | None = None,
+    ) -> Instrument:
+        """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
+        _check_names(accelerometers, PARAMETERS, "accelerometers")
+        for p in PARAMETERS.values():
+            if p.required and p.name not in accelerometers:
+                raise UserError(
+                    f"{p.name} ({p.description}) is missing",
+                    where=at(path, "[accelerometers]"),
+                    expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
+                )
+        vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETERS}
+        made = cls(
+            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
+        )
+        _check_physical(made)
+        return made
+
+    def replace(self, **changes: ArrayLike) -> Instrument:
+        """The same instrument with some accelerometer parameters changed (SI, scalar or (4,))."""
+        _check_names(changes, PARAMETERS, "accelerometers")
+        vectors = dict(self.accelerometers) | {name: _vector(v) for name, v in changes.items()}
+        return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+
+    def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
+        """The same instrument with another list of effects."""
+        return dataclasses.replace(self, effects=tuple(effects))
+
+    def effect(self, effect_id: str) -> EffectSetting | None:
+        """The entry of this effect, or None."""
+        return next((e for e in self.effects if e.id == effect_id), None)
+
+    @property
+    def scale_factor(self) -> float:
+        """k_ggi = sum of k_VI K1 R_j, in V s^2: volts of G_out per s^-2 of gradient (Eq. 15)."""
+        k = self.accelerometers
+        return float(np.sum(k["k_VI"] * k["K1"] * (self.radius + k["dR"])))
+
+    @property
+    def units(self) -> Units:
+        """Units with this instrument's g0."""
+        return units(self.g0)
+
+
+def read_instrument(path: Path | str) -> Instrument:
+    """The instrument of a ``model.toml``; UserError names the file, the key, what is there and what should be."""
+    path = Path(path)
+    text = read_text(path)
+    return parse_instrument(text, path)
+
+
+def read_text(path: Path) -> str:
+    """The text of a user's file, UTF-8 with or without a byte-order mark."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise UserError("the file does not exist", where=path) from None
+    except IsADirectoryError:
+        raise UserError("a file is needed here, not a directory", where=path) from None
+    except UnicodeDecodeError as error:
+        raise UserError(
+            "the file is not UTF-8 text",
+            where=path,
+            found=f"byte {error.object[error.start]:#04x} at {error.start}",
+        ) from None
+    except OSError as error:
+        raise UserError("the file cannot be read", where=path, found=error.strerror) from None
+
+
+def parse_instrument(text: str, path: Path | None = None) -> Instrument:
+    """As :func:`read_instrument`, from the text of the file; ``path`` names it in messages."""
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise UserError(
+            "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
+        ) from None
+    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
+    disc = _disc(_table(table, "disc", path), path)
+    return Instrument.build(
+        radius=disc["radius"],
+        spin_frequency=disc["spin_frequency"],
+        g0=disc["g0"],
+        accelerometers=_accelerometers(_table(table, "accelerometers", path), disc["g0"], path),
+        effects=_effects(table.get("effects", []), disc["g0"], path),
+        path=path,
+        effects_folder=_folder(table.get("effects_folder"), path),
+    )
+
+
+def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
+    if name not in table:
+        raise UserError(f"the table [{name}] is missing", where=path)
+    found = table[name]
+    if not isinstance(found, dict):
+        raise UserError(f"{name} must be a table", where=path, found=repr(found), expected=f"[{name}]")
+    return found
+
+
+def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
+    _check_names(table, DISC_UNITS, "disc", path)
+    for name in DISC_UNITS:
+        if name not in table:
+            raise UserError(
+                f"{name} is missing", where=at(path, "[disc]"), expected=f'{name} = "... {DISC_UNITS[name]}"'
+            )
+    return {
+        # g0 defines g and so cannot be given in g; radius and frequency do not depend on it.
+        name: float(
+            _si(
+                read_quantity(table[name], at(path, f"[disc] {name}"), count=1),
+                unit,
+                None,
+                at(path, f"[disc] {name}"),
+            )[0]
+        )
+        for name, unit in DISC_UNITS.items()
+    }
+
+
+def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
+    _check_names(table, PARAMETERS, "accelerometers", path)
+    found = {}
+    for name, raw in table.items():
+        place = at(path, f"[accelerometers] {name}")
+        found[name] = _si(read_quantity(raw, place), PARAMETERS[name].si_unit, g0, place)
+    return found
+
+
+def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
+    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    known = units(1.0 if g0 is None else g0)
+    if g0 is None and known.uses_g(quantity.unit, where):
+        raise UserError("g cannot be used here: g0 defines it", where=where, found=quantity, expected=si_unit)
+    return _finite(np.asarray(known.to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
+
+
+def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetting, ...]:
+    if not isinstance(entries, list):
+        raise UserError(
+            "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
+        )
+    found: list[EffectSetting] = []
+    for number, entry in enumerate(entries, 1):
+        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0))
+        if any(e.id == setting.id for e in found):
+            raise UserError(
+                f"the effect {setting.id!r} is listed twice",
+                where=at(path, "effects"),
+                remedy="remove one entry",
+            )
+        found.append(setting)
+    return tuple(found)
+
+
+def _effect(entry: object, where: str, known: Units) -> EffectSetting:
+    if isinstance(entry, str):
+        entry = {"id": entry}
+    if not isinstance(entry, dict) or not isinstance(entry.get("id"), str) or not entry["id"].strip():
+        raise UserError(
+            "not an effect",
+            where=where,
+            found=repr(entry),
+            expected='"lag" or { id = "lag", tau = { value = [1, 1, 1, 1], unit = "ms" } }',
+        )
+    effect_id = entry["id"]
+    where = f"{where} ({effect_id})"
+    values = {
+        name: known.quantity(raw, f"{where}: {name}")
+        for name, raw in entry.items()
+        if name not in ("id", "stage", "add", "params")
+    }
+    expression = _expression(entry, where, known)
+    if expression is not None:
+        _check_names(values, expression["params"], None, where)
+        for name, parameter in expression["params"].items():
+            if "value" in parameter:
+                values[name] = known.quantity(
+                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}"
+                )
+    return EffectSetting(effect_id, MappingProxyType(values), expression)
+
+
+def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[str, Any] | None:
+    keys = [k for k in ("stage", "add", "params") if k in entry]
+    if not keys:
+        return None
+    example = 'stage = "transducer", add = "c*f_i^3", params = { c = { unit = "ug/g^3" } }'
+    for key, kind in (("stage", str), ("add", str), ("params", dict)):
+        if not isinstance(entry.get(key), kind):
+            raise UserError(
+                f"the effect's {key} is missing or not a {'table' if kind is dict else 'text'}",
+                where=where,
+                found=repr(entry.get(key)),
+                expected=example,
+            )
+    params: dict[str, Mapping[str, Any]] = {}
+    for name, raw in entry["params"].items():
+        table = {"unit": raw} if isinstance(raw, str) else raw
+        if not isinstance(table, dict) or not isinstance(table.get("unit"), str):
+            raise UserError(
+                "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
+            )
+        known.parse(table["unit"], f"{where}: {name}")
+        params[name] = MappingProxyType(table)
+    return MappingProxyType(
+        {"stage": entry["stage"], "add": entry["add"], "params": MappingProxyType(params)}
+    )
+
+
+def _folder(raw: object, path: Path | None) -> Path | None:
+    if raw is None:
+        return None
+    if not isinstance(raw, str) or not raw:
+        raise UserError("effects_folder must be a path", where=path, found=repr(raw), expected='"my_effects"')
+    folder = (path.parent if path else Path()) / raw
+    if path is not None and not folder.is_dir():
+        raise UserError(
+            "the folder of own effects does not exist", where=at(path, "effects_folder"), found=folder
+        )
+    return folder
+
+
+def _check_names(names: Any, known: Any, table: str | None, where: object = None) -> None:
+    for name in names:
+        if name not in known:
+            raise UserError(
+                f"unknown key {name!r}",
+                where=at(where, None if table is None else f"[{table}]"),
+                expected="one of " + ", ".join(known),
+                remedy=did_you_mean(str(name), known),
+            )
+
+
+def _vector(value: ArrayLike) -> Vector:
+    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (4,)).copy()
+    vector.flags.writeable = False
+    return vector
+
+
+def _finite(value: Vector, where: str) -> Vector:
+    if not np.all(np.isfinite(value)):
+        raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
+    return value
+
+
+def _check_physical(instrument: Instrument) -> None:
+    path, k = instrument.path, instrument.accelerometers
+    for name in DISC_UNITS:
+        value = getattr(instrument, name)
+        if not (np.isfinite(value) and value > 0):
+            raise UserError(
+                f"{name} must be positive",
+                where=at(path, f"[disc] {name}"),
+                found=f"{value:g} {DISC_UNITS[name]}",
+                expected="a positive number",
+            )
+    for name, vector in k.items():
+        _finite(vector, at(path, f"[accelerometers] {name}"))
+    for name in ("K1", "k_VI"):
+        if np.any(k[name] == 0):
+            raise UserError(
+                f"{name} must not be zero", where=at(path, f"[accelerometers] {name}"), found=k[name].tolist()
+            )
+    if np.any(instrument.radius + k["dR"] <= 0):
+        raise UserError(
+            "the distance from the disc centre, radius + dR, must be positive",
+            where=at(path, "[accelerometers] dR"),
+            found=f"{(instrument.radius + k['dR']).tolist()} m",
+        )
