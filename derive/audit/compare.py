@@ -1,0 +1,250 @@
+"""Compares printed equations with derived ones, term by term.
+
+A printed equation is a sum of *atoms*: one number times one monomial, once brackets and the subscripts of
+D and Sigma are multiplied out. Printed motion numbers depend on one another (omegadot_x = (S_2 - T_3)/2 and
+the like), so an atom may touch several monomials of the derivation. It is confirmed if every monomial that
+it touches has, over the whole printed equation, the derived coefficient.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from sympy import QQ
+from sympy.polys.rings import PolyElement, PolyRing
+
+from derive.audit.printed import Equation
+from derive.audit.reading import COMBINATIONS, MODEL_RING, REDUNDANT_MOTION, Reader, generators
+from derive.propagation import Collected
+
+Monomial = tuple[int, ...]
+Rational = Any
+"""An element of QQ (SymPy's own rational, or gmpy2's where that is installed)."""
+Expansion = Callable[[Monomial], PolyElement]
+"""What a printed monomial means in the independent ones."""
+
+
+@dataclass(frozen=True)
+class Atom:
+    """One number times one monomial of a printed term; ``term`` is that term's place in its equation."""
+
+    term: int
+    monomial: Monomial
+    value: Rational
+
+
+@dataclass(frozen=True)
+class Change:
+    """A monomial whose printed coefficient is not the derived one (0: not printed, or not to be)."""
+
+    monomial: Monomial
+    printed: Rational
+    right: Rational
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A printed term with the changes it needs; ``right`` is what it should be."""
+
+    term: int
+    changes: tuple[Change, ...]
+    right: PolyElement
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The outcome for one equation. ``missing`` are derived terms that no printed term stands for."""
+
+    equation: Equation
+    confirmed: int
+    mistakes: tuple[Mistake, ...]
+    missing: tuple[Change, ...]
+
+    @property
+    def wrong(self) -> int:
+        """Number of printed atoms that are wrong."""
+        return sum(1 for m in self.mistakes for c in m.changes if c.printed)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A printed equation as it is read: its terms, its atoms, and what each atom's monomial means."""
+
+    equation: Equation
+    ring: PolyRing
+    terms: tuple[PolyElement, ...]
+    atoms: tuple[Atom, ...]
+    meaning: Mapping[Monomial, Mapping[Monomial, Rational]]
+    total: PolyElement
+
+
+def read(equation: Equation, reader: Reader, expand: Expansion | None = None) -> Reading:
+    """Read one printed equation; ``expand`` rewrites its monomials in independent ones."""
+    ring = reader.ring
+    terms = tuple(reader.read(t) for t in equation.terms)
+    atoms = tuple(Atom(n, m, v) for n, p in enumerate(terms) for m, v in p.terms())
+    meaning = {a.monomial: expand(a.monomial) if expand else monomial(ring, a.monomial) for a in atoms}
+    total = sum((meaning[a.monomial] * a.value for a in atoms), ring.zero)
+    return Reading(equation, ring, terms, atoms, {m: dict(p.terms()) for m, p in meaning.items()}, total)
+
+
+def compare(printed: Reading, derived: PolyElement) -> Comparison:
+    """Compare one printed equation with its derivation (a polynomial in the ring of the reading)."""
+    atoms, meaning = printed.atoms, printed.meaning
+    rest = dict((derived - printed.total).terms())
+    wrong: list[tuple[Atom, Rational]] = []
+    for a in atoms:
+        fix = _single_fix(meaning[a.monomial], rest)
+        if fix is not None:
+            wrong.append((a, a.value + fix))
+            for m in meaning[a.monomial]:
+                del rest[m]
+    # A monomial that no single atom explains: blame every atom that touches it.
+    blamed = {id(a) for a, _ in wrong}
+    unexplained = (a for a in atoms if id(a) not in blamed and any(m in rest for m in meaning[a.monomial]))
+    wrong += [(a, QQ(0)) for a in unexplained]
+    touched = {m for a in atoms for m in meaning[a.monomial]}
+    missing = [Change(m, QQ(0), v) for m, v in rest.items() if m not in touched]
+    return Comparison(printed.equation, len(atoms) - len(wrong), *_grouped(printed, wrong, missing))
+
+
+def monomial(ring: PolyRing, powers: Monomial) -> PolyElement:
+    """The monomial of these powers."""
+    return ring.from_dict({powers: QQ(1)})
+
+
+def _single_fix(weights: Mapping[Monomial, Rational], rest: Mapping[Monomial, Rational]) -> Rational | None:
+    """What to add to an atom's value to put right every monomial it touches; None if nothing does."""
+    fixes = [rest[m] / w if m in rest else None for m, w in weights.items()]
+    return fixes[0] if fixes and fixes[0] is not None and all(f == fixes[0] for f in fixes) else None
+
+
+def _grouped(
+    printed: Reading, wrong: list[tuple[Atom, Rational]], missing: list[Change]
+) -> tuple[tuple[Mistake, ...], tuple[Change, ...]]:
+    """Mistakes by printed term; a missing monomial is counted to the wrong term with the same motion."""
+    ring = printed.ring
+    mistakes = []
+    left = list(missing)
+    for n in sorted({a.term for a, _ in wrong}):
+        changes = [Change(a.monomial, a.value, right) for a, right in wrong if a.term == n]
+        motions = [_outer(ring, c.monomial) for c in changes]
+        adopted = [c for c in left if ring is MODEL_RING and _outer(ring, c.monomial) in motions]
+        left = [c for c in left if c not in adopted]
+        right = printed.terms[n]
+        for c in (*changes, *adopted):
+            right = right + monomial(ring, c.monomial) * (c.right - c.printed)
+        mistakes.append(Mistake(n, (*changes, *adopted), right))
+    return tuple(mistakes), tuple(left)
+
+
+def _outer(ring: PolyRing, powers: Monomial) -> tuple[tuple[str, int], ...]:
+    """Motion and combination of a monomial of :data:`MODEL_RING`, without the instrument's parameters."""
+    named = ((s.name, p) for s, p in zip(ring.symbols, powers, strict=True) if p)
+    return tuple((n, p) for n, p in named if re.match(r"a_|T_|S_|omega|D|Sigma", n))
+
+
+# --- Eq. 18, 19, 43-47 ---
+
+_NAMES = tuple(s.name for s in MODEL_RING.symbols)
+_FIRST_COMBINATION = len(_NAMES) - len(COMBINATIONS)
+
+
+def amplitude(left: str) -> str:
+    """Name of the amplitude on a printed left side: ``A_{2\\Omega}^s`` is A_2s."""
+    found = re.fullmatch(r"A_\{?(\d?)\\Omega\}?\^([cs])", left)
+    return f"A_{found[1] or 1}{found[2]}" if found else "A_0"
+
+
+def derived_amplitude(collected: Collected, name: str) -> PolyElement:
+    """An amplitude of the derivation, in :data:`MODEL_RING`."""
+    rows = {}
+    for t in collected.amplitudes[name]:
+        combination = tuple(int(c == t.combination) for c in COMBINATIONS)
+        for powers, value in t.coefficient.terms():
+            rows[(*powers, *t.motion, *(0 for _ in REDUNDANT_MOTION), *combination)] = value
+    return MODEL_RING.from_dict(rows)
+
+
+@cache
+def redundant(laplace: bool = True) -> Mapping[str, PolyElement]:
+    """The redundant motion numbers by the independent ones (the square of omega_im, for that one).
+
+    All follow from T and S as linear functions of M (Eq. 16), except omega_im^2, for which Laplace's
+    equation is needed: 2 T_5 + S_4 = 2 omega_im^2 + Gamma_xx + Gamma_yy + Gamma_zz.
+    """
+    g = generators(MODEL_RING)
+    return {
+        "S_3": g["T_5"] - g["T_1"],
+        "S_5": g["T_2"] + g["T_6"],
+        "omegadot_x": (g["S_2"] - g["T_3"]) / 2,
+        "omegadot_y": (g["T_4"] - g["S_1"]) / 2,
+        **({"omega_im": g["T_5"] + g["S_4"] / 2} if laplace else {}),
+    }
+
+
+def expand_motion(laplace: bool = True) -> Expansion:
+    """Rewrites a printed monomial of :data:`MODEL_RING` in the twelve independent motion numbers."""
+    meanings = {
+        _NAMES.index(name): (value, 2 if name == "omega_im" else 1)
+        for name, value in redundant(laplace).items()
+    }
+
+    def expand(powers: Monomial) -> PolyElement:
+        factor, kept = None, list(powers)
+        for at, (value, unit) in meanings.items():
+            if powers[at]:
+                kept[at] = 0
+                step = value ** (powers[at] // unit)
+                factor = step if factor is None else factor * step
+        plain = monomial(MODEL_RING, tuple(kept))
+        return plain if factor is None else plain * factor
+
+    return expand
+
+
+def powers_by_name(powers: Monomial) -> dict[str, int]:
+    """Powers of a monomial of :data:`MODEL_RING`, without the zeros."""
+    return {n: p for n, p in zip(_NAMES, powers, strict=True) if p}
+
+
+def select(p: PolyElement, keep: Callable[[dict[str, int]], bool]) -> PolyElement:
+    """The terms of a polynomial whose named powers satisfy ``keep``."""
+    return p.ring.from_dict({m: v for m, v in p.terms() if keep(powers_by_name(m))})
+
+
+def printed_order(powers: Mapping[str, int]) -> bool:
+    """The order of counting of Eq. 18 and 19: beta_z to the first power, everything else multiplied out."""
+    return powers.get("beta_z", 0) <= 1
+
+
+def classify(powers: Mapping[str, int]) -> str:
+    """The category of an error term in Section II.B.1 of the paper, "a" to "f"; "" for what is not one."""
+    second = any(n in powers for n in ("K2", "K4", "K5", "K6", "K7", "K8"))
+    angular = any(n[:2] in ("T_", "S_") for n in powers)
+    linear = any(n.startswith("a_") for n in powers)
+    angles = _angles(powers)
+    if second:
+        return "d" if angular and linear else "a" if angular else "b"
+    if angles:
+        return "e" if angular else "f"
+    return "c" if linear else ""
+
+
+def _angles(powers: Mapping[str, int]) -> int:
+    return sum(p for n, p in powers.items() if n.startswith(("beta_", "vartheta_")))
+
+
+def simplified_order(powers: Mapping[str, int]) -> bool:
+    """What Section II.B.1 keeps of the analytical model.
+
+    No second-order coefficient with angular motion (a, d); one misalignment angle at most with angular
+    motion (e) and two at most with linear motion (f).
+    """
+    limit = {"a": -1, "d": -1, "e": 1, "f": 2}
+    kind = classify(powers)
+    return kind not in limit or _angles(powers) <= limit[kind]

@@ -1,0 +1,173 @@
+"""The audit: its result, and that it would find a misprint, a missing term, or a wrong derivation."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from sympy import QQ
+
+from derive.audit import audit, page
+from derive.audit.compare import (
+    amplitude,
+    compare,
+    derived_amplitude,
+    expand_motion,
+    printed_order,
+    read,
+    select,
+)
+from derive.audit.conventions import (
+    CHOSEN,
+    OPTIONS,
+    derive_with,
+    derived_transducer,
+    expanded_transducer,
+    score,
+)
+from derive.audit.printed import ANALYTICAL, PRINTED, SIMPLIFIED, TRANSDUCER, Equation
+from derive.audit.reading import NotReadable, model_reader, transducer_reader
+from derive.audit.result import printed_minus_right
+from derive.propagation import collect
+
+ROOT = Path(__file__).parents[2]
+READER, EXPAND = model_reader(), expand_motion()
+
+
+def derived(e: Equation):
+    return select(derived_amplitude(collect(), amplitude(e.left)), printed_order)
+
+
+def negated(term: str) -> str:
+    """The printed term with its first sign turned."""
+    return {"-": "+", "+": "-"}[term[0]] + term[1:] if term[0] in "+-" else "-" + term
+
+
+def test_page_is_up_to_date():
+    stale = "docs/errata.md is stale: run `python -m derive.audit > docs/errata.md`"
+    assert (ROOT / "docs/errata.md").read_bytes() == page().encode(), stale
+
+
+def test_every_printed_term_is_confirmed_or_an_erratum():
+    a = audit()
+    assert a.proved
+    assert (a.printed, a.confirmed, a.wrong) == (427, 425, 2)
+    assert all(c.missing == 0 for c in a.counts)
+    assert a.wrong == sum(1 for e in a.errata for c in e.changes if c.printed)
+    assert [(e.number, e.left) for e in a.errata] == [("19", r"A_\Omega^s"), ("19", "A_0")]
+
+
+def test_errata_are_real_and_small():
+    for e in audit().errata:
+        assert e.residual != 0
+        assert 0 < e.cost.rms < 0.01
+
+
+def test_mended_equations_have_no_mistake_left():
+    for e in ANALYTICAL:
+        reading = read(e, READER, EXPAND)
+        outcome = compare(reading, derived(e))
+        difference = sum((printed_minus_right(m) for m in outcome.mistakes), READER.ring.zero)
+        assert reading.total - difference == derived(e)
+
+
+@pytest.mark.parametrize("e", [e for e in ANALYTICAL if e.number == "18"], ids=lambda e: e.left)
+def test_a_turned_sign_is_found_in_every_term(e):
+    for n, term in enumerate(e.terms):
+        misprinted = replace(e, terms=(*e.terms[:n], negated(term), *e.terms[n + 1 :]))
+        outcome = compare(read(misprinted, READER, EXPAND), derived(e))
+        # A sign before a sum turns that term alone; the rest of the equation stays confirmed.
+        original = READER.read(term)
+        assert [m.term for m in outcome.mistakes] == [n]
+        assert outcome.mistakes[0].right == original
+        assert not outcome.missing
+
+
+@pytest.mark.parametrize("e", TRANSDUCER, ids=lambda e: e.left)
+def test_a_term_left_out_of_eq_5b_is_found(e):
+    reader, right = transducer_reader(), derived_transducer()[e.left]
+    for n, term in enumerate(e.terms[1:], 1):
+        outcome = compare(read(replace(e, terms=(*e.terms[:n], *e.terms[n + 1 :])), reader), right)
+        assert len(outcome.missing) == len(reader.read(term))
+        assert not outcome.mistakes
+
+
+def test_a_wrong_derivation_is_found():
+    e = next(e for e in ANALYTICAL if e.left == r"A_{4\Omega}^c")
+    assert not compare(read(e, READER, EXPAND), derived(e)).mistakes
+    assert len(compare(read(e, READER, EXPAND), derived(e) * QQ(2)).mistakes) == len(e.terms)
+
+
+def test_conventions_found_win_alone():
+    best = score(CHOSEN)
+    assert best.unprinted == 0
+    for name, (_, *others) in OPTIONS.items():
+        for option in others:
+            s = score(replace(CHOSEN, **{name: option}))
+            assert (s.reproduced, -s.unprinted) < (best.reproduced, -best.unprinted), (name, option)
+    ranked = [(s.reproduced, -s.unprinted) for _, s in audit().geometries]
+    assert ranked[0] > ranked[1]
+    assert audit().geometries[0][0] == CHOSEN
+
+
+def test_variants_under_the_chosen_conventions_are_the_derivation():
+    assert derive_with(CHOSEN).amplitudes == collect().amplitudes
+    assert expanded_transducer("xyz") == derived_transducer()
+
+
+def test_simplified_model_has_the_harmonics_of_eq_42():
+    assert set(audit().simplified_amplitudes) == {"A_0", "A_1c", "A_1s", "A_2c", "A_2s"}
+    assert {amplitude(e.left) for e in SIMPLIFIED} == set(audit().simplified_amplitudes)
+
+
+def test_turned_tilt_is_a_shift_of_the_misalignment_angles():
+    turned = next(d.cost for d in audit().departures if d.convention.tilt == "rises")
+    assert turned.rms > 40
+    assert audit().tilt_after_shift.rms < 1e-3 * turned.rms
+
+
+@pytest.mark.parametrize(
+    "text", ["T_1 D_{k_9 R}^{12}", "T_1)", "D_{k_1,k_2}^{12}", r"\beta_y", "D_{k_1 R^{12}"]
+)
+def test_reader_refuses_what_is_not_in_the_grammar(text):
+    with pytest.raises(NotReadable):
+        READER.read(text)
+
+
+def test_reader_expands_the_combinations():
+    g = {s.name: x for s, x in zip(READER.ring.symbols, READER.ring.gens, strict=True)}
+    value = READER.read(r"-2D_{\beta_X k_1 R,-\theta_y}^{12,34}T_3+0.5\sum_{k_4}a_x^2")
+    k1 = g["k1"]
+    pair = g["D12"] * g["beta_x"] * k1 * g["R"] - g["D34"] * k1 * g["vartheta_y"]
+    assert value == -2 * pair * g["T_3"] + g["Sigma"] * k1 * g["K4"] * g["a_x"] ** 2 / 2
+
+
+def test_printed_equations_are_used_by_the_audit_alone():
+    users = [
+        p.relative_to(ROOT).as_posix()
+        for folder in ("derive", "ragg_runtime")
+        for p in sorted((ROOT / folder).rglob("*.py"))
+        if "audit.printed" in p.read_text()
+    ]
+    assert users
+    assert all(u.startswith("derive/audit/") for u in users)
+
+
+def test_direct_evaluation_shares_nothing_with_the_derivation():
+    tree = ast.parse((ROOT / "derive/audit/direct.py").read_text())
+    imported = {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
+    imported |= {a.name for n in ast.walk(tree) if isinstance(n, ast.Import) for a in n.names}
+    assert {m.split(".")[0] for m in imported} <= sys.stdlib_module_names
+
+
+def test_transcription_is_whole():
+    lefts = [e.left for e in PRINTED]
+    assert len(lefts) == 8 + 11 + 9 + 5
+    assert all(
+        t and t.count("{") == t.count("}") and t.count("(") == t.count(")") for e in PRINTED for t in e.terms
+    )
+    # The first term of an equation may lack a sign, no other may.
+    assert all(t[0] in "+-" for e in PRINTED for t in e.terms[1:])
