@@ -8,7 +8,7 @@ from functools import cache
 
 from sympy.polys.rings import PolyElement
 
-from derive.audit import conventions, direct, experiment, proof
+from derive.audit import conventions, definitions, direct, experiment, proof
 from derive.audit.compare import (
     Change,
     Mistake,
@@ -138,7 +138,7 @@ def audit() -> Audit:
     full = {name: derived_amplitude(collected, name) for name in collected.amplitudes}
     analytical = {n: select(p, printed_order) for n, p in full.items()}
     simplified = {n: select(p, simplified_order) for n, p in analytical.items()}
-    transducer = conventions.derived_transducer()
+    transducer = definitions.derived_transducer()
     pairs = readings(analytical, simplified, transducer)
     outcomes = [(r, compare(r, p)) for r, p in pairs]
     points = direct.points(PROOF_POINTS, PROOF_SEED)
@@ -154,8 +154,8 @@ def audit() -> Audit:
         score=score,
         departures=tuple(Departure(v, s, _departure_cost(v, analytical)) for v, s in changed),
         geometries=conventions.geometries(),
-        transducer=conventions.transducer_scores(),
-        motion=conventions.motion_scores(),
+        transducer=definitions.transducer_scores(),
+        motion=definitions.motion_scores(),
         tilt_after_shift=tilt_after_shift(analytical),
         neglected=(*(_neglected(dropped, rule) for rule in "abcdef"), _neglected(dropped, "")),
         simplified_amplitudes=tuple(n for n, p in simplified.items() if p),
@@ -169,11 +169,11 @@ def readings(
     analytical: Amplitudes, simplified: Amplitudes, transducer: Mapping[str, PolyElement]
 ) -> list[tuple[Reading, PolyElement]]:
     """Every printed equation as read, with its derivation."""
-    motion = conventions.derived_motion()
+    motion = definitions.derived_motion()
     reader, expand = model_reader(), expand_motion()
     pairs = [(r, transducer[r.equation.left]) for r in (read(e, transducer_reader()) for e in TRANSDUCER)]
     for e in MOTION:
-        pairs.append((read(e, motion_reader(), conventions.expand_rate), motion[e.left]))
+        pairs.append((read(e, motion_reader(), definitions.expand_rate), motion[e.left]))
     for equations, derived in ((ANALYTICAL, analytical), (SIMPLIFIED, simplified)):
         pairs += [(read(e, reader, expand), derived[amplitude(e.left)]) for e in equations]
     return pairs

@@ -24,10 +24,9 @@ from derive.audit.conventions import (
     CHOSEN,
     OPTIONS,
     derive_with,
-    derived_transducer,
-    expanded_transducer,
     score,
 )
+from derive.audit.definitions import derived_transducer, expanded_transducer
 from derive.audit.printed import ANALYTICAL, PRINTED, SIMPLIFIED, TRANSDUCER, Equation
 from derive.audit.reading import NotReadable, model_reader, transducer_reader
 from derive.audit.result import printed_minus_right

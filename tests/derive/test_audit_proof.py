@@ -10,7 +10,7 @@ import pytest
 
 from derive.audit import direct, experiment, proof
 from derive.audit.compare import derived_amplitude, printed_order, select
-from derive.audit.conventions import derived_transducer
+from derive.audit.definitions import derived_transducer
 from derive.audit.numbers import T_D, Number, critical, limits, numbers
 from derive.audit.reading import model_reader
 from derive.audit.text import input_axis_miss
