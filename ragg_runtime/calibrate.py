@@ -8,7 +8,7 @@ sheet puts them, because each parameter has a prior as wide as its plausible siz
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,15 +19,15 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor, vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.whiten import NoiseModel, estimate, stretches, whiten
+from ragg_runtime.whiten import NoiseModel, estimate, whiten
 
 Array = NDArray[np.float64]
 
 TAPS = 32768
 """Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
 
-SHORTEST = 64
-"""Shortest stretch of contiguous valid samples that is used."""
+SHORTEST = 128
+"""Least number of samples of which noise can be estimated."""
 
 
 @dataclass(frozen=True)
@@ -118,15 +118,14 @@ def whitened(lin: Linearised, noise: Noise) -> Whitened:
     parts, samples = [], []
     skip = len(lin.nuisance)
     for m, taps in enumerate(noise.filters):
-        runs = stretches(valid, SHORTEST)
         blocks = (lin.nuisance, lin.base, lin.candidates)
-        parts.append(whiten(np.concatenate([*(b[:, m] for b in blocks), lin.residual[None, m]]), taps, runs))
-        samples += [np.arange(s.start, s.stop) for s in runs]
+        parts.append(whiten(np.concatenate([*(b[:, m] for b in blocks), lin.residual[None, m]]), taps, valid))
+        samples.append(np.flatnonzero(valid))
     columns = np.concatenate(parts, axis=1)
     if skip:
         Q, _ = np.linalg.qr(columns[:skip].T)
         columns = columns[skip:] - (columns[skip:] @ Q) @ Q.T
-    return Whitened(columns, np.concatenate(samples) if samples else np.empty(0, dtype=np.intp))
+    return Whitened(columns, np.concatenate(samples))
 
 
 def estimate_noise(lin: Linearised, extra: Array | None = None) -> Noise:
@@ -145,16 +144,18 @@ def estimate_noise(lin: Linearised, extra: Array | None = None) -> Noise:
         e[r.valid] = y - X.T @ _least_squares(X, y)
         # The fit takes as many degrees of freedom as it has columns.
         e *= np.sqrt(len(y) / max(1, len(y) - np.linalg.matrix_rank(X @ X.T)))
-        runs = stretches(r.valid, SHORTEST)
-        if not runs:
+        if np.sum(r.valid) < SHORTEST:
             raise UserError(
-                "the record is too short or too broken to estimate its noise",
+                "the record is too short to estimate its noise",
                 where=lin.observation.name,
-                found=f"no {SHORTEST} contiguous valid samples",
-                expected="at least one such stretch",
+                found=f"{int(np.sum(r.valid))} valid samples",
+                expected=f"at least {SHORTEST}",
                 remedy="give a longer or cleaner recording",
             )
-        noise = estimate([e[s] for s in runs], r.rate)
+        # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
+        noise = estimate([e], r.rate)
+        if not r.valid.all():
+            noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(r.valid)))
         models.append(noise)
         filters.append(noise.whitening_filter(length))
     return Noise(tuple(models), tuple(filters))

@@ -14,15 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate, linalg
 
-from ragg_runtime.evaluate import GRADIENTS, Record
+from ragg_runtime.evaluate import GRADIENTS, Record, unit_factor
 from ragg_runtime.instrument import PARAMETERS, Instrument
 from ragg_runtime.load import Chain, Effect, Model
-from ragg_runtime.units import Units
+from ragg_runtime.units import Units, units
 
 Array = NDArray[np.float64]
 
 UNOBSERVABLE = ("k_VI", "vartheta_x")
 """Parameters that no record can tell: k_VI enters only as k_VI K1, vartheta_x not at the paper's order."""
+
+EFFECT_PRIOR = 10.0
+"""Width of the prior of an effect's parameter, in plausible sizes: what is missing may well surprise."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Column:
     accelerometer
         1 ... 4, or ``None`` if shared.
     scale
-        Plausible size, SI: columns are derivatives times it, and it is the width of the prior.
+        Width of the prior, SI: columns are derivatives times it.
     unit, unit_factor
         Display unit and its SI value.
     effect
@@ -70,42 +73,41 @@ class Observation:
 
 def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
     """The calibratable parameters of the model, each with its index in the parameter vector."""
-    units = Units(instrument.g0)
+    known = units(instrument.g0)
     found: list[tuple[Column, int]] = []
     start = {}
     position = 0
     for name, size in model.chain.PARAMETERS:
         start[name] = position
         position += size
-    for q in PARAMETERS:
+    for q in PARAMETERS.values():
         if q.name in UNOBSERVABLE:
             continue
-        factor = units.factor(q.display_unit)
+        factor = unit_factor(q.display_unit, known)
+        scales = q.plausible_si(instrument.accelerometers[q.name])
         for j in range(4):
-            scale = q.plausible
-            if q.name == "K1":  # relative to the nominal value
-                scale = q.plausible * abs(float(instrument.accelerometers["K1"][j]))
-            found.append((Column(q.name, j + 1, scale, q.display_unit, factor, None), start[q.name] + j))
+            column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
+            found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, units)]
+            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known)]
     return found
 
 
 def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
-    units = Units(instrument.g0)
-    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, units)]
+    known = units(instrument.g0)
+    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known)]
 
 
-def _of_effect(e: Effect, units: Units) -> list[tuple[Column, str]]:
+def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
     columns = []
     for q in e.parameters:
         if not q.fitted:
             continue
-        factor = units.factor(q.unit)
+        factor = unit_factor(q.unit, known)
         for j in (None,) if q.shared else (1, 2, 3, 4):
-            column = Column(f"{e.id}.{q.name}", j, q.plausible * factor, q.unit, factor, e.id)
+            column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
             columns.append((column, q.symbol))
     return columns
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Chain, Effect, EffectParameter, Model
+from ragg_runtime.load import Chain, Effect, Model
 from ragg_runtime.timeseries import differentiate
-from ragg_runtime.units import Units
+from ragg_runtime.units import Units, units
 
 Array = NDArray[np.float64]
 
@@ -120,7 +120,7 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 
 def vector(model: Model, instrument: Instrument) -> Array:
     """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
-    units = Units(instrument.g0)
+    known = units(instrument.g0)
     values: dict[str, Array] = {
         "radius": np.array([instrument.radius]),
         "spin_frequency": np.array([instrument.spin_frequency]),
@@ -133,16 +133,17 @@ def vector(model: Model, instrument: Instrument) -> Array:
             size = 1 if q.shared else 4
             given = setting.values.get(q.name) if setting else None
             if given is None:
-                values[q.symbol] = np.full(size, q.neutral * unit_factor(q, units))
+                values[q.symbol] = np.full(size, q.neutral * unit_factor(q.unit, known))
             else:
-                si = units.to_si(given, q.unit, where=f"effect {e.id}, {q.name}")
-                values[q.symbol] = np.broadcast_to(si, size).astype(float)
+                si = known.base_unit(q.unit)
+                value = known.to_si(np.asarray(given.value), given.unit, si, f"effect {e.id}, {q.name}")
+                values[q.symbol] = np.broadcast_to(value, size).astype(float)
     return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
 
 
-def unit_factor(q: EffectParameter, units: Units) -> float:
-    """SI value of one display unit of a parameter."""
-    return units.factor(q.unit)
+def unit_factor(unit: str, known: Units) -> float:
+    """SI value of one display unit."""
+    return float(known.to_si(1.0, unit, known.base_unit(unit)))
 
 
 def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:

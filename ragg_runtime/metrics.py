@@ -77,7 +77,8 @@ def error(
     rms = float(np.sqrt(np.mean(residual[chosen] ** 2))) if np.any(chosen) else float("nan")
     _, inline, cross = channels(residual, r, k_ggi, chosen)
     i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
-    return Error(rms, rms / k_ggi, i, c, i / np.sqrt(CUTOFF), c / np.sqrt(CUTOFF))
+    root = float(np.sqrt(CUTOFF))
+    return Error(rms, rms / k_ggi, i, c, i / root, c / root)
 
 
 def pooled(errors: list[Error], weights: list[float]) -> Error:

@@ -73,11 +73,26 @@ class Dictionary:
             x = x * self._series[name]
         return x
 
-    def chunks(self, size: int = 128) -> Iterator[tuple[Sequence[Term], Array]]:
-        """The dictionary in pieces: terms and their series, (len(terms), N)."""
+    def chunks(self, size: int = 128) -> Iterator[tuple[Sequence[Term], NDArray[np.float32]]]:
+        """The dictionary in pieces: terms and their series to unit rms, (len(terms), N)."""
+        products: dict[tuple[str, ...], Array] = {}
+        carriers = {h: _carrier(self._record, h) for h in harmonics()}
         for start in range(0, len(self.terms), size):
             part = self.terms[start : start + size]
-            yield part, np.stack([self.series(t) for t in part])
+            x = np.empty((len(part), len(self._record.time)), dtype=np.float32)
+            for n, t in enumerate(part):
+                if t.channels not in products:
+                    products = {t.channels: self.series(Term("const", t.channels))}
+                product = products[t.channels] * carriers[t.harmonic]
+                x[n] = product / self._rms(product)
+            yield part, x
+
+    def _rms(self, x: Array) -> float:
+        return float(np.sqrt(np.mean(x[self._record.valid] ** 2))) or 1.0
+
+    def rms(self, term: Term) -> float:
+        """Root mean square of a term's series over the valid samples, SI."""
+        return self._rms(self.series(term))
 
 
 def harmonics() -> tuple[str, ...]:

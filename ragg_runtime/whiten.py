@@ -10,12 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, interpolate, optimize, signal
 
 Array = NDArray[np.float64]
+Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
@@ -136,18 +138,17 @@ def stretches(valid: NDArray[np.bool_], shortest: int) -> list[slice]:
     return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
-def whiten(columns: Array, taps: Array, runs: Sequence[slice]) -> Array:
-    """Filter columns (n, N) within each run, from rest; returns (n, rows), the samples of all runs.
+def whiten(columns: Floats, taps: Array, valid: NDArray[np.bool_]) -> Floats:
+    """Filter columns (n, N) and keep the valid samples: (n, rows), in the columns' own precision.
 
-    A filter that starts from rest is still linear, and the same for data and columns: what the model
-    explains it explains before and after. Only the noise of the first samples is not perfectly white.
+    Invalid samples are put to zero, in data and columns alike, before they are filtered, and the filter
+    starts from rest: both are linear and the same for all columns, so that what the model explains it
+    explains before and after; only the noise next to a gap or to the start is not perfectly white.
     """
-    parts = []
-    for run in runs:
-        x = columns[:, run]
-        n = x.shape[1]
-        size = fft.next_fast_len(n + min(n, len(taps)) - 1, real=True)
-        gain = fft.rfft(taps[:n], size)
-        y = fft.irfft(fft.rfft(x, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
-        parts.append(y[:, :n])
-    return np.concatenate(parts, axis=1) if parts else np.empty((columns.shape[0], 0))
+    n = columns.shape[1]
+    size = fft.next_fast_len(n + min(n, len(taps)) - 1, real=True)
+    gain = fft.rfft(taps[:n].astype(columns.dtype), size)
+    masked = columns if valid.all() else np.where(valid, columns, columns.dtype.type(0.0))
+    y = fft.irfft(fft.rfft(masked, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
+    kept: Floats = y[:, :n] if valid.all() else y[:, :n][:, valid]
+    return kept

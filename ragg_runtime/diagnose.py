@@ -1,0 +1,414 @@
+"""Which physical effect is missing: the method, its verdict, and what the record cannot tell.
+
+1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
+2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
+3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
+   nonlinear again; search the remainder for anything else.
+4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
+   down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime import compare, design
+from ragg_runtime.compare import BLOCKS, FITTED_BLOCKS, Fitted, Remainder
+from ragg_runtime.design import Column
+from ragg_runtime.evaluate import missing_channels
+from ragg_runtime.evidence import likelihood, omnibus, search, special
+from ragg_runtime.evidence.likelihood import Test
+from ragg_runtime.evidence.search import Choice, Field
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Effect, Model
+from ragg_runtime.metrics import Error
+
+Array = NDArray[np.float64]
+
+Extend = Callable[[Model, Sequence[str]], Model]
+"""Derives a model with further effects (given by the caller: this module cannot derive)."""
+
+
+@dataclass(frozen=True)
+class ParameterValue:
+    """A fitted parameter, in its display unit."""
+
+    name: str
+    accelerometer: int | None
+    value: float
+    std: float
+    unit: str
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "name": self.name,
+            "accelerometer": self.accelerometer,
+            "value": self.value,
+            "std": self.std,
+            "unit": self.unit,
+        }
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One effect and the evidence for it, alone."""
+
+    effect: str
+    log_p: float
+    chi2: float
+    rank: int
+    delta_bic: float
+    before: Error
+    after: Error
+    after_holdout: Error
+    parameters: tuple[ParameterValue, ...]
+    indistinguishable_from: tuple[str, ...]
+
+    @property
+    def p_value(self) -> float:
+        """p-value, corrected for the effect's own sub-blocks (0 where it underflows: see ``log_p``)."""
+        return float(np.exp(self.log_p))
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "p_value": self.p_value,
+            "log10_p": float(self.log_p / np.log(10.0)),
+            "chi2": self.chi2,
+            "rank": self.rank,
+            "delta_bic": self.delta_bic,
+            "error_before": self.before.as_json(),
+            "error_after": self.after.as_json(),
+            "error_after_holdout": self.after_holdout.as_json(),
+            "parameters": [p.as_json() for p in self.parameters],
+            "indistinguishable_from": list(self.indistinguishable_from),
+        }
+
+
+@dataclass(frozen=True)
+class NotTestable:
+    """An effect on which this record is silent, and why."""
+
+    effect: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The result of ``diagnose``: the interface's JSON, and what the report draws."""
+
+    verdict: str
+    fitted: Fitted
+    ranking: tuple[Ranked, ...]
+    found: tuple[str, ...]
+    not_testable: tuple[NotTestable, ...]
+    remainder: Remainder
+    remainder_share: float
+    residual: tuple[Array, ...]
+    residual_after: tuple[Array, ...]
+    before: Error
+    after: Error
+    noise_floor: float
+    sizes: tuple[tuple[str, str], ...]
+    final: Fitted | None = None
+
+    def as_json(self) -> dict[str, object]:
+        target = self.final or self.fitted
+        return {
+            "verdict": self.verdict,
+            "ranking": [r.as_json() for r in self.ranking],
+            "found": list(self.found),
+            "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
+            "unexplained": {
+                "share": self.remainder_share,
+                "log10_p": float(self.remainder.log_p / np.log(10.0)),
+                "terms": compare.terms_json(self.remainder, self.residual_after, target),
+            },
+            "error": {"before": self.before.as_json(), "after": self.after.as_json()},
+            "noise_floor": {"rms_Eo": self.noise_floor},
+            "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
+        }
+
+
+def diagnose(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], extend: Extend | None = None
+) -> Diagnosis:
+    """Find which of the model's candidate effects the flights need.
+
+    Parameters
+    ----------
+    flights
+        Flights of one instrument, fitted together.
+    extend
+        Derives the model with the chosen effects in it, for the final, nonlinear check. Without it the
+        check is linear.
+    """
+    observations = [compare.observe(x, instrument) for x in flights]
+    f = compare.fit(model, instrument, observations)
+    return diagnose_fitted(f, flights, extend)
+
+
+def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None = None) -> Diagnosis:
+    """As :func:`diagnose`, on flights that are already fitted."""
+    output = _output_effects(f, flights)
+    field, f, instants = _with_steps(f)
+    choice = search.choose(field)
+    chosen, given, final, rem = _confirmed(f, field, choice, extend)
+    random = {} if rem.significant else _random_tests(f, given)
+    count = len(field.candidates) + len(random)
+    random_found = [e for e, t in random.items() if search.significant(t, count)]
+    if random_found and not rem.significant:
+        rivals = sorted(random_found, key=lambda e: random[e].log_p)[:1]
+    else:
+        rivals = []
+    if rem.significant:
+        verdict, found = "unexplained", []
+    else:
+        found = [*chosen, *rivals, *output]
+        verdict = "missing-effect" if found else "adequate"
+
+    residual = f.residuals(np.zeros(f.n_base), ())
+    before = f.error(residual)
+    ranking = _ranking(f, field, choice, instants, random, output, residual, before)
+    if final is not None:
+        after_residual = final.residuals(np.zeros(final.n_base), ())
+    else:
+        c, _ = f.coefficients(given)
+        after_residual = f.residuals(c, given)
+    after = f.error(after_residual)
+    power = sum(float(np.sum(e**2)) for e in after_residual)
+    explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    whitened = sum(float(np.sum(s.residual**2)) for s in rem.searches)
+    return Diagnosis(
+        verdict,
+        f,
+        tuple(ranking),
+        tuple(found),
+        tuple(_not_testable(f, field)),
+        rem if rem.significant else _without_terms(rem),
+        explained / whitened if power else 0.0,
+        tuple(residual),
+        tuple(after_residual),
+        before,
+        after,
+        compare.noise_floor(f),
+        tuple(_sizes(f, field)),
+        final,
+    )
+
+
+def _without_terms(rem: Remainder) -> Remainder:
+    return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
+
+
+def _confirmed(
+    f: Fitted, field: Field, choice: Choice, extend: Extend | None
+) -> tuple[list[str], list[int], Fitted | None, Remainder]:
+    """The chosen effects put into the model and fitted again; what then remains."""
+    chosen = list(choice.chosen)
+    given = [n for e in chosen for n, _ in field.candidates[e]]
+    steps = {e.id for e in f.model.candidates if e.kind == "step"}
+    if not chosen or extend is None or (steps & set(chosen)):
+        return chosen, given, None, compare.remainder(f, given)
+    final = compare.fit(extend(f.model, chosen), f.instrument, f.observations)
+    return chosen, given, final, compare.remainder(final)
+
+
+def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
+    """The field of all deterministic candidates, steps at their most likely instant among them.
+
+    Returns the field, the flights with the steps' columns put in, and the instants by effect, s.
+    """
+    available = compare.testable_effects(f)
+    steps = [e for e in f.model.candidates if e.kind == "step"]
+    if len(f.works) != 1 or not steps:
+        return f.field(available), f, {}
+    w = f.works[0]
+    columns = design.candidate_columns(f.model, f.instrument)
+    plain = f.field(available)
+    penalties: dict[str, float] = {}
+    instants: dict[str, float] = {}
+    lin, whitened_columns = w.lin, w.columns.copy()
+    candidates = lin.candidates.copy()
+    first = search.choose(plain)
+    for e in steps:
+        own = [(n, c) for n, c in enumerate(columns) if c.effect == e.id]
+        best = None
+        for given in ([], [n for x in first.chosen for n, _ in plain.candidates[x]]):
+            scan = special.best_step(f.works, f.n_base, given, own, f.to_nominal)
+            if scan is not None and (best is None or scan.test.log_p < best[0].test.log_p - 20.0):
+                best = (scan, given)
+        if best is None:
+            continue
+        scan, given = best
+        Q = omnibus.basis(np.concatenate([w.columns[: f.n_base], w.columns[[f.n_base + n for n in given]]]))
+        y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
+        rows = lin.candidates[[n for n, _ in own], 0]
+        instant = scan.instant
+        if scan.test.log_p < -7.0 and w.observation.kind == "G_out":
+            width = float(w.observation.record.time[-1]) / BLOCKS
+            instant = special.refine_step(w, Q, y, rows, instant, width)
+        on = w.observation.record.time >= instant
+        for n, _ in own:
+            candidates[n] = np.where(on, lin.candidates[n], 0.0)
+            parts = [
+                special.whiten(candidates[n][m][None], taps, w.observation.record.valid)[0]
+                for m, taps in enumerate(w.noise.filters)
+            ]
+            whitened_columns[f.n_base + n] = np.concatenate(parts)
+        penalties[e.id] = float(np.log(scan.variants))
+        available = [*available, e.id]
+        instants[e.id] = instant
+    block = np.clip(np.searchsorted(w.edges, w.sample, side="right") - 1, 0, BLOCKS - 1)
+    triangles = tuple(design.triangle(whitened_columns[:, block == b]) for b in range(BLOCKS))
+    work = replace(w, lin=replace(lin, candidates=candidates), columns=whitened_columns, triangles=triangles)
+    f = replace(f, works=(work,))
+    return replace(f.field(available), penalty=penalties), f, instants
+
+
+def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
+    """Tests of random effects: is the residual larger where the output is more sensitive to them?"""
+    columns = design.candidate_columns(f.model, f.instrument)
+    tests: dict[str, Test] = {}
+    for e in f.model.candidates:
+        own = [n for n, c in enumerate(columns) if c.effect == e.id]
+        if e.kind != "random" or not own:
+            continue
+        sensitivities, residuals = [], []
+        for w in f.works:
+            n = f.n_base
+            Q = omnibus.basis(np.concatenate([w.columns[:n], w.columns[[n + k for k in given]]]))
+            residuals.append(w.columns[-1] - Q @ (Q.T @ w.columns[-1]))
+            sensitivities.append(w.columns[n + own[0]])
+        tests[e.id] = special.random_test(np.concatenate(sensitivities), np.concatenate(residuals))
+    return tests
+
+
+def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
+    """Saturation and quantisation of a recorded output, recognised in its values."""
+    known = {e.id for e in f.model.candidates if e.kind == "output"}
+    found = []
+    for x, w in zip(flights, f.works, strict=True):
+        for name, series in x.outputs.items():
+            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+                continue
+            valid = np.isfinite(series) & x.valid
+            if "saturation" in known and special.saturation(series, valid):
+                found.append("saturation")
+            noise = w.noise.models[0].rms
+            if "quantisation" in known and special.quantisation(series, valid, noise):
+                found.append("quantisation")
+    return sorted(set(found))
+
+
+def _ranking(
+    f: Fitted,
+    field: Field,
+    choice: Choice,
+    instants: dict[str, float],
+    random: dict[str, Test],
+    output: Sequence[str],
+    residual: Sequence[Array],
+    before: Error,
+) -> list[Ranked]:
+    rivals = search.rivals(field, choice)
+    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+    ranked = []
+    for e, t in choice.tests.items():
+        if not t.rank:
+            continue
+        extra = list(t.which)
+        c, covariance = f.coefficients(extra)
+        half, _ = f.coefficients(extra, FITTED_BLOCKS)
+        own = dict(field.candidates[e])
+        parameters = _values(f, [own[n] for n in extra], c[f.n_base :], covariance[f.n_base :, f.n_base :])
+        if e in instants:
+            parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
+        bic = t.chi2 - t.rank * np.log(f.calibration.rows)
+        twins = rivals.get(e, ())
+        for main, others in rivals.items():
+            if e in others:
+                twins = tuple(sorted({main, *others} - {e}))
+        ranked.append(
+            Ranked(
+                e,
+                t.log_p,
+                t.chi2,
+                t.rank,
+                float(bic),
+                before,
+                f.error(f.residuals(c, extra)),
+                f.error(f.residuals(half, extra), scored),
+                tuple(parameters),
+                twins,
+            )
+        )
+    for e, t in random.items():
+        bic = t.chi2 - np.log(f.calibration.rows)
+        ranked.append(Ranked(e, t.log_p, t.chi2, t.rank, float(bic), before, before, before, (), ()))
+    for e in output:
+        ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), ()))
+    order = {e: n for n, e in enumerate(choice.chosen)}
+    return sorted(ranked, key=lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect))
+
+
+def _values(
+    f: Fitted, columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
+    found = []
+    for k, c in enumerate(columns):
+        factor = c.scale / c.unit_factor
+        name = c.name.split(".", 1)[1] if c.effect else c.name
+        std = float(np.sqrt(covariance[k, k])) * factor
+        found.append(ParameterValue(name, c.accelerometer, float(values[k]) * factor, std, c.unit))
+    return found
+
+
+def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
+    found = []
+    for e in f.model.candidates:
+        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record)})
+        if missing:
+            found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
+        elif e.id in field.candidates and not field.testable(e.id):
+            found.append(NotTestable(e.id, _absorbed(f, field, e)))
+    return found
+
+
+def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
+    """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
+    columns = [n for n, _ in field.candidates[e.id]]
+    n = f.n_base
+    whole = np.linalg.norm(field.T[:, [n + k for k in columns]], axis=0)
+    left = np.linalg.norm(field.P[:, columns], axis=0)
+    k = int(np.argmax(whole))
+    strongest = columns[k]
+    if whole[k] < likelihood.TESTABLE:
+        return "this record hardly excites it: even a hundred times its plausible size leaves no trace"
+    solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
+    names: dict[str, float] = {}
+    for c, v, norm in zip(f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True):
+        names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
+    most = sorted(names, key=lambda x: -names[x])[:3]
+    share = float(left[k] / whole[k]) if whole[k] else 0.0
+    return f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
+
+
+def _sizes(f: Fitted, field: Field) -> list[tuple[str, str]]:
+    """Size, in display units, at which each testable effect would be seen at three sigma."""
+    rows = []
+    left = np.linalg.norm(field.P, axis=0)
+    for e, columns in field.candidates.items():
+        own = dict(columns)
+        for name in dict.fromkeys(c.name for _, c in columns):
+            best = [(left[n], own[n]) for n in field.testable(e) if own[n].name == name]
+            if best:
+                norm, c = max(best, key=lambda x: float(x[0]))
+                size = 3.0 / norm * c.scale / c.unit_factor
+                rows.append((e, f"{name.split('.', 1)[1]} = {size:.3g} {c.unit}"))
+    return rows
