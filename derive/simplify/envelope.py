@@ -1,0 +1,227 @@
+"""Envelopes: how far motion and instrument may go. All SI; errors in eotvos."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from fractions import Fraction
+from functools import cache
+
+import sympy as sp
+
+from derive.propagation import MOTION_NUMBERS, motion_numbers
+from derive.symbols import MOTION
+from ragg_runtime.errors import UserError
+
+Vector = tuple[float, float, float]
+
+EOTVOS = Fraction(1, 10**9)
+"""1 Eo in s^-2."""
+
+
+@dataclass(frozen=True)
+class Envelope:
+    """Bounds on magnitudes: motion and parameters lie in the box |value| <= bound.
+
+    Attributes
+    ----------
+    a, omega, omegadot
+        Of each component of the specific force (m/s^2), rate (rad/s) and angular acceleration (rad/s^2).
+    Gamma
+        Of every component of the gravity gradient, s^-2.
+    radius, dR
+        Nominal radius and bound of its error, m.
+    beta_x, beta_z, vartheta_x, vartheta_y, vartheta_z
+        Of the angles, rad.
+    K0
+        Of the null bias, m/s^2.
+    K2, K4, K5, K6, K7, K8
+        Of the second-order coefficients, 1/(m/s^2).
+    imbalance
+        Of k_j1 / k_1 - 1, with k_1 the nominal scale factor (its value does not matter).
+    spin_frequency
+        Of the disc, Hz.
+    allotted
+        Error that one term may leave when it is dropped, Eo (Section II.B.1: 0.1 Eo).
+
+    Raises
+    ------
+    UserError
+        If a bound is negative or not finite, or the instrument has no scale factor to divide by
+        (imbalance >= 1, dR >= radius).
+    """
+
+    a: Vector
+    omega: Vector
+    omegadot: Vector
+    Gamma: float
+    radius: float
+    dR: float
+    beta_x: float
+    beta_z: float
+    vartheta_x: float
+    vartheta_y: float
+    vartheta_z: float
+    K0: float
+    K2: float
+    K4: float
+    K5: float
+    K6: float
+    K7: float
+    K8: float
+    imbalance: float
+    spin_frequency: float
+    allotted: float = 0.1
+
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            for v in value if isinstance(value, tuple) else (value,):
+                if not (math.isfinite(v) and v >= 0):
+                    raise UserError(
+                        f"the bound {f.name} is no bound",
+                        where="Envelope",
+                        found=repr(value),
+                        expected="finite numbers, zero or positive",
+                        remedy=f"give the largest magnitude of {f.name}",
+                    )
+        if self.imbalance >= 1 or self.dR >= self.radius:
+            raise UserError(
+                "the envelope holds an instrument without a scale factor",
+                where="Envelope",
+                found=f"imbalance {self.imbalance}, dR {self.dR} m of radius {self.radius} m",
+                expected="imbalance < 1 and dR < radius",
+                remedy="lower them",
+            )
+
+    def parameter(self, name: str) -> Fraction:
+        """Bound of a parameter of :data:`COEFFICIENT_PARAMETERS` over the envelope, in units of nominal k1."""
+        if name == "k1":
+            return 1 + Fraction(self.imbalance)
+        if name == "R":
+            return Fraction(self.radius) + Fraction(self.dR)
+        return Fraction(getattr(self, name))
+
+    def nominal(self, name: str) -> Fraction:
+        """As :meth:`parameter`, with k1 and R at their nominal values: what Eq. 31-41 take."""
+        return {"k1": Fraction(1), "R": Fraction(self.radius)}.get(name) or self.parameter(name)
+
+    def departure(self, powers: Sequence[int]) -> Fraction:
+        """Bound of |p_j / p - 1| for p = k1^m R^n, given the powers of :data:`COEFFICIENT_PARAMETERS`.
+
+        It is what a combination D leaves of a product that is nominally equal for all accelerometers.
+        """
+        k1, R = powers[:2]
+        return (1 + Fraction(self.imbalance)) ** k1 * (1 + Fraction(self.dR) / Fraction(self.radius)) ** R - 1
+
+    @property
+    def least_scale_factor(self) -> Fraction:
+        """Lower bound of k_ggi = sum_j k_j1 R_j, m."""
+        return 4 * (1 - Fraction(self.imbalance)) * (Fraction(self.radius) - Fraction(self.dR))
+
+    def channel(self, name: str) -> Fraction:
+        """Bound of a motion channel (a_x, omegadot_z, Gamma_xy ...)."""
+        kind, _, axis = name.partition("_")
+        value = getattr(self, kind)
+        return Fraction(value if kind == "Gamma" else value["xyz".index(axis)])
+
+    def motion(self) -> dict[str, Fraction]:
+        """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
+        channels = [self.channel(c.name) for c in MOTION]
+        bounds = {}
+        for name, terms in _polynomials().items():
+            low = high = Fraction(0)
+            for powers, c in terms:
+                size = math.prod((b**n for b, n in zip(channels, powers, strict=True) if n), start=abs(c))
+                # A square keeps its sign; anything else takes both.
+                even = all(n % 2 == 0 for n in powers)
+                low -= size if not even or c < 0 else 0
+                high += size if not even or c > 0 else 0
+            bounds[name] = max(-low, high)
+        return bounds
+
+
+@cache
+def _polynomials() -> dict[str, tuple[tuple[tuple[int, ...], Fraction], ...]]:
+    """a, T and S as polynomials in the motion channels: powers and coefficient of each term."""
+    numbers = motion_numbers()
+    return {
+        name: tuple(
+            (powers, Fraction(int(c.p), int(c.q)))
+            for powers, c in sp.Poly(
+                numbers.get(name, sp.Symbol(name, real=True)), *(c.symbol for c in MOTION)
+            ).terms()
+        )
+        for name in MOTION_NUMBERS
+    }
+
+
+def bound_of(powers: Sequence[int], bounds: Sequence[Fraction]) -> Fraction:
+    """Product of bounds to their powers."""
+    return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=Fraction(1))
+
+
+_G = 9.8
+"""m/s^2, the paper's g."""
+_ARCSECOND, _PER_HOUR = math.radians(1 / 3600), math.radians(1) / 3600
+_SPIN = 0.25
+_OMEGA = 2 * math.pi * _SPIN
+
+PAPER_ENVELOPE = Envelope(
+    # "In gravity gradiometry the RAGG acceleration is usually in the order of 0.1 g" (below Eq. 41).
+    a=(0.1 * _G,) * 3,
+    # The greatest rate of the dynamic experiment: 2000 + 800 deg/h (Table VI).
+    omega=(2800 * _PER_HOUR,) * 3,
+    # "the angular acceleration is in the order of 1e-3 ~ 1e-2 rad/s^2" (Section IV): the lower end. Only there
+    # does the paper drop nothing that its own rule would keep (see docs/simplified.md).
+    omegadot=(1e-3,) * 3,
+    # "The maximum gravitational gradient is of the order of 10^3 Eo" (below Eq. 32).
+    Gamma=1e3 * 1e-9,
+    radius=0.1,
+    # The largest of Table V; Section II.B.1 gives none.
+    dR=35e-6,
+    # Section II.B.1, first paragraph.
+    beta_x=1e-4,
+    beta_z=1e-4,
+    vartheta_x=1e-4,
+    vartheta_y=1e-4,
+    vartheta_z=1e-4,
+    # The largest of Table V; Section II.B.1 gives none.
+    K0=10e-6 * _G,
+    # Section II.B.1: 1e-6 g/g^2.
+    K2=1e-6 / _G,
+    K4=1e-6 / _G,
+    K5=1e-6 / _G,
+    K6=1e-6 / _G,
+    K7=1e-6 / _G,
+    K8=1e-6 / _G,
+    imbalance=1e-4,
+    spin_frequency=_SPIN,
+)
+"""Section II.B.1, each number as the paper gives it. It states no angular motion there: see ``omega``."""
+
+DYNAMIC_EXPERIMENT = Envelope(
+    a=(0.085 * _G, 0.066 * _G, 0.15 * _G),
+    omega=(1700 * _PER_HOUR, 2400 * _PER_HOUR, 2800 * _PER_HOUR),
+    omegadot=(700 * _PER_HOUR * _OMEGA, 900 * _PER_HOUR * _OMEGA, 800 * _PER_HOUR * _OMEGA),
+    Gamma=1e3 * 1e-9,
+    radius=0.1,
+    dR=35e-6,
+    beta_x=21 * _ARCSECOND,
+    beta_z=20 * _ARCSECOND,
+    vartheta_x=0.0,
+    vartheta_y=21 * _ARCSECOND,
+    vartheta_z=30 * _ARCSECOND,
+    K0=10e-6 * _G,
+    K2=8e-6 / _G,
+    K4=16e-6 / _G,
+    K5=13e-6 / _G,
+    K6=12e-6 / _G,
+    K7=17e-6 / _G,
+    K8=20e-6 / _G,
+    # 10, 11, 11.5 and 12 mA/g against their mean: a thousand times the 1e-4 of Section II.B.1.
+    imbalance=1 - 10 / 11.125,
+    spin_frequency=_SPIN,
+)
+"""The smallest envelope that holds the dynamic experiment (Tables V and VI), Gamma as in Section II.B.1."""

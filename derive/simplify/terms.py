@@ -1,0 +1,117 @@
+"""Sizes of the terms of the analytical model, and the simplified model that keeps the large ones (Eq. 31-47)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from sympy.polys.rings import PolyElement
+
+from derive.propagation import (
+    COEFFICIENT_PARAMETERS,
+    COEFFICIENTS,
+    MOTION_NUMBERS,
+    Collected,
+    collect,
+    from_generic,
+)
+from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, bound_of
+
+Powers = tuple[int, ...]
+Generic = Mapping[tuple[int, str], Mapping[Powers, PolyElement]]
+
+_SIGNAL = frozenset(
+    (tuple(int(n == t) for n in MOTION_NUMBERS), tuple(int(p in ("k1", "R")) for p in COEFFICIENT_PARAMETERS))
+    for t in ("T_1", "T_2")
+)
+"""k1 R T_1 and k1 R T_2: what the instrument is there to measure (Eq. 30)."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """How large a term may be: the product ``parameters`` x ``motion`` in one harmonic.
+
+    ``motion`` holds powers of :data:`MOTION_NUMBERS`, ``parameters`` of :data:`COEFFICIENT_PARAMETERS`;
+    ``eotvos`` is what one accelerometer contributes at most, divided by k_ggi (the measure of Eq. 31-41).
+    """
+
+    harmonic: int
+    motion: Powers
+    parameters: Powers
+    eotvos: Fraction
+
+
+def is_nominal(parameters: Powers) -> bool:
+    """Whether a product of parameters is k1^m R^n: nominally equal for all accelerometers."""
+    return not any(parameters[2:])
+
+
+def balanced(harmonic: int, parameters: Powers) -> bool:
+    """Whether the sum over the accelerometers leaves only the imbalance (D, not Sigma) of k1^m R^n."""
+    return is_nominal(parameters) and harmonic % 4 != 2
+
+
+def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]:
+    """The size of every term of the analytical model (or of ``full``) in an envelope, in its order."""
+    full = full or collect()
+    motion_bounds = envelope.motion()
+    motions = [motion_bounds[n] for n in MOTION_NUMBERS]
+    nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
+    scale = 1 / (4 * Fraction(envelope.radius) * EOTVOS)
+    coefficients: dict[tuple[int, Powers, Powers], Fraction] = {}
+    for (n, _), terms in full.generic.items():
+        for motion, coefficient in terms.items():
+            for parameters, c in coefficient.terms():
+                key = (n, motion, parameters)
+                value = abs(Fraction(int(c.numerator), int(c.denominator)))
+                coefficients[key] = max(value, coefficients.get(key, value))
+    result = []
+    for (n, motion, parameters), c in coefficients.items():
+        size = c * bound_of(motion, motions) * bound_of(parameters, nominal) * scale
+        if balanced(n, parameters):
+            size *= envelope.departure(parameters)
+        result.append(Size(n, motion, parameters, size))
+    return tuple(result)
+
+
+def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = None) -> Collected:
+    """The simplified model for an envelope (Eq. 42-47 for the paper's).
+
+    Of the analytical model (or of ``full``) it keeps every term that may exceed ``envelope.allotted``, and
+    always the signal itself (Eq. 30). What it drops is bounded by :func:`derive.simplify.certified_bound`.
+    """
+    full = full or collect()
+    allotted = Fraction(envelope.allotted)
+    kept = {(s.harmonic, s.motion, s.parameters) for s in sizes(envelope, full) if s.eotvos > allotted}
+    return from_generic(_select(full.generic, kept))
+
+
+def dropped(model: Collected, full: Collected | None = None) -> Generic:
+    """Series of one accelerometer that ``model`` lacks, against the analytical model (or ``full``)."""
+    full = full or collect()
+    difference: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
+    for key, terms in full.generic.items():
+        there = model.generic.get(key, {})
+        left = {m: c - there.get(m, COEFFICIENTS.zero) for m, c in terms.items()}
+        difference[key] = {m: c for m, c in left.items() if c}
+    return difference
+
+
+def _select(generic: Generic, chosen: set[tuple[int, Powers, Powers]]) -> Generic:
+    """The terms of a series that are chosen, or signal; without the harmonics that this empties."""
+    reduced: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
+    for (n, phase), terms in generic.items():
+        of_phase = reduced.setdefault((n, phase), {})
+        for motion, coefficient in terms.items():
+            part = COEFFICIENTS.from_dict(
+                {
+                    p: c
+                    for p, c in coefficient.terms()
+                    if (n, motion, p) in chosen or (n == 2 and (motion, p) in _SIGNAL)
+                }
+            )
+            if part:
+                of_phase[motion] = part
+    present = {n for (n, _), terms in reduced.items() if terms} | {0}
+    return {key: terms for key, terms in reduced.items() if key[0] in present}
