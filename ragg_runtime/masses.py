@@ -139,7 +139,7 @@ class PointMass:
 
 
 # Gauss-Legendre on [0, 1]: the gradient of a body outside the disc is smooth along an arm.
-_NODES, _WEIGHTS = (v / 2 for v in np.polynomial.legendre.leggauss(8))
+_NODES, _WEIGHTS = (v / 2 for v in np.polynomial.legendre.leggauss(5))
 _NODES = _NODES + 0.5
 
 

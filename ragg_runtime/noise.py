@@ -88,15 +88,16 @@ class Noise:
 
 
 def eotvos_noise(density: float, radius: float) -> Noise:
-    """White noise that gives the gradiometer a density in s^-2/sqrt(Hz) before demodulation.
+    """White accelerometer noise that gives the demodulated cross channel a density in s^-2/sqrt(Hz).
 
-    Four independent accelerometers of density n (m/s^2/sqrt(Hz)) make 2 n k_1 in G_out, and k_ggi = 4 R k_1.
+    Four independent accelerometers of density n (m/s^2/sqrt(Hz)) make 2 n k_1 in G_out, k_ggi is 4 R k_1, and
+    demodulation doubles the power: n = sqrt(2) R density. The inline channel, a difference, has twice it.
 
     Parameters
     ----------
     density
-        Of G_out / k_ggi, s^-2/sqrt(Hz) (2e-9 is 2 Eo/sqrt(Hz)).
+        Of the cross channel, s^-2/sqrt(Hz) (2e-9 is 2 Eo/sqrt(Hz)).
     radius
         R, m.
     """
-    return Noise(omega_T=(2 * radius * density) ** 2)
+    return Noise(omega_T=2 * (radius * density) ** 2)

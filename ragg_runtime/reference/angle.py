@@ -16,7 +16,7 @@ def _halves(x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def turns(frequency: ArrayLike, time: ArrayLike) -> NDArray[np.float64]:
-    """Fractional part of frequency * time, in [-0.5, 0.5], to one rounding.
+    """Fractional part of frequency * time, between -0.5 and 0.5, to one rounding.
 
     The rounding error of the product is recovered (Dekker 1971) before whole turns are dropped; after
     ten days at any frequency the plain product would have lost five digits of the angle.
@@ -32,8 +32,7 @@ def turns(frequency: ArrayLike, time: ArrayLike) -> NDArray[np.float64]:
     f_high, f_low = _halves(f)
     t_high, t_low = _halves(t)
     error = ((f_high * t_high - product) + f_high * t_low + f_low * t_high) + f_low * t_low
-    fraction = (product - np.rint(product)) + error
-    return np.asarray(fraction - np.rint(fraction), dtype=np.float64)
+    return np.asarray((product - np.rint(product)) + error, dtype=np.float64)
 
 
 def disc_angle(frequency: float, time: ArrayLike, shift: float = 0.0) -> NDArray[np.float64]:

@@ -64,7 +64,7 @@ class Chain:
     auxiliaries: Mapping[str, Auxiliary]
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
-        """V_1 ... V_4 without noise, (4, N) V, at (N,) s; ``angle_error`` (N,) rad is the random part of phi."""
+        """V_1 ... V_4 without noise, (4, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
         tau = transducer.lags(self.effects)
         shaken = force.vibration(self.effects)
         V = np.empty((4, time.size))

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from ragg_runtime.instrument import Instrument
+from ragg_runtime.instrument import Instrument
 
 Array = NDArray[np.float64]
 
@@ -61,11 +58,7 @@ _UNCERTAINTY: Mapping[str, float] = {
 
 
 def _instrument(accelerometers: Mapping[str, Array]) -> Instrument:
-    from ragg_runtime.instrument import Instrument
-
-    return Instrument(
-        radius=0.1, spin_frequency=0.25, g0=_G0, accelerometers=dict(accelerometers), effects=(), path=None
-    )
+    return Instrument.build(radius=0.1, spin_frequency=0.25, g0=_G0, accelerometers=accelerometers)
 
 
 def table_v() -> Instrument:
@@ -77,19 +70,12 @@ def table_v() -> Instrument:
 
 def trimmed() -> Instrument:
     """Table V with scale factors matched to 2e-4, as a feedback loop would leave them in flight."""
-    return replace(table_v(), K1=1e-3 / _G0 * np.array(_TRIMMED))
+    return table_v().replace(K1=1e-3 / _G0 * np.array(_TRIMMED))
 
 
 def perfect() -> Instrument:
     """No errors at all: equal scale factors of 10 mA/g, everything else zero."""
-    nothing = {name: np.zeros(4) for name in _SHEET}
-    return _instrument(nothing | {"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
-
-
-def replace(instrument: Instrument, **parameters: Sequence[float] | Array) -> Instrument:
-    """The same instrument with some parameters of the accelerometers (four values each, SI) replaced."""
-    changed = {name: np.asarray(values, dtype=np.float64) for name, values in parameters.items()}
-    return dataclasses.replace(instrument, accelerometers=dict(instrument.accelerometers) | changed)
+    return _instrument({"K1": np.full(4, 1e-2 / _G0), "k_VI": np.full(4, 1e9)})
 
 
 def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
@@ -98,10 +84,4 @@ def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 
         name: values + amount * _UNCERTAINTY.get(name, 0.0) * rng.standard_normal(4)
         for name, values in instrument.accelerometers.items()
     }
-    return replace(instrument, **drawn)
-
-
-def k_ggi(instrument: Instrument) -> float:
-    """Scale factor of the gradiometer, sum of k_VI K1 R over the accelerometers, V per s^-2."""
-    k = instrument.accelerometers
-    return float(np.sum(k["k_VI"] * k["K1"] * (instrument.radius + k["dR"])))
+    return instrument.replace(**drawn)

@@ -165,7 +165,7 @@ class Recorded:
 
 @dataclass(frozen=True)
 class MotionState:
-    """Motion of the disc centre at N instants, all (3, N): a in m/s^2, omega in rad/s, omegadot in rad/s^2."""
+    """Motion of the disc centre, all (3, N): a in m/s^2, omega in rad/s, omegadot in rad/s^2."""
 
     a: Array
     omega: Array
@@ -174,7 +174,7 @@ class MotionState:
 
 @dataclass(frozen=True)
 class Motion:
-    """Specific force of the disc centre (f_cmm) and angular rate of the measurement frame, three signals each."""
+    """Specific force of the disc centre (f_cmm) and angular rate of the measurement frame, by axis."""
 
     a: tuple[Signal, Signal, Signal]
     omega: tuple[Signal, Signal, Signal]

@@ -10,14 +10,14 @@ from ragg_runtime.demodulate import demodulate, low_pass
 from ragg_runtime.errors import UserError
 from ragg_runtime.masses import Gradient
 from ragg_runtime.reference import disc_angle, simulate, still
-from ragg_runtime.reference.instruments import k_ggi, perfect
+from ragg_runtime.reference.instruments import perfect
 
 RATE = 16.0
 
 
 def _channels(tensor: object, a: tuple[float, float, float] = (0.15, -0.1, 1.0)):
     flight = simulate(perfect(), still(a=a), 300, RATE, gravity=Gradient(np.asarray(tensor) * 1e-9))
-    return demodulate(flight.G_out, disc_angle(0.25, flight.time), RATE, k_ggi(perfect()))
+    return demodulate(flight.G_out, disc_angle(0.25, flight.time), RATE, perfect().scale_factor)
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,11 @@ import pytest
 from scipy import stats
 from scipy.signal import welch
 
+from ragg_runtime.demodulate import demodulate
 from ragg_runtime.errors import UserError
 from ragg_runtime.noise import Noise, eotvos_noise
-from ragg_runtime.reference import simulate, still
-from ragg_runtime.reference.instruments import k_ggi, perfect
+from ragg_runtime.reference import disc_angle, simulate, still
+from ragg_runtime.reference.instruments import perfect
 
 RATE = 16.0
 MODELS = [Noise(omega_T=2e-14), Noise(1e-15, 1.0, 0.0), Noise(3e-16, 1.7, 1e-15), Noise(1e-15, 0.0, 1e-15)]
@@ -46,6 +47,14 @@ def test_variance_is_the_integral_of_the_density() -> None:
     assert np.mean(power) == pytest.approx(expected, abs=4 * np.std(power) / np.sqrt(len(power)))
 
 
+def test_even_a_single_sample_has_its_share_of_the_density() -> None:
+    # Its periodic record has two samples, so one line, at half the rate, of half a bin's width.
+    noise = Noise(1e-15, 1.0, 0.0)
+    rng = np.random.default_rng(12)
+    drawn = np.array([noise.sample(rng, 1, RATE)[0] for _ in range(20_000)])
+    assert np.var(drawn) == pytest.approx(noise.psd(RATE / 2) * RATE / 4, rel=0.05, abs=0)
+
+
 def test_white_noise_is_normal_with_half_the_rate_times_the_density() -> None:
     record = Noise(omega_T=4e-12).sample(np.random.default_rng(2), 50_000, RATE)
     assert stats.kstest(record / np.sqrt(4e-12 * RATE / 2), "norm").pvalue > 1e-3
@@ -71,14 +80,16 @@ def test_any_length_and_reproducible(size: int) -> None:
     assert np.all(np.isfinite(first))
 
 
-def test_noise_of_the_gradiometer_before_demodulation() -> None:
+def test_noise_of_the_demodulated_channels() -> None:
     density = 2e-9
-    flight = simulate(perfect(), still(), 3000, RATE, noise=eotvos_noise(density, 0.1), seed=4)
-    expected = k_ggi(perfect()) * density * np.sqrt(RATE / 2)
-    # 48 000 samples give a standard deviation to 0.3 %.
-    assert np.std(flight.G_out - flight.G_out_noise_free) == pytest.approx(expected, rel=0.015)
+    flight = simulate(perfect(), still(), 20_000, RATE, noise=eotvos_noise(density, 0.1), seed=4)
+    noise = flight.G_out - flight.G_out_noise_free
+    out = demodulate(noise, disc_angle(0.25, flight.time), RATE, perfect().scale_factor)
+    for channel, expected in ((out.cross, density), (out.inline, 2 * density)):
+        f, power = welch(channel, RATE, nperseg=4096)
+        assert np.sqrt(np.mean(power[(f > 0.01) & (f < 0.14)])) == pytest.approx(expected, rel=0.05)
     V = flight.voltages - flight.voltages_noise_free
-    assert np.max(np.abs(np.corrcoef(V) - np.eye(4))) < 0.02
+    assert np.max(np.abs(np.corrcoef(V) - np.eye(4))) < 0.01
 
 
 @pytest.mark.parametrize(("alpha", "b", "omega_T"), [(-1, 0, 0), (0, 5, 0), (0, -1, 0), (0, 0, np.nan)])

@@ -29,7 +29,7 @@ def test_plain_product_would_have_lost_the_angle() -> None:
 def test_nanosecond_shift_survives_a_long_time() -> None:
     shift = 1.234567e-9
     moved = disc_angle(0.25, np.array([0.0]), shift) - disc_angle(0.25, np.array([0.0]))
-    assert moved[0] == pytest.approx(-2 * np.pi * 0.25 * shift, rel=1e-12)
+    assert moved[0] == pytest.approx(-2 * np.pi * 0.25 * shift, rel=1e-12, abs=0)
     late = disc_angle(0.25, np.array([9e5 + 0.25]), shift) - disc_angle(0.25, np.array([9e5 + 0.25]))
     # What is left is the rounding of an angle near 0.4 rad, not that of a time near 1e6 s (1e-10 s).
     assert late[0] == pytest.approx(moved[0], abs=2e-16)

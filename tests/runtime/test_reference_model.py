@@ -10,7 +10,7 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.masses import Gradient
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, disc_angle, instants, simulate, still
 from ragg_runtime.reference.geometry import mount
-from ragg_runtime.reference.instruments import k_ggi, perfect, replace, table_v, trimmed
+from ragg_runtime.reference.instruments import perfect, table_v, trimmed
 from ragg_runtime.reference.rotation import about, by_vector, frame_rotation
 
 ARCSEC = np.pi / 180 / 3600
@@ -42,7 +42,7 @@ def test_perfect_instrument_sees_only_the_second_harmonic(rotations: str) -> Non
     T1 = (c["Gamma_xx"] - c["Gamma_yy"] + c["omega_y"] ** 2 - c["omega_x"] ** 2) / 2
     T2 = -c["Gamma_xy"] + c["omega_x"] * c["omega_y"]
     phi = disc_angle(0.25, flight.time)
-    expected = k_ggi(perfect()) * (T1 * np.sin(2 * phi) + T2 * np.cos(2 * phi))
+    expected = perfect().scale_factor * (T1 * np.sin(2 * phi) + T2 * np.cos(2 * phi))
     # Cancellation of voltages near 1e6 V leaves 1e-9 V, a millionth of an Eo.
     np.testing.assert_allclose(flight.G_out, expected, rtol=0, atol=3e-9)
     assert np.ptp(expected) > 1e-3
@@ -100,8 +100,8 @@ def test_rigid_rotation_against_positions_differentiated_in_an_inertial_frame() 
             for w, d in zip(omega, omegadot, strict=True)
         ),
     )
-    instrument = replace(
-        perfect(), dR=[0, 0.01, 0.02, 0.03], beta_x=[0.1, 0.2, -0.1, 0.3], beta_z=[0.2, -0.1, 0.05, 0.3]
+    instrument = perfect().replace(
+        dR=[0, 0.01, 0.02, 0.03], beta_x=[0.1, 0.2, -0.1, 0.3], beta_z=[0.2, -0.1, 0.05, 0.3]
     )
     measured = run(instrument, motion, duration=0.1, rotations="exact").voltages[:, 0] / (1e9 * 1e-2 / 9.8)
     for j, station in enumerate(np.deg2rad([0, 180, 90, 270])):
@@ -137,7 +137,7 @@ def test_first_order_geometry_is_the_printed_one() -> None:
 def test_first_order_rotations_approach_the_exact_ones_quadratically() -> None:
     def gap(scale: float) -> float:
         k = table_v().accelerometers
-        instrument = replace(trimmed(), **{name: scale * (k[name] + 5 * ARCSEC) for name in ANGLES})
+        instrument = trimmed().replace(**{name: scale * (k[name] + 5 * ARCSEC) for name in ANGLES})
         flights = [run(instrument, gravity=Gradient(GAMMA), rotations=r) for r in ("first-order", "exact")]
         return float(np.std(flights[0].G_out - flights[1].G_out))
 
@@ -171,7 +171,7 @@ def test_second_order_coefficients_multiply_their_axes(name: str, force: str) ->
     K = 1e-6
     motion = still(a=(f["o"], f["i"], -f["p"]))
     plain, bent = (
-        run(i, motion, 0.1).voltages[0, 0] for i in (perfect(), replace(perfect(), **{name: [K, 0, 0, 0]}))
+        run(i, motion, 0.1).voltages[0, 0] for i in (perfect(), perfect().replace(**{name: [K, 0, 0, 0]}))
     )
     assert (bent - plain) / (1e9 * 1e-2 / 9.8) == pytest.approx(K * f[force[0]] * f[force[1]], rel=1e-6)
 
@@ -189,20 +189,19 @@ def test_misalignment_and_bias_of_eq_3(name: str, value: float, expected: float)
     # f_i = f_x + f_y vartheta_z - f_z vartheta_y with f_y = a_x and f_z = -a_z for A1 at phi = 0.
     motion = still(a=(3.0, 2.0, 5.0))
     V = [
-        run(i, motion, 0.1).voltages[0, 0]
-        for i in (perfect(), replace(perfect(), **{name: [value, 0, 0, 0]}))
+        run(i, motion, 0.1).voltages[0, 0] for i in (perfect(), perfect().replace(**{name: [value, 0, 0, 0]}))
     ]
     assert (V[1] - V[0]) / (1e9 * 1e-2 / 9.8) == pytest.approx(expected, abs=1e-14)
 
 
 def test_altitude_dips_the_triad_and_lifts_the_position() -> None:
     # tau_z = -e_z - beta_x e_r: vartheta_y couples a radial force in; and r_z > 0 couples omegadot.
-    instrument = replace(perfect(), beta_x=[1e-3, 0, 0, 0], vartheta_y=[1e-2, 0, 0, 0])
+    instrument = perfect().replace(beta_x=[1e-3, 0, 0, 0], vartheta_y=[1e-2, 0, 0, 0])
     V = run(instrument, still(a=(1.0, 0.0, 0.0)), 0.1).voltages[0, 0] / (1e9 * 1e-2 / 9.8)
     assert pytest.approx(1e-2 * 1e-3, rel=1e-9) == V
     # f_y (tangential at phi = 0) of omegadot x r with r_z = R beta_x is omegadot_z r_x - omegadot_x r_z.
     rolling = Motion(still().a, (Sinusoids(0.0, [1.0], [0.1], [0.0]), Sinusoids(), Sinusoids()))
-    V = run(replace(perfect(), beta_x=[1e-3, 0, 0, 0]), rolling, 0.1).voltages[0, 0] / (1e9 * 1e-2 / 9.8)
+    V = run(perfect().replace(beta_x=[1e-3, 0, 0, 0]), rolling, 0.1).voltages[0, 0] / (1e9 * 1e-2 / 9.8)
     assert pytest.approx(-2 * np.pi * 0.1 * 0.1 * 1e-3, rel=1e-9) == V
 
 

@@ -1,0 +1,217 @@
+"""Random flights of random instruments: what the demonstration and the diagnosis benchmark fly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.masses import Gradient, Gravity
+from ragg_runtime.noise import Noise, eotvos_noise
+from ragg_runtime.reference.auxiliaries import plausible
+from ragg_runtime.reference.chain import Auxiliary
+from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
+from ragg_runtime.reference.motion import Motion, Signal, Sinusoids
+from ragg_runtime.reference.rotation import Rotations
+from ragg_runtime.reference.simulate import Simulation, simulate
+from ragg_runtime.reference.turbulence import SHAPES, turbulence
+
+if TYPE_CHECKING:
+    from ragg_runtime.instrument import Instrument
+
+Array = NDArray[np.float64]
+
+_MILLI_G = 9.8e-3
+_DEG_PER_HOUR = np.pi / 180 / 3600
+_EO = 1e-9
+
+LINEAR = ((15.0, 10.0), (15.0, 10.0), (100.0, 30.0))
+"""Mean and rms of a_x, a_y, a_z on a stabilised platform, mg."""
+
+ANGULAR = (100.0, 150.0)
+"""Mean and rms of each angular rate, deg/h."""
+
+BACKGROUND = (300.0, 120.0, 50.0, 200.0, -80.0, -500.0)
+"""Constant gradient xx, xy, xz, yy, yz, zz, Eo."""
+
+# One stream for each thing that is drawn, so that a change in one leaves the others.
+_INSTRUMENT, _MOTION, _AUXILIARY, _GEOLOGY = range(10, 14)
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A test sheet, a true instrument that differs from it, and a flight.
+
+    Attributes
+    ----------
+    sheet
+        What the model believes.
+    instrument
+        What flies.
+    motion, gravity, noise, auxiliaries, duration, rate, rotations
+        As in ``simulate``.
+    seed
+        From which all of it was drawn.
+    """
+
+    sheet: Instrument
+    instrument: Instrument
+    motion: Motion
+    gravity: Gravity
+    noise: Noise | None
+    auxiliaries: Mapping[str, Auxiliary]
+    duration: float
+    rate: float
+    rotations: Rotations
+    seed: int
+
+    def simulate(self, effects: EffectValues | None = None, *, record_gradient: bool = True) -> Simulation:
+        """Fly it, with hidden effects ``{id: {parameter: value or four values, SI}}``."""
+        return simulate(
+            self.instrument,
+            self.motion,
+            self.duration,
+            self.rate,
+            gravity=self.gravity,
+            record_gradient=record_gradient,
+            noise=self.noise,
+            rotations=self.rotations,
+            effects=effects,
+            seed=self.seed,
+            auxiliaries=self.auxiliaries,
+        )
+
+
+def draw_motion(
+    rng: np.random.Generator,
+    duration: float,
+    *,
+    shape: str | None = None,
+    bursts: float | None = None,
+    turbulence_scale: float = 1.0,
+) -> Motion:
+    """Turbulent motion of a stabilised platform: 10/10/30 mg about 15/15/100 mg, 150 about 100 deg/h.
+
+    Parameters
+    ----------
+    rng
+        Source of the random numbers.
+    duration
+        s.
+    shape, bursts
+        As in ``turbulence``; ``None`` draws one for each component, and up to 0.6 for the bursts.
+    turbulence_scale
+        Factor on the rms values.
+    """
+    intensity = rng.uniform(0, 0.6) if bursts is None else bursts
+
+    def component(mean: float, rms: float, unit: float) -> Signal:
+        return turbulence(
+            rng,
+            duration,
+            turbulence_scale * rms * unit,
+            mean=mean * unit,
+            shape=str(rng.choice(list(SHAPES))) if shape is None else shape,
+            bursts=intensity,
+        )
+
+    a_x, a_y, a_z = (component(mean, rms, _MILLI_G) for mean, rms in LINEAR)
+    omega_x, omega_y, omega_z = (component(*ANGULAR, _DEG_PER_HOUR) for _ in range(3))
+    return Motion((a_x, a_y, a_z), (omega_x, omega_y, omega_z))
+
+
+def draw_gradient(rng: np.random.Generator, rms: float = 0.0, terms: int = 6) -> Gradient:
+    """The constant background, and geology passing by with periods of one to ten minutes.
+
+    Parameters
+    ----------
+    rng
+        Source of the random numbers.
+    rms
+        Of each of the five independent components' variation, s^-2.
+    terms
+        Sinusoids for each component.
+    """
+    drawn = [
+        Sinusoids(
+            mean * _EO,
+            np.full(terms, rms * np.sqrt(2 / terms)),
+            1 / rng.uniform(60, 600, terms),
+            rng.uniform(0, 2 * np.pi, terms),
+        )
+        for mean in BACKGROUND[:5]
+    ]
+
+    def tensor(time: Array) -> Array:
+        xx, xy, xz, yy, yz = (signal.value(time) for signal in drawn)
+        return np.stack([xx, xy, xz, yy, yz, -(xx + yy)])
+
+    return Gradient(tensor)
+
+
+def scenario(
+    seed: int,
+    *,
+    trim: Literal["matched", "table-v"] = "matched",
+    duration: float = 1800.0,
+    rate: float = 16.0,
+    shape: str | None = None,
+    bursts: float | None = None,
+    turbulence_scale: float = 1.0,
+    perturbation: float = 1.0,
+    noise_density: float = 2e-9,
+    red_corner: float | None = None,
+    gradient_rms: float = 0.0,
+    rotations: Rotations = "first-order",
+) -> Scenario:
+    """Draw an instrument and a flight; equal arguments give equal flights.
+
+    Parameters
+    ----------
+    seed
+        Determines everything that is drawn.
+    trim
+        ``matched``: scale factors 10, 10.001, 10.0015, 10.002 mA/g; ``table-v``: 10, 11, 11.5, 12 mA/g.
+    duration, rate
+        s, Hz.
+    shape, bursts, turbulence_scale
+        Of the motion (``draw_motion``).
+    perturbation
+        How far the true parameters lie from the test sheet, in units of a test sheet's usual error.
+    noise_density
+        White noise of the demodulated cross channel, s^-2/sqrt(Hz); 0 is none.
+    red_corner
+        Frequency (Hz) below which 1/f noise exceeds the white; ``None``: no red noise.
+    gradient_rms
+        Variation of the gradient, s^-2.
+    rotations
+        As in ``simulate``.
+    """
+    if trim not in ("matched", "table-v"):
+        raise UserError("unknown trim", found=trim, expected="matched or table-v")
+    sheet = trimmed() if trim == "matched" else table_v()
+    white = eotvos_noise(noise_density, sheet.radius)
+    red = 0.0 if red_corner is None else white.omega_T * red_corner
+    return Scenario(
+        sheet=sheet,
+        instrument=perturbed(sheet, np.random.default_rng([seed, _INSTRUMENT]), perturbation),
+        motion=draw_motion(
+            np.random.default_rng([seed, _MOTION]),
+            duration,
+            shape=shape,
+            bursts=bursts,
+            turbulence_scale=turbulence_scale,
+        ),
+        gravity=draw_gradient(np.random.default_rng([seed, _GEOLOGY]), gradient_rms),
+        noise=None if noise_density == 0 else Noise(alpha=red, b=1.0, omega_T=white.omega_T),
+        auxiliaries=plausible(np.random.default_rng([seed, _AUXILIARY])),
+        duration=duration,
+        rate=rate,
+        rotations=rotations,
+        seed=seed,
+    )

@@ -1,0 +1,107 @@
+"""Random motion of an aircraft: continuous spectra of several shapes, steady or in bursts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft, next_fast_len, rfftfreq
+
+from ragg_runtime.errors import UserError, did_you_mean
+from ragg_runtime.reference.motion import Recorded
+
+Array = NDArray[np.float64]
+
+
+def _flat(f: Array) -> Array:
+    return np.ones_like(f)
+
+
+def _dryden(f: Array) -> Array:
+    return 1 / (1 + (f / 0.25) ** 2)
+
+
+def _kolmogorov(f: Array) -> Array:
+    return (0.03**2 + f**2) ** (-5 / 6)
+
+
+def _resonant(f: Array) -> Array:
+    """A broad floor with the phugoid-like and short-period peaks of a light aircraft."""
+    peaks = sum(a / (1 + ((f - f0) / width) ** 2) for a, f0, width in ((3.0, 0.12, 0.03), (2.0, 0.7, 0.12)))
+    return 0.2 + np.asarray(peaks)
+
+
+SHAPES: Mapping[str, Callable[[Array], Array]] = {
+    "flat": _flat,
+    "dryden": _dryden,
+    "kolmogorov": _kolmogorov,
+    "resonant": _resonant,
+}
+"""Power spectral density over frequency (Hz) below the cutoff, up to a factor."""
+
+_NODES_PER_CYCLE = 13
+_PAD = 10.0
+_BURST_FREQUENCY = 0.015
+
+
+def _gaussian(rng: np.random.Generator, size: int, rate: float, density: Callable[[Array], Array]) -> Array:
+    """A stationary Gaussian record of some power spectral density, unit variance on average."""
+    # Longer than needed, so that the end does not run into the beginning.
+    period = next_fast_len(size + int(60 * rate), real=True)
+    f = rfftfreq(period, 1 / rate)
+    amplitude = np.sqrt(density(f))
+    noise = rng.standard_normal(f.size) + 1j * rng.standard_normal(f.size)
+    record: Array = irfft(amplitude * noise, period)[:size]
+    record *= period / np.sqrt(4 * np.sum(amplitude**2))
+    return record
+
+
+def turbulence(
+    rng: np.random.Generator,
+    duration: float,
+    rms: float,
+    *,
+    mean: float = 0.0,
+    shape: str = "dryden",
+    cutoff: float = 1.2,
+    bursts: float = 0.0,
+    start: float = 0.0,
+) -> Recorded:
+    """One component of a random motion, smooth in time.
+
+    Parameters
+    ----------
+    rng
+        Source of the random numbers.
+    duration, start
+        Of the flight, s; the signal goes on for ten seconds at both ends.
+    rms, mean
+        Standard deviation and mean over the flight, which it meets exactly, SI.
+    shape
+        One of ``SHAPES``.
+    cutoff
+        Half-power frequency of the steep low-pass (48 dB an octave) that the platform is, Hz.
+    bursts
+        Standard deviation of the logarithm of a slowly varying intensity; 0 is stationary.
+
+    Raises
+    ------
+    UserError
+        On an unknown shape.
+    """
+    if shape not in SHAPES:
+        raise UserError(
+            f"unknown shape of turbulence {shape!r}",
+            expected=", ".join(SHAPES),
+            remedy=did_you_mean(shape, SHAPES),
+        )
+    rate = _NODES_PER_CYCLE * cutoff
+    nodes = start - _PAD + np.arange(int((duration + 2 * _PAD) * rate) + 2) / rate
+    record = _gaussian(rng, nodes.size, rate, lambda f: SHAPES[shape](f) / (1 + (f / cutoff) ** 16))
+    if bursts > 0:
+        slow = _gaussian(rng, nodes.size, rate, lambda f: 1 / (1 + (f / _BURST_FREQUENCY) ** 16))
+        record = record * np.exp(bursts * slow)
+    flight = (nodes >= start) & (nodes <= start + duration)
+    record = (record - record[flight].mean()) / record[flight].std()
+    return Recorded(nodes, mean + rms * record)

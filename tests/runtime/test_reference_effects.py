@@ -1,0 +1,515 @@
+"""Each injected effect against a formula worked by hand, and what it must leave alone.
+
+At phi = 0 the input, output and pendulous axes of A1 are +y, +x and -z of the measurement frame.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.masses import Gradient, PointMass
+from ragg_runtime.reference import CATALOGUE, Motion, Simulation, Sinusoids, simulate, still
+from ragg_runtime.reference.effects import resolve
+from ragg_runtime.reference.effects.force import third_order_tensor, vibration
+from ragg_runtime.reference.instruments import perfect, trimmed
+from ragg_runtime.reference.motion import recorded_motion
+
+RATE = 16.0
+GAIN = 1e9 * 1e-2 / 9.8
+GAMMA = Gradient(np.array([300, 120, 50, 200, -80, -500]) * 1e-9)
+AUXILIARIES = {
+    "temperature": lambda t: 293.15 + 0.5 + 1e-3 * t,
+    "roll": lambda t: 0.1 + 0 * t,
+    "pitch": lambda t: -0.2 + 0 * t,
+}
+
+
+def shaken() -> Motion:
+    rng = np.random.default_rng(8)
+    t = np.arange(-32, 32 * RATE) / RATE
+    smooth = np.cumsum(np.cumsum(rng.standard_normal((6, t.size)), axis=1), axis=1)
+    smooth = (smooth - np.linspace(0, 1, t.size) * smooth[:, -1:]) / np.std(smooth, axis=1, keepdims=True)
+    rapid = np.sin(2 * np.pi * np.outer([0.3, 0.5, 0.7, 0.35, 0.55, 0.75], t))
+    a = np.array([[0.15], [0.15], [1.0]]) + 0.1 * (smooth + rapid)[:3]
+    return recorded_motion(t, a, 5e-4 + 7e-4 * (smooth + rapid)[3:])
+
+
+SHAKEN = shaken()
+
+
+def run(effects=None, instrument=None, motion=SHAKEN, duration=20.0, **options) -> Simulation:
+    instrument = trimmed() if instrument is None else instrument
+    options = {"gravity": GAMMA, "auxiliaries": AUXILIARIES} | options
+    return simulate(instrument, motion, duration, RATE, effects=effects, **options)
+
+
+def force(effects, motion: Motion, instrument=None, **options) -> np.ndarray:
+    """Bracket of Eq. 52 of the four accelerometers in m/s^2, (4, N), effects minus none."""
+    instrument = perfect() if instrument is None else instrument
+    options = {"gravity": None, "duration": 0.25} | options
+    with_effect, without = (run(e, instrument, motion, **options).voltages for e in (effects, None))
+    return (with_effect - without) / GAIN
+
+
+PLAIN = run()
+SIZES = {
+    "1/(m/s^2)^2": 3e-8,
+    "1/(m/s^2)": 1e-7,
+    "1": 3e-6,
+    "s": 1e-6,
+    "(m/s^2)/(rad/s^2)": 1e-5,
+    "(m/s^2)/K": 1e-7,
+    "1/K": 1e-7,
+    "(m/s^2)/s": 1e-8,
+    "1/s": 1e-8,
+    "m/(m/s^2)": 1e-7,
+    "rad/(m/s^2)": 1e-6,
+    "rad": 1e-5,
+    "rad/s^0.5": 1e-6,
+    "m": 1e-3,
+    "1/s^2/rad": 1e-7,
+    "1/(m s^2)": 1e-7,
+    "(m/s^2)^2": 1e-2,
+    "V": 3.0,
+}
+RECORD_ONLY = {"time-offset", "imu-lever-arm", "imu-misalignment", "gyro-scale"}
+OUTPUT_ONLY = {"saturation", "quantisation"}
+PER_ACCELEROMETER = [
+    e for e, parameters in CATALOGUE.items() if any(p.per_accelerometer for p in parameters.values())
+]
+
+
+def _some(effect: str) -> dict[str, object]:
+    """Values at which every parameter of the effect acts, in A2 only where each accelerometer has its own."""
+    values: dict[str, object] = {}
+    for name, parameter in CATALOGUE[effect].items():
+        size = SIZES[parameter.unit]
+        values[name] = [0, size, 0, 0] if parameter.per_accelerometer else size
+    if effect == "vibration-rectification":
+        values |= {"P_xy": 0.0, "P_xz": 0.0, "P_yz": 1e-3}
+    return values
+
+
+@pytest.mark.parametrize("effect", CATALOGUE)
+def test_neutral_values_change_nothing_bit_for_bit(effect: str) -> None:
+    neutral = {name: parameter.neutral for name, parameter in CATALOGUE[effect].items()}
+    flight = run({effect: neutral})
+    np.testing.assert_array_equal(flight.voltages, PLAIN.voltages)
+    np.testing.assert_array_equal(flight.G_out, PLAIN.G_out)
+    for name, values in PLAIN.channels.items():
+        np.testing.assert_array_equal(flight.channels[name], values, err_msg=name)
+
+
+@pytest.mark.parametrize("effect", CATALOGUE)
+def test_an_effect_changes_either_the_truth_or_the_record(effect: str) -> None:
+    flight = run({effect: _some(effect)})
+    same_voltages = np.array_equal(flight.voltages, PLAIN.voltages)
+    same_record = all(np.array_equal(flight.channels[name], v) for name, v in PLAIN.channels.items())
+    assert same_record == (effect not in RECORD_ONLY)
+    assert same_voltages == (effect in RECORD_ONLY | OUTPUT_ONLY)
+    assert np.array_equal(flight.G_out, PLAIN.G_out) == (effect in RECORD_ONLY)
+
+
+@pytest.mark.parametrize("effect", PER_ACCELEROMETER)
+def test_an_accelerometer_s_own_effect_leaves_the_others_alone(effect: str) -> None:
+    flight = run({effect: _some(effect)})
+    assert not np.array_equal(flight.voltages[1], PLAIN.voltages[1])
+    np.testing.assert_array_equal(flight.voltages[[0, 2, 3]], PLAIN.voltages[[0, 2, 3]])
+
+
+def test_several_effects_at_once() -> None:
+    cubic = {"cubic-input": {"K_iii": [3e-8, 0, 0, 0]}}
+    drift = {"bias-drift": {"dK0_dt": [0, 0, 1e-8, 0]}}
+    lever = {"imu-lever-arm": {"l_x": 2e-3}}
+    together = run(cubic | drift | lever)
+    np.testing.assert_array_equal(together.voltages[0], run(cubic).voltages[0])
+    np.testing.assert_array_equal(together.voltages[2], run(drift).voltages[2])
+    np.testing.assert_array_equal(together.channels["a_y"], run(lever).channels["a_y"])
+
+
+def test_noise_does_not_change_with_the_effects() -> None:
+    from ragg_runtime.noise import Noise
+
+    noise = Noise(omega_T=1e-18)
+    plain = run(noise=noise, seed=3)
+    jittery = run(
+        {"spin-rate-jitter": {"sigma_phi": 1e-6}, "bias-drift": {"dK0_dt": 1e-8}}, noise=noise, seed=3
+    )
+    np.testing.assert_allclose(
+        jittery.voltages - jittery.voltages_noise_free, plain.voltages - plain.voltages_noise_free, atol=1e-9
+    )
+
+
+# --- transducer ---
+
+
+def test_cubic_input() -> None:
+    change = force({"cubic-input": {"K_iii": [1e-6, 0, 0, 0]}}, still(a=(3.0, 2.0, 5.0)))
+    assert change[0, 0] == pytest.approx(1e-6 * 2.0**3, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", CATALOGUE["cubic-cross"])
+def test_cubic_cross(name: str) -> None:
+    f = {"i": 2.0, "o": 3.0, "p": -5.0}
+    change = force({"cubic-cross": {name: [1e-6, 0, 0, 0]}}, still(a=(f["o"], f["i"], -f["p"])))
+    expected = np.prod([f[axis] for axis in name.removeprefix("K_")])
+    assert change[0, 0] == pytest.approx(1e-6 * expected, rel=1e-6)
+
+
+def test_cubic_terms_act_along_the_measured_axes() -> None:
+    tilted = perfect().replace(vartheta_z=[1e-2, 0, 0, 0])
+    change = force({"cubic-input": {"K_iii": [1e-6, 0, 0, 0]}}, still(a=(3.0, 2.0, 0.0)), tilted)
+    assert change[0, 0] == pytest.approx(1e-6 * (2.0 + 3.0 * 1e-2) ** 3, rel=1e-6)
+
+
+def test_odd_quadratic() -> None:
+    change = force({"odd-quadratic": {"K_oq": [1e-6, 1e-6, 0, 0]}}, still(a=(0.0, 2.0, 0.0)))
+    assert change[:2, 0] == pytest.approx([4e-6, -4e-6], rel=1e-6)
+
+
+@pytest.mark.parametrize(("kappa", "along"), [(0.0, 3.0), (1.0, 3.0 - 2.0 * 1e-2), (0.5, 3.0 - 1.0 * 1e-2)])
+def test_second_order_misalignment(kappa: float, along: float) -> None:
+    # K5 f_y^2 of Eq. 5 becomes K5 f_o^2 with f_o = f_y - f_x vartheta_z (Eq. 3).
+    tilted = perfect().replace(vartheta_z=[1e-2, 0, 0, 0])
+    bent = tilted.replace(K5=[1e-6, 0, 0, 0])
+    effects = {"second-order-misalignment": {"kappa": kappa}}
+    motion = still(a=(3.0, 2.0, 0.0))
+    V = [run(effects, i, motion, 0.25, gravity=None).voltages[0, 0] for i in (tilted, bent)]
+    assert (V[1] - V[0]) / GAIN == pytest.approx(1e-6 * along**2, rel=1e-6)
+
+
+@pytest.mark.parametrize("tau", [1e-9, 1e-7, 1e-5, 1e-3, 1e-2, 0.03])
+def test_lag_is_the_exact_first_order_filter(tau: float) -> None:
+    # A horizontal force at 2.2 Hz is seen by A1 at 1.95 and 2.45 Hz: filter each line exactly.
+    amplitude, f = 2.0, 2.2
+    motion = Motion((Sinusoids(0.3, [amplitude], [f], [0.4]), Sinusoids(), Sinusoids()), still().omega)
+    flight = run({"lag": {"tau": [tau, 0, 0, tau]}}, perfect(), motion, 60.0, gravity=None, start=1000.0)
+    t = flight.time
+    # -(0.3 + A sin(wt + 0.4)) sin(Wt), as complex lines.
+    lines = [(0.25, 0.3j)]
+    for sign in (1, -1):
+        lines.append((f + sign * 0.25, sign * 0.5 * amplitude * np.exp(0.4j)))
+    filtered = sum(np.real(c * np.exp(2j * np.pi * nu * t) / (1 + 2j * np.pi * nu * tau)) for nu, c in lines)
+    plain = sum(np.real(c * np.exp(2j * np.pi * nu * t)) for nu, c in lines)
+    np.testing.assert_allclose(flight.voltages[0] / GAIN, filtered, rtol=0, atol=2e-10)
+    # Even a nanosecond's effect itself is right to a millionth, as far as doubles resolve it.
+    change = (
+        flight.voltages[0] - run(None, perfect(), motion, 60.0, gravity=None, start=1000.0).voltages[0]
+    ) / GAIN
+    size = np.max(np.abs(filtered - plain))
+    np.testing.assert_allclose(change, filtered - plain, rtol=0, atol=1e-6 * size + 2e-15)
+
+
+def test_lag_out_of_range_is_refused() -> None:
+    for tau in (-1e-9, 0.5):
+        with pytest.raises(UserError, match="lag"):
+            run({"lag": {"tau": tau}})
+
+
+def test_pendulum_angular() -> None:
+    motion = Motion(
+        still().a, (Sinusoids(0.0, [0.1], [0.1], [0.0]), Sinusoids(0.0, [0.3], [0.1], [0.0]), Sinusoids())
+    )
+    change = force({"pendulum-angular": {"K_pa": [1e-5, 1e-5, 1e-5, 0]}}, motion)
+    # The radial axes of A1, A2, A3 are +x, -x, +y; omegadot = 2 pi 0.1 (0.1, 0.3, 0).
+    expected = 1e-5 * 2 * np.pi * 0.1 * np.array([0.1, -0.1, 0.3, 0.0])
+    np.testing.assert_allclose(change[:, 0], expected, rtol=1e-6, atol=1e-16)
+
+
+def test_bias_and_scale_with_temperature_and_time() -> None:
+    motion = still(a=(0.0, 2.0, 0.0))
+    options = {"start": 100.0, "instrument": perfect().replace(K0=np.full(4, 1e-3))}
+    warm = 0.5 + 1e-3 * 100
+    bracket = np.array([2.0, -2.0]) + 1e-3
+    for effect, expected in [
+        ({"thermal-bias": {"dK0_dT": 1e-5}}, 1e-5 * warm * np.ones(2)),
+        ({"thermal-scale": {"dK1_dT": 1e-5}}, 1e-5 * warm * bracket),
+        ({"bias-drift": {"dK0_dt": 1e-7}}, 1e-7 * 100 * np.ones(2)),
+        ({"gain-drift": {"dK1_dt": 1e-7}}, 1e-7 * 100 * bracket),
+    ]:
+        change = force(effect, motion, **options)
+        np.testing.assert_allclose(change[:2, 0], expected, rtol=1e-8)
+
+
+def test_gain_step_jumps_at_its_instant() -> None:
+    change = force(
+        {"gain-step": {"dK1": [1e-4, 0, 0, 0], "t_step": 5.0}},
+        still(a=(0, 0, 1.0)),
+        perfect().replace(K0=np.ones(4)),
+        duration=10.0,
+    )
+    np.testing.assert_array_equal(change[0, :80], 0.0)
+    np.testing.assert_allclose(change[0, 80:], 1e-4, rtol=1e-9)
+
+
+# --- geometry ---
+
+
+def test_arm_stretch_is_in_equilibrium_with_its_own_force() -> None:
+    # f_y = a_x - omega_z^2 R with R = R0 + c f_y; f_x = omegadot_z R.
+    omega, omegadot, c, a = 0.2, 2 * np.pi * 0.1, 1e-2, 3.0
+    motion = Motion(still(a=(a, 0, 0)).a, (Sinusoids(), Sinusoids(), Sinusoids(omega, [1.0], [0.1], [0.0])))
+    change = force({"arm-stretch": {"c_r": [c, 0, 0, 0]}}, motion)
+    R = (0.1 + c * a) / (1 + c * omega**2)
+    assert change[0, 0] == pytest.approx(omegadot * (R - 0.1), rel=1e-9)
+
+
+def test_arm_sag_follows_the_downward_axis() -> None:
+    motion = Motion(still(a=(0, 0, 9.8)).a, (Sinusoids(), Sinusoids(), Sinusoids(0.0, [1.0], [0.1], [0.0])))
+    change = force({"arm-sag": {"c_z": [1e-6, 0, 0, 0]}}, motion)
+    assert change[0, 0] == pytest.approx(-1e-6 * 9.8 * 2 * np.pi * 0.1, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", CATALOGUE["mount-compliance"])
+def test_mount_compliance(name: str) -> None:
+    # f_x, f_y, f_z = a_y, a_x, -a_z; f_i = f_x + f_y vartheta_z - f_z vartheta_y.
+    f = {"x": 2.0, "y": 3.0, "z": -5.0}
+    change = force({"mount-compliance": {name: [1e-6, 0, 0, 0]}}, still(a=(f["y"], f["x"], -f["z"])))
+    bend = 1e-6 * f[name[3]]
+    assert change[0, 0] == pytest.approx(bend * f["y"] if name[2] == "z" else -bend * f["z"], rel=1e-6)
+
+
+def test_spin_axis_tilt_turns_the_whole_disc() -> None:
+    # A disc turned by alpha in a force a feels what an upright disc feels in the force turned back.
+    alpha, a = np.array([0.02, -0.03, 0.0]), np.array([1.0, 2.0, 9.8])
+    tilted = run(
+        {"spin-axis-tilt": {"alpha_x": alpha[0], "alpha_y": alpha[1]}}, motion=still(a=a), gravity=None
+    )
+    upright = run(motion=still(a=Rotation.from_rotvec(alpha).inv().apply(a)), gravity=None)
+    np.testing.assert_allclose(tilted.voltages, upright.voltages, rtol=0, atol=1e-8)
+    # To first order the input axis of A1 at phi = 0 rises by alpha_x.
+    assert force({"spin-axis-tilt": {"alpha_x": 1e-6}}, still(a=(0, 0, 9.8)))[0, 0] == pytest.approx(9.8e-6)
+
+
+def test_spin_axis_wobble_turns_with_the_disc() -> None:
+    change = force({"spin-axis-wobble": {"w_x": 1e-6}}, still(a=(0, 0, 9.8)), duration=8.0)
+    expected = np.array([9.8e-6, -9.8e-6, 0.0, 0.0])
+    np.testing.assert_allclose(change, np.repeat(expected[:, None], 128, axis=1), atol=1e-13)
+    # Turning the disc by w in its own frame is a steady lean of every mount.
+    change = force({"spin-axis-wobble": {"w_y": 1e-6}}, still(a=(0, 0, 9.8)), duration=8.0)
+    np.testing.assert_allclose(change[:, ::7], np.outer([0, 0, 9.8e-6, -9.8e-6], np.ones(19)), atol=1e-13)
+
+
+def test_spin_phase_offset_is_an_earlier_start() -> None:
+    motion = still(a=(1.0, 2.0, 9.8), omega=(1e-3, 2e-3, 0))
+    late = run({"spin-phase-offset": {"phi_0": 2 * np.pi * 0.25 * 0.1}}, motion=motion)
+    early = run(motion=motion, start=0.1)
+    np.testing.assert_allclose(late.voltages, early.voltages, rtol=0, atol=1e-7)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 4])
+def test_encoder_harmonic(n: int) -> None:
+    # A1 alone in a force along x measures -sin phi.
+    flight = run(
+        {"encoder-harmonic": {f"c_{n}": 1e-3, f"s_{n}": 2e-3}},
+        perfect(),
+        still(a=(1.0, 0, 0)),
+        8.0,
+        gravity=None,
+    )
+    phi = 2 * np.pi * 0.25 * flight.time
+    actual = phi + 1e-3 * np.cos(n * phi) + 2e-3 * np.sin(n * phi)
+    np.testing.assert_allclose(flight.voltages[0] / GAIN, -np.sin(actual), atol=1e-12)
+
+
+def test_spin_rate_jitter_has_its_statistics() -> None:
+    def angle_error(**sigma: float) -> np.ndarray:
+        flight = run({"spin-rate-jitter": sigma}, perfect(), still(a=(1.0, 0, 0)), 2000.0, gravity=None)
+        # A1 measures -sin phi, A3 measures -cos phi.
+        phi = np.unwrap(np.arctan2(-flight.voltages[0], -flight.voltages[2]))
+        error = phi - 2 * np.pi * 0.25 * flight.time
+        return error - 2 * np.pi * np.rint(error[0] / (2 * np.pi))
+
+    white = angle_error(sigma_phi=1e-3)
+    assert np.std(white) == pytest.approx(1e-3, rel=0.03)
+    assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.03
+    walk = angle_error(sigma_walk=1e-4)
+    assert walk[0] == pytest.approx(0, abs=1e-12)
+    assert np.std(np.diff(walk)) == pytest.approx(1e-4 / np.sqrt(RATE), rel=0.03)
+    assert np.std(walk[16000:] - walk[:-16000]) > 5 * np.std(np.diff(walk))
+
+
+# --- sensing ---
+
+
+def test_time_offset_of_the_record() -> None:
+    # The true motion at t stands in the record at t + delta_t.
+    delta = 2 / RATE
+    flight = run({"time-offset": {"delta_t": delta}})
+    for name in ("a_x", "omega_y", "omegadot_z"):
+        np.testing.assert_allclose(flight.channels[name][2:], PLAIN.channels[name][:-2], rtol=0, atol=1e-12)
+
+
+def test_imu_lever_arm() -> None:
+    omega, omegadot = 0.3, 2 * np.pi * 0.1
+    motion = Motion(still(a=(1, 2, 3)).a, (Sinusoids(), Sinusoids(), Sinusoids(omega, [1.0], [0.1], [0.0])))
+    flight = run({"imu-lever-arm": {"l_x": 0.5, "l_z": 7.0}}, motion=motion)
+    recorded = [flight.channels[f"a_{axis}"][0] for axis in "xyz"]
+    assert recorded == pytest.approx([1 - omega**2 * 0.5, 2 + omegadot * 0.5, 3])
+
+
+def test_imu_misalignment_turns_every_recorded_vector() -> None:
+    e = np.array([0.01, -0.02, 0.03])
+    flight = run({"imu-misalignment": dict(zip(("e_x", "e_y", "e_z"), e, strict=True))})
+    for quantity in ("a", "omega", "omegadot"):
+        true, recorded = (np.stack([f.channels[f"{quantity}_{k}"] for k in "xyz"]) for f in (PLAIN, flight))
+        back = Rotation.from_rotvec(e).apply(recorded.T).T
+        np.testing.assert_allclose(back, true, rtol=0, atol=1e-15)
+        first_order = true - np.cross(e, true, axis=0)
+        np.testing.assert_allclose(recorded, first_order, atol=0.001 * np.abs(true).max())
+
+
+def test_gyro_scale() -> None:
+    flight = run({"gyro-scale": {"s_x": 1e-3, "s_z": -2e-3}})
+    for quantity, (axis, s) in itertools.product(
+        ("omega", "omegadot"), zip("xyz", (1e-3, 0, -2e-3), strict=True)
+    ):
+        name = f"{quantity}_{axis}"
+        np.testing.assert_allclose(flight.channels[name], (1 + s) * PLAIN.channels[name], rtol=1e-15)
+
+
+def test_recorded_acceleration_stays_the_derivative_of_the_recorded_rate() -> None:
+    motion = Motion(still().a, tuple(Sinusoids(1e-3, [1e-3], [f], [0.3]) for f in (0.1, 0.15, 0.2)))
+    effects = {
+        "time-offset": {"delta_t": 0.013},
+        "imu-misalignment": {"e_x": 0.02, "e_z": 0.05},
+        "gyro-scale": {"s_y": 0.02},
+    }
+    channels = run(effects, motion=motion).channels
+    for axis in "xyz":
+        w = channels[f"omega_{axis}"]
+        slope = (8 * (w[3:-1] - w[1:-3]) - (w[4:] - w[:-4])) * RATE / 12
+        np.testing.assert_allclose(
+            channels[f"omegadot_{axis}"][2:-2], slope, rtol=0, atol=1e-3 * np.std(slope)
+        )
+
+
+# --- specific force ---
+
+
+def test_self_gradient_is_a_gradient_that_turns() -> None:
+    roll, pitch = np.array([5, 3, 2, -1, 4]) * 1e-6, np.array([1, -2, 6, 2, 1]) * 1e-6
+    names = ("xx", "xy", "xz", "yy", "yz")
+    values = {f"G_{c}_roll": v for c, v in zip(names, roll, strict=True)}
+    values |= {f"G_{c}_pitch": v for c, v in zip(names, pitch, strict=True)}
+    five = roll * np.sin(0.1) + pitch * np.sin(-0.2)
+    there = Gradient(np.append(five, -(five[0] + five[3])))
+    hidden = run({"self-gradient": values}, gravity=None)
+    shown = run(gravity=there)
+    np.testing.assert_allclose(hidden.voltages, shown.voltages, rtol=0, atol=1e-9)
+    assert np.all(hidden.channels["Gamma_xx"] == 0)
+
+
+def test_near_mass_is_what_newton_adds_to_the_gradient() -> None:
+    site = np.array([1.5, -1.0, 0.8])
+    mass = PointMass(2000.0, site)
+    h = 1e-4
+    # Third-order tensor from differences of the gradient over shifted masses.
+    index = {"xx": 0, "xy": 1, "xz": 2, "yy": 3, "yz": 4}
+
+    def slope(component: str, axis: int) -> float:
+        step = h * np.eye(3)[axis]
+        up, down = (
+            PointMass(2000.0, site - s).gradient(np.zeros(1))[index[component], 0] for s in (step, -step)
+        )
+        return (up - down) / (2 * h)
+
+    T = {
+        f"T_{c}": slope("".join(sorted(c[:2])), "xyz".index(c[2]))
+        for c in ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
+    }
+    linear = Gradient(mass.gradient(np.zeros(1))[:, 0])
+    newton, flat, third = (
+        run(e, perfect(), still(), 4.0, gravity=g).voltages
+        for e, g in ((None, mass), (None, linear), ({"near-mass": T}, linear))
+    )
+    assert np.max(np.abs(third - newton)) < 0.07 * np.max(np.abs(flat - newton))
+    tensor = third_order_tensor(resolve({"near-mass": T})["near-mass"])
+    np.testing.assert_allclose(np.einsum("iij->j", tensor), 0, atol=1e-22)
+    np.testing.assert_allclose(np.einsum("ijj->i", tensor), 0, atol=1e-22)
+
+
+def test_vibration_rectification_closed_form() -> None:
+    P = {"P_xx": 2e-2, "P_xy": 3e-3, "P_xz": -1e-3, "P_yy": 1e-2, "P_yz": 4e-3, "P_zz": 5e-2}
+    # <f_i^2> = P_yy, <f_o^2> = P_xx, <f_p^2> = P_zz, <f_i f_p> = -P_yz, <f_i f_o> = P_xy, <f_o f_p> = -P_xz.
+    expected = {
+        "K2": P["P_yy"],
+        "K5": P["P_xx"],
+        "K7": P["P_zz"],
+        "K4": -P["P_yz"],
+        "K6": P["P_xy"],
+        "K8": -P["P_xz"],
+    }
+    for name, moment in expected.items():
+        bent = perfect().replace(**{name: [1e-4, 0, 0, 0]})
+        change = force({"vibration-rectification": P}, still(a=(0.3, 0.2, 0.1)), bent)
+        assert change[0, 0] == pytest.approx(1e-4 * moment, rel=1e-6)
+    assert np.max(np.abs(force({"vibration-rectification": P}, still(a=(0.3, 0.2, 0.1))))) < 1e-14
+
+
+def test_vibration_also_rectifies_what_other_effects_bend() -> None:
+    # <(f + v)^3> = f^3 + 3 f <v^2>.
+    shake = {"vibration-rectification": {"P_yy": 1e-2}}
+    cubic = {"cubic-input": {"K_iii": [1e-4, 0, 0, 0]}}
+    change = force(shake | cubic, still(a=(0, 2.0, 0)))
+    assert change[0, 0] == pytest.approx(1e-4 * (8 + 3 * 2.0 * 1e-2), rel=1e-9)
+
+
+def test_vibration_instances_have_the_covariance() -> None:
+    P = {"P_xx": 2.0, "P_xy": 0.3, "P_xz": -0.1, "P_yy": 1.0, "P_yz": 0.4, "P_zz": 5.0}
+    draws = vibration(resolve({"vibration-rectification": P}))
+    second = sum(w * v @ v.T for v, w in draws)
+    np.testing.assert_allclose(second, [[2, 0.3, -0.1], [0.3, 1, 0.4], [-0.1, 0.4, 5]], atol=1e-14)
+    assert sum(w for _, w in draws) == pytest.approx(1)
+    one = vibration(resolve({"vibration-rectification": {"P_xx": 4.0}}))
+    assert len(one) == 3
+
+
+# --- output ---
+
+
+def test_saturation_and_quantisation() -> None:
+    limit = float(np.quantile(np.abs(PLAIN.G_out), 0.7))
+    clipped = run({"saturation": {"V_max": limit}}).G_out
+    inside = np.abs(PLAIN.G_out) <= limit
+    np.testing.assert_array_equal(clipped[inside], PLAIN.G_out[inside])
+    np.testing.assert_array_equal(clipped[~inside], np.copysign(limit, PLAIN.G_out[~inside]))
+    rounded = run({"quantisation": {"q": 0.5}}).G_out
+    np.testing.assert_array_equal(rounded, 0.5 * np.round(rounded / 0.5))
+    assert 0.2 < np.max(np.abs(rounded - PLAIN.G_out)) <= 0.25
+
+
+# --- bad input ---
+
+
+@pytest.mark.parametrize(
+    ("effects", "message"),
+    [
+        ({"cubic-inputs": {}}, "did you mean 'cubic-input'"),
+        ({"lag": {"tua": 1.0}}, "did you mean 'tau'"),
+        ({"lag": {"tau": [1, 2, 3]}}, "four numbers"),
+        ({"lag": {"tau": "soon"}}, "four numbers"),
+        ({"time-offset": {"delta_t": [1, 2]}}, "one number in s"),
+        ({"time-offset": {"delta_t": np.nan}}, "one number in s"),
+        ({"vibration-rectification": {"P_xx": 1.0, "P_xy": 2.0}}, "positive semidefinite"),
+        ({"saturation": {"V_max": -1.0}}, "positive"),
+        ({"quantisation": {"q": -1.0}}, "negative"),
+    ],
+)
+def test_bad_effects_are_refused(effects: dict, message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        run(effects)
+
+
+def test_missing_auxiliary_channel_is_named() -> None:
+    only_roll = {"roll": AUXILIARIES["roll"]}
+    with pytest.raises(UserError, match="temperature"):
+        run({"thermal-bias": {"dK0_dT": 1e-6}}, auxiliaries=only_roll)
+    with pytest.raises(UserError, match="pitch"):
+        run({"self-gradient": {"G_xx_pitch": 1e-6}}, auxiliaries=only_roll)
+    run({"self-gradient": {"G_xx_roll": 1e-6}}, auxiliaries=only_roll)
