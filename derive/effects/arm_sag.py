@@ -1,0 +1,33 @@
+"""Radius proportional to the axial specific force."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    assert c.force is not None
+    return {"dR": k["dR"] + p.c_z * c.force.z}
+
+
+EFFECT = Effect(
+    id="arm-sag",
+    title="Sag of the arm",
+    physics=(
+        "The disc sags under the specific force along the spin axis; the bending shortens or lengthens the "
+        "distance of the accelerometer from the centre."
+    ),
+    source="linear elasticity of the disc",
+    equation=r"R_j \leftarrow R_j + c_z f_z",
+    limits="Static and linear; f_z is along tau_z, which points down. Its tilt is mount-compliance.",
+    parameters=(EffectParameter("c_z", "c_z", "um/g", "lengthening per axial specific force", 0.1),),
+    instrument=instrument,
+)

@@ -1,0 +1,29 @@
+"""Null bias linear in time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"K0": k["K0"] + p.dK0_dt * c.time}
+
+
+EFFECT = Effect(
+    id="bias-drift",
+    title="Drift of the null bias",
+    physics="Stress in the hinge and charge on the pick-off relax after switch-on: the null bias creeps.",
+    source="IEEE Std 1293, bias stability",
+    equation=r"K_0 \leftarrow K_0 + \partial_t K_0\, t",
+    limits="Linear over the record, from the instant 0 of its time column (another one is absorbed by K0).",
+    parameters=(EffectParameter("dK0_dt", r"\partial_t K_0", "ug/s", "rate of the null bias", 1e-4),),
+    instrument=instrument,
+)

@@ -1,0 +1,31 @@
+"""Scale factor linear in time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"K1": k["K1"] * (1 + p.dK1_dt * c.time)}
+
+
+EFFECT = Effect(
+    id="gain-drift",
+    title="Drift of the scale factor",
+    physics="Magnet, sense resistor and converter age or warm: the scale factor creeps.",
+    source="IEEE Std 1293, scale-factor stability",
+    equation=r"K_1 \leftarrow K_1 (1 + \partial_t K_1\, t)",
+    limits="Linear over the record, from the instant 0 of its time column (another one is absorbed by K1).",
+    parameters=(
+        EffectParameter("dK1_dt", r"\partial_t K_1", "1/s", "relative rate of the scale factor", 1e-9),
+    ),
+    instrument=instrument,
+)

@@ -1,0 +1,44 @@
+"""Null bias proportional to the magnetic field along the input axis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import SensedForce
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+FIELD = ("B_x", "B_y", "B_z")
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    assert c.geometry is not None
+    B = sp.Matrix([c.channel(name) for name in FIELD])
+    return i + p.dK0_dB * B.dot(c.geometry.tau[0, :])
+
+
+EFFECT = Effect(
+    id="magnetic-bias",
+    title="Magnetic sensitivity of the null bias",
+    physics=(
+        "A residual magnetic moment of the pendulum is turned by the ambient field. The input axis turns "
+        "with the disc, so that a steady field looks like a horizontal specific force."
+    ),
+    source="IEEE Std 1293, magnetic sensitivity of the bias",
+    equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{jx}",
+    limits=(
+        "Linear, in the field of the measurement frame at the disc centre, along the nominal input axis; the "
+        "field along the spin axis, which does not turn, and field of the drive itself are left out."
+    ),
+    channels=FIELD,
+    parameters=(
+        EffectParameter(
+            "dK0_dB", r"\partial_B K_0", "ug/mT", "bias per magnetic flux density along the input axis", 10.0
+        ),
+    ),
+    transducer=transducer,
+)

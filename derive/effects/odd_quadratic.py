@@ -1,0 +1,32 @@
+"""Scale factor that differs between the two senses of the input force."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import SensedForce
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    return i + p.K_oq * f.i * sp.Abs(f.i)
+
+
+EFFECT = Effect(
+    id="odd-quadratic",
+    title="Odd quadratic nonlinearity",
+    physics=(
+        "The torquer's flux changes with the current through it, oppositely for the two senses: a term of "
+        "second order that keeps the sign of the force."
+    ),
+    source="IEEE Std 1293, odd quadratic coefficient of the model equation",
+    equation=r"I_j/K_{j1} \mathrel{+}= K_{oq} f_i |f_i|",
+    limits="f_i is the recorded force: vibration that the record does not hold is not rectified here.",
+    parameters=(EffectParameter("K_oq", "K_{oq}", "ug/g^2", "coefficient of f_i |f_i|", 5.0),),
+    transducer=transducer,
+)

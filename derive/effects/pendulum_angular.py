@@ -1,0 +1,39 @@
+"""Output proportional to angular acceleration about the radial axis."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import SensedForce
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    assert c.geometry is not None
+    return i + p.K_pa * c.motion.omegadot.dot(c.geometry.tau[1, :])
+
+
+EFFECT = Effect(
+    id="pendulum-angular",
+    title="Sensitivity to angular acceleration",
+    physics=(
+        "The proof mass is a pendulum about the output axis, which lies along the radius: angular "
+        "acceleration of its case about that axis has to be balanced like a force."
+    ),
+    source="IEEE Std 1293, angular-acceleration sensitivity of a pendulous accelerometer",
+    equation=r"I_j/K_{j1} \mathrel{+}= K_{pa}\, \dot{\bm\omega}_{im} \cdot \bm\tau_{jy}",
+    limits=(
+        "Angular acceleration of the measurement frame, as in Eq. 9; what the spin adds to that of the case "
+        "(omega x Omega) is left out. It shifts the effective position of the accelerometer along z by "
+        "-K_pa in the omegadot terms, so that beta_x absorbs it but for omega^2 and the gradient."
+    ),
+    parameters=(
+        EffectParameter("K_pa", "K_{pa}", "ug/(rad/s^2)", "bias per angular acceleration about tau_y", 10.0),
+    ),
+    transducer=transducer,
+)

@@ -1,0 +1,56 @@
+"""Gradient of the platform's own masses as it turns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+ATTITUDE = ("roll", "pitch")
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    own = sp.zeros(3)
+    for angle in ATTITUDE:
+        xx, xy, xz, yy, yz = (p[f"G_{k}_{angle}"] for k in COMPONENTS)
+        # Outside the masses the gradient is free of trace.
+        own += sp.sin(c.channel(angle)) * sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]])
+    return m._replace(Gamma=m.Gamma + own)
+
+
+EFFECT = Effect(
+    id="self-gradient",
+    title="Self-gradient of the platform",
+    physics=(
+        "The stabilised instrument sees the masses of aircraft and gimbals move around it as the carrier "
+        "rolls and pitches; their gravity gradient changes with the attitude."
+    ),
+    source="self-gradient modelling of airborne gradiometers (paper, Section I: self-gradient modeling)",
+    equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G_{roll} \sin(roll) + \bm G_{pitch} \sin(pitch)",
+    limits=(
+        "First harmonic of small attitude angles. Parts that move with the instrument are constant and no "
+        "effect; fuel burn is not covered. Without pitch in the record its five values are left out."
+    ),
+    channels=("roll",),
+    parameters=tuple(
+        EffectParameter(
+            f"G_{k}_{angle}",
+            rf"G_{{{k},\mathrm{{{angle}}}}}",
+            "Eo/rad",
+            f"gradient {k} per sine of {angle}",
+            100.0,
+            shared=True,
+            channel=angle,
+        )
+        for angle in ATTITUDE
+        for k in COMPONENTS
+    ),
+    sensing=sensing,
+)

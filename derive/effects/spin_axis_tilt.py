@@ -1,0 +1,42 @@
+"""The spin axis leans constantly in the measurement frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.rotation import lean
+from derive.stages import Geometry
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def geometry(g: Geometry, p: Values, c: Context) -> Geometry:
+    return lean(g, sp.Matrix([p.alpha_x, p.alpha_y, 0]), "tilt", c)
+
+
+EFFECT = Effect(
+    id="spin-axis-tilt",
+    title="Lean of the spin axis",
+    physics=(
+        "The disc's bearing is not along the z axis of the motion sensor: the plane in which the "
+        "accelerometers turn leans in the measurement frame."
+    ),
+    source="rigid-body kinematics",
+    equation=(
+        r"\bm r_j \leftarrow \bm R(\bm\alpha)\, \bm r_j,\; \bm\tau_j \leftarrow \bm R(\bm\alpha)\, \bm\tau_j,"
+        r"\; \bm\alpha = (\alpha_x, \alpha_y, 0)"
+    ),
+    limits=(
+        "Rotation to second order in alpha. The same as turning the motion record back (imu-misalignment), "
+        "but for the gradients, which alpha turns as well."
+    ),
+    parameters=tuple(
+        EffectParameter(f"alpha_{k}", rf"\alpha_{k}", "rad", f"lean about measurement {k}", 1e-4, shared=True)
+        for k in "xy"
+    ),
+    geometry=geometry,
+)

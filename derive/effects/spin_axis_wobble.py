@@ -1,0 +1,42 @@
+"""The spin axis leans about axes that turn with the disc."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.rotation import lean
+from derive.stages import Geometry
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def geometry(g: Geometry, p: Values, c: Context) -> Geometry:
+    turned = [c.cos_phi * p.w_x - c.sin_phi * p.w_y, c.sin_phi * p.w_x + c.cos_phi * p.w_y, 0]
+    return lean(g, sp.Matrix(turned), "wobble", c)
+
+
+EFFECT = Effect(
+    id="spin-axis-wobble",
+    title="Wobble of the disc",
+    physics="The disc does not sit square on its shaft: its plane leans, and the lean turns with the disc.",
+    source="rigid-body kinematics",
+    equation=(
+        r"\bm r_j \leftarrow \bm R(\bm w)\, \bm r_j,\; \bm\tau_j \leftarrow \bm R(\bm w)\, \bm\tau_j,\;"
+        r" \bm w = w_x \bm e_r(\phi) + w_y \bm e_t(\phi)"
+    ),
+    limits=(
+        "Rotation to second order in w. To first order it is a pattern of the mounting angles of the four "
+        "accelerometers, so that beta_x and vartheta_y absorb it."
+    ),
+    parameters=tuple(
+        EffectParameter(
+            f"w_{k}", f"w_{k}", "rad", f"lean of the disc about its own {k} axis", 1e-5, shared=True
+        )
+        for k in "xy"
+    ),
+    geometry=geometry,
+)

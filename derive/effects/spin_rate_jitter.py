@@ -1,0 +1,53 @@
+"""Disc angle off at random."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def disc_angle(p: Values, c: Context) -> sp.Expr:
+    # The sensitivity to the angle; the random angle itself is the runtime's business.
+    return p.sigma_phi + p.sigma_walk
+
+
+EFFECT = Effect(
+    id="spin-rate-jitter",
+    title="Jitter of the spin rate",
+    physics=(
+        "Drive and bearing let the disc run unevenly: its true angle strays from the recorded one, freshly "
+        "at every sample or as a random walk. Steady horizontal force turns it into noise of the output."
+    ),
+    source="angle noise of a spin servo",
+    equation=r"\phi \leftarrow \phi + \delta\phi(t)",
+    limits=(
+        "To first order in the angle, uncorrelated with the motion; the tangential force of the uneven spin "
+        "itself is common to the four accelerometers and left out."
+    ),
+    kind="random",
+    parameters=(
+        EffectParameter(
+            "sigma_phi",
+            r"\sigma_\phi",
+            "rad",
+            "standard deviation, independent at every sample",
+            1e-6,
+            shared=True,
+        ),
+        EffectParameter(
+            "sigma_walk",
+            r"\sigma_w",
+            "rad/s^0.5",
+            "random walk: growth with the root of time",
+            1e-6,
+            shared=True,
+        ),
+    ),
+    disc_angle=disc_angle,
+)

@@ -1,0 +1,42 @@
+"""Motion record and output misaligned in time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    def at_true_instant(v: sp.Matrix) -> sp.Matrix:
+        return v.applyfunc(lambda e: c.shifted(e, p.delta_t))
+
+    return m._replace(
+        a=at_true_instant(m.a), omega=at_true_instant(m.omega), omegadot=at_true_instant(m.omegadot)
+    )
+
+
+EFFECT = Effect(
+    id="time-offset",
+    title="Clock offset of the motion record",
+    physics=(
+        "Motion sensor and output are sampled by different clocks or filtered with different delays: the "
+        "motion that is true at t stands in the record at t + delta_t."
+    ),
+    source="time synchronisation of inertial sensors",
+    equation=r"\bm v(t) = \bm v_{rec}(t + \delta t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}",
+    limits=(
+        "To second order in delta_t: holds while it is far below the time scale of the motion. Gradients and "
+        "the disc angle, which belong to the output's clock, are not moved."
+    ),
+    parameters=(
+        EffectParameter("delta_t", r"\delta t", "s", "lateness of the motion record", 1e-3, shared=True),
+    ),
+    sensing=sensing,
+)

@@ -1,0 +1,60 @@
+"""Unrecorded vibration, rectified by the second-order coefficients."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import SensedForce, misalignment_matrix
+
+if TYPE_CHECKING:
+    from derive.chain import Context
+
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    assert c.geometry is not None
+    k = c.parameters
+    axes = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"]) * c.geometry.tau
+    axes = sp.Matrix(3, 3, lambda m, n: c.tape.let(f"vibration_axis_{'iop'[m]}{'xyz'[n]}", axes[m, n]))
+    P = sp.Matrix(3, 3, lambda m, n: p[f"P_{''.join(sorted('xyz'[m] + 'xyz'[n]))}"])
+    seen = axes * P * axes.T
+    # Mean of Eq. 1 over force with the covariance ``seen`` along i, o, p: only second powers survive.
+    return (
+        i
+        + k["K2"] * seen[0, 0]
+        + k["K5"] * seen[1, 1]
+        + k["K7"] * seen[2, 2]
+        + k["K4"] * seen[0, 2]
+        + k["K6"] * seen[0, 1]
+        + k["K8"] * seen[1, 2]
+    )
+
+
+EFFECT = Effect(
+    id="vibration-rectification",
+    title="Rectified vibration",
+    physics=(
+        "Vibration above the recorder's bandwidth averages to nothing in the linear terms, but its squares "
+        "and products, taken by the second-order coefficients, leave a steady force that turns with the disc."
+    ),
+    source="IEEE Std 1293, vibration rectification, with the second-order terms of paper, Eq. 1",
+    equation=(
+        r"I_j/K_{j1} \mathrel{+}= K_2 P_{ii} + K_5 P_{oo} + K_7 P_{pp} + K_4 P_{ip} + K_6 P_{io}"
+        r" + K_8 P_{op},\; P_{ab} = \bm\tau_a^T \bm P \bm\tau_b"
+    ),
+    limits=(
+        "Covariance constant over the record, zero mean, fast against the turn of the disc; exact for Eq. 1, "
+        "rectification by third-order terms is left out. P must be positive semidefinite."
+    ),
+    parameters=tuple(
+        EffectParameter(
+            f"P_{k}", f"P_{{{k}}}", "g^2", f"covariance {k} of the unrecorded vibration", 1e-4, shared=True
+        )
+        for k in COMPONENTS
+    ),
+    transducer=transducer,
+)
