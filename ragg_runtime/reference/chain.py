@@ -114,20 +114,17 @@ class Chain:
     def _voltage(self, j: int, instant: Instant, shake: Array) -> Array:
         """Eq. 49-52 for accelerometer j (0 ... 3), (N,) V."""
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
-        arm, triad = self._in_measurement_frame(
-            mount(j, k["beta_x"], k["beta_z"], self.rotations), instant.phi
-        )
         radius = self.instrument.radius + k["dR"]
-        nominal = self._specific_force(radius * arm, triad, instant, shake)
-        if geometry.bends(j, self.effects):
-            for _ in range(_ARM_ITERATIONS):
-                length = geometry.arm_length(j, radius, nominal, self.effects)
-                nominal = self._specific_force(length * arm, triad, instant, shake)
+        actual = mount(j, k["beta_x"], k["beta_z"], self.rotations)
+        nominal, tau_y = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
         C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.rotations)
         measured = _rows(C, nominal)
-        second = transducer.second_order_forces(nominal, measured, self.effects)
-        i, o, p = second
+        kappa = transducer.angles_in_second_order(self.effects)
+        i, o, p = measured
+        if kappa != 1:
+            unturned, _ = self._nominal_force(j, mount(j, 0.0, 0.0, self.rotations), radius, instant, shake)
+            i, o, p = (n + kappa * (m - n) for n, m in zip(unturned, measured, strict=True))
         bracket = (
             measured[0]
             + transducer.bias(j, k["K0"], instant.time, instant.auxiliaries, self.effects)
@@ -138,11 +135,23 @@ class Chain:
             + k["K6"] * i * o
             + k["K8"] * o * p
             + transducer.further_terms(
-                j, measured, np.sum(instant.motion.omegadot * triad[1], axis=0), self.effects
+                j, measured, np.sum(instant.motion.omegadot * tau_y, axis=0), self.effects
             )
         )
         gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
         return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
+
+    def _nominal_force(
+        self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
+    ) -> tuple[Triple, Array]:
+        """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and tau_y of its nominal frame, (3, N)."""
+        arm, triad = self._in_measurement_frame(fixed, instant.phi)
+        f = self._specific_force(radius * arm, triad, instant, shake)
+        if geometry.bends(j, self.effects):
+            for _ in range(_ARM_ITERATIONS):
+                length = geometry.arm_length(j, radius, f, self.effects)
+                f = self._specific_force(length * arm, triad, instant, shake)
+        return f, triad[1]
 
     def _in_measurement_frame(self, fixed: Mount, phi: Array) -> tuple[Array, Triple]:
         """Arm (3, N) and triad (three of (3, N)) of a mount when the disc stands at phi."""

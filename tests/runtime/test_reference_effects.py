@@ -172,14 +172,18 @@ def test_odd_quadratic() -> None:
     assert change[:2, 0] == pytest.approx([4e-6, -4e-6], rel=1e-6)
 
 
-@pytest.mark.parametrize(("kappa", "along"), [(0.0, 3.0), (1.0, 3.0 - 2.0 * 1e-2), (0.5, 3.0 - 1.0 * 1e-2)])
-def test_second_order_misalignment(kappa: float, along: float) -> None:
-    # K5 f_y^2 of Eq. 5 becomes K5 f_o^2 with f_o = f_y - f_x vartheta_z (Eq. 3).
-    tilted = perfect().replace(vartheta_z=[1e-2, 0, 0, 0])
-    bent = tilted.replace(K5=[1e-6, 0, 0, 0])
+@pytest.mark.parametrize(
+    ("name", "share"), [("vartheta_z", -1.0), ("beta_z", 1.0), ("vartheta_x", 0.0), ("vartheta_y", 0.0)]
+)
+@pytest.mark.parametrize("kappa", [0.0, 0.5, 1.0])
+def test_second_order_misalignment(kappa: float, name: str, share: float) -> None:
+    # K5 f_o^2 at phi = 0 with a_x = 3, a_y = 2: f_o = f_y - f_x vartheta_z (Eq. 3). A mount further along
+    # the turn by beta_z looks outward along x + beta_z y instead.
+    turned = perfect().replace(**{name: [1e-2, 0, 0, 0]})
+    bent = turned.replace(K5=[1e-6, 0, 0, 0])
     effects = {"second-order-misalignment": {"kappa": kappa}}
-    motion = still(a=(3.0, 2.0, 0.0))
-    V = [run(effects, i, motion, 0.25, gravity=None).voltages[0, 0] for i in (tilted, bent)]
+    V = [run(effects, i, still(a=(3.0, 2.0, 0.0)), 0.25, gravity=None).voltages[0, 0] for i in (turned, bent)]
+    along = 3.0 + kappa * share * 2.0 * 1e-2
     assert (V[1] - V[0]) / GAIN == pytest.approx(1e-6 * along**2, rel=1e-6)
 
 

@@ -46,13 +46,13 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
     return factor
 
 
-def second_order_forces(nominal: Triple, measured: Triple, effects: Injected) -> Triple:
-    """Forces in the second-order terms: along the measured axes (Eq. 52), or the nominal ones (Eq. 5)."""
+def angles_in_second_order(effects: Injected) -> float:
+    """kappa: 1 if the second-order terms see the force along the measured axes (Eq. 52).
+
+    0 is the analytical model, which leaves mounting and misalignment angles out of them (Eq. 18 and 19).
+    """
     order = effects.get("second-order-misalignment")
-    if order is None or order["kappa"] == 1:
-        return measured
-    x, y, z = (n + order["kappa"] * (m - n) for n, m in zip(nominal, measured, strict=True))
-    return x, y, z
+    return 1.0 if order is None else float(order["kappa"])
 
 
 def further_terms(j: int, f: Triple, radial_angular_acceleration: Array, effects: Injected) -> Array | float:
