@@ -1,4 +1,4 @@
-"""Plausible auxiliary channels: a slow temperature, small roll and pitch of the platform."""
+"""Plausible auxiliary channels: temperature, pressure, magnetic field, roll and pitch of the platform."""
 
 from __future__ import annotations
 
@@ -9,10 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.reference.chain import Auxiliary
-from ragg_runtime.reference.effects.transducer import REFERENCE_TEMPERATURE
+from ragg_runtime.reference.effects.transducer import REFERENCE_PRESSURE, REFERENCE_TEMPERATURE
 from ragg_runtime.reference.motion import Sinusoids
 
 Array = NDArray[np.float64]
+
+
+_EARTH_FIELD = (1.5e-5, 1.0e-5, -4.5e-5)
+"""Magnetic flux density in the measurement frame, T."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +41,7 @@ def plausible(
     roll: float = 0.02,
     pitch: float = 0.02,
 ) -> Mapping[str, Auxiliary]:
-    """Temperature, roll and pitch of a survey line.
+    """Temperature, roll, pitch, pressure and magnetic field of a survey line.
 
     Parameters
     ----------
@@ -57,7 +61,14 @@ def plausible(
         "temperature": Warming(warming, 1200.0, swings),
         "roll": _attitude(rng, roll).value,
         "pitch": _attitude(rng, pitch).value,
+        "pressure": _slow(rng, REFERENCE_PRESSURE - 3000.0, 300.0).value,
+        **{f"B_{k}": _slow(rng, mean, 2e-6).value for k, mean in zip("xyz", _EARTH_FIELD, strict=True)},
     }
+
+
+def _slow(rng: np.random.Generator, mean: float, amplitude: float) -> Sinusoids:
+    """A mean and three slow sinusoids, SI."""
+    return Sinusoids(mean, amplitude * np.ones(3), 1 / rng.uniform(100, 900, 3), rng.uniform(0, 6.28, 3))
 
 
 def _attitude(rng: np.random.Generator, spread: float, terms: int = 12) -> Sinusoids:

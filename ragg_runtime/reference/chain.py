@@ -116,7 +116,7 @@ class Chain:
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
         radius = self.instrument.radius + k["dR"]
         actual = mount(j, k["beta_x"], k["beta_z"], self.rotations)
-        nominal, tau_y = self._nominal_force(j, actual, radius, instant, shake)
+        nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
         C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.rotations)
         measured = _rows(C, nominal)
@@ -135,7 +135,7 @@ class Chain:
             + k["K6"] * i * o
             + k["K8"] * o * p
             + transducer.further_terms(
-                j, measured, np.sum(instant.motion.omegadot * tau_y, axis=0), self.effects
+                j, measured, triad, instant.motion.omegadot, instant.auxiliaries, self.effects
             )
         )
         gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
@@ -143,15 +143,15 @@ class Chain:
 
     def _nominal_force(
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
-    ) -> tuple[Triple, Array]:
-        """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and tau_y of its nominal frame, (3, N)."""
+    ) -> tuple[Triple, Triple]:
+        """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along, (3, N) each."""
         arm, triad = self._in_measurement_frame(fixed, instant.phi)
         f = self._specific_force(radius * arm, triad, instant, shake)
         if geometry.bends(j, self.effects):
             for _ in range(_ARM_ITERATIONS):
                 length = geometry.arm_length(j, radius, f, self.effects)
                 f = self._specific_force(length * arm, triad, instant, shake)
-        return f, triad[1]
+        return f, triad
 
     def _in_measurement_frame(self, fixed: Mount, phi: Array) -> tuple[Array, Triple]:
         """Arm (3, N) and triad (three of (3, N)) of a mount when the disc stands at phi."""

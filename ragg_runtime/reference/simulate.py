@@ -137,7 +137,7 @@ def simulate(
     seed
         Of noise, angle jitter and the default auxiliaries.
     auxiliaries
-        Channel name -> function of time (N,) s; ``None``: plausible temperature, roll and pitch.
+        Channel name -> function of time (N,) s; ``None``: plausible ones (``auxiliaries.plausible``).
 
     Raises
     ------

@@ -26,6 +26,10 @@ AUXILIARIES = {
     "temperature": lambda t: 293.15 + 0.5 + 1e-3 * t,
     "roll": lambda t: 0.1 + 0 * t,
     "pitch": lambda t: -0.2 + 0 * t,
+    "pressure": lambda t: 101325.0 - 40.0 + 0 * t,
+    "B_x": lambda t: 2e-5 + 0 * t,
+    "B_y": lambda t: 3e-5 + 0 * t,
+    "B_z": lambda t: -4e-5 + 0 * t,
 }
 
 
@@ -64,6 +68,8 @@ SIZES = {
     "s": 1e-6,
     "(m/s^2)/(rad/s^2)": 1e-5,
     "(m/s^2)/K": 1e-7,
+    "(m/s^2)/T": 1.0,
+    "(m/s^2)/Pa": 1e-7,
     "1/K": 1e-7,
     "(m/s^2)/s": 1e-8,
     "1/s": 1e-8,
@@ -232,12 +238,20 @@ def test_bias_and_scale_with_temperature_and_time() -> None:
     bracket = np.array([2.0, -2.0]) + 1e-3
     for effect, expected in [
         ({"thermal-bias": {"dK0_dT": 1e-5}}, 1e-5 * warm * np.ones(2)),
+        ({"pressure-bias": {"dK0_dp": 1e-7}}, -4e-6 * np.ones(2)),
         ({"thermal-scale": {"dK1_dT": 1e-5}}, 1e-5 * warm * bracket),
         ({"bias-drift": {"dK0_dt": 1e-7}}, 1e-7 * 100 * np.ones(2)),
         ({"gain-drift": {"dK1_dt": 1e-7}}, 1e-7 * 100 * bracket),
     ]:
         change = force(effect, motion, **options)
         np.testing.assert_allclose(change[:2, 0], expected, rtol=1e-8)
+
+
+def test_magnetic_bias_turns_with_the_input_axis() -> None:
+    # At phi = 0 the input axes of A1 ... A4 are +y, -y, -x, +x.
+    change = force({"magnetic-bias": {"dK0_dB": 0.1}}, still(), duration=4.0)
+    np.testing.assert_allclose(change[:, 0], 0.1 * np.array([3e-5, -3e-5, -2e-5, 2e-5]), rtol=1e-6)
+    np.testing.assert_allclose(change[:, 16], 0.1 * np.array([-2e-5, 2e-5, -3e-5, 3e-5]), rtol=1e-6)
 
 
 def test_gain_step_jumps_at_its_instant() -> None:

@@ -61,6 +61,8 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "pendulum-angular": _each("(m/s^2)/(rad/s^2)", "K_pa"),
     "thermal-bias": _each("(m/s^2)/K", "dK0_dT"),
     "thermal-scale": _each("1/K", "dK1_dT"),
+    "magnetic-bias": _each("(m/s^2)/T", "dK0_dB"),
+    "pressure-bias": _each("(m/s^2)/Pa", "dK0_dp"),
     "bias-drift": _each("(m/s^2)/s", "dK0_dt"),
     "gain-drift": _each("1/s", "dK1_dt"),
     "gain-step": _each("1", "dK1") | _shared("s", "t_step"),
@@ -82,7 +84,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
 }
-"""Every effect and its parameters, in the order of the interface."""
+"""Every effect and its parameters."""
 
 
 def resolve(effects: EffectValues | None) -> Injected:
@@ -122,12 +124,15 @@ def resolve(effects: EffectValues | None) -> Injected:
 
 def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     """Auxiliary channels without which an effect of these parameters has no meaning."""
-    if effect in ("thermal-bias", "thermal-scale"):
-        return ("temperature",)
     if effect == "self-gradient":
         turning = any(value != 0 for name, value in parameters.items() if name.endswith("_pitch"))
         return ("roll", "pitch") if turning else ("roll",)
-    return ()
+    return {
+        "thermal-bias": ("temperature",),
+        "thermal-scale": ("temperature",),
+        "pressure-bias": ("pressure",),
+        "magnetic-bias": ("B_x", "B_y", "B_z"),
+    }.get(effect, ())
 
 
 def _values(effect: str, name: str, parameter: Parameter, given: ArrayLike) -> NDArray[np.float64]:

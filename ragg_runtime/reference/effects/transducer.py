@@ -16,6 +16,9 @@ Triple = tuple[Array, Array, Array]
 REFERENCE_TEMPERATURE = 293.15
 """Temperature (K) at which bias and scale factor have their test-sheet values."""
 
+REFERENCE_PRESSURE = 101325.0
+"""Pressure (Pa) at which the bias has its test-sheet value."""
+
 _CUBIC_POWERS = {
     f"K_{name}": tuple(name.count(axis) for axis in "iop")
     for name in ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
@@ -29,6 +32,8 @@ def bias(
     value: Array | float = K0
     if thermal := effects.get("thermal-bias"):
         value = value + thermal["dK0_dT"][j] * (auxiliaries["temperature"] - REFERENCE_TEMPERATURE)
+    if pressure := effects.get("pressure-bias"):
+        value = value + pressure["dK0_dp"][j] * (auxiliaries["pressure"] - REFERENCE_PRESSURE)
     if drift := effects.get("bias-drift"):
         value = value + drift["dK0_dt"][j] * time
     return value
@@ -55,8 +60,18 @@ def angles_in_second_order(effects: Injected) -> float:
     return 1.0 if order is None else float(order["kappa"])
 
 
-def further_terms(j: int, f: Triple, radial_angular_acceleration: Array, effects: Injected) -> Array | float:
-    """What accelerometer j adds to Eq. 1, m/s^2; ``f`` is f_i, f_o, f_p."""
+def further_terms(
+    j: int,
+    f: Triple,
+    triad: Triple,
+    omegadot: Array,
+    auxiliaries: Mapping[str, Array],
+    effects: Injected,
+) -> Array | float:
+    """What accelerometer j adds to Eq. 1, m/s^2.
+
+    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``omegadot`` (3, N) rad/s^2.
+    """
     f_i = f[0]
     total: Array | float = 0.0
     if cubic := effects.get("cubic-input"):
@@ -67,7 +82,10 @@ def further_terms(j: int, f: Triple, radial_angular_acceleration: Array, effects
     if odd := effects.get("odd-quadratic"):
         total = total + odd["K_oq"][j] * f_i * np.abs(f_i)
     if pendulum := effects.get("pendulum-angular"):
-        total = total + pendulum["K_pa"][j] * radial_angular_acceleration
+        total = total + pendulum["K_pa"][j] * np.sum(omegadot * triad[1], axis=0)
+    if magnetic := effects.get("magnetic-bias"):
+        field = np.stack([auxiliaries[f"B_{axis}"] for axis in "xyz"])
+        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0], axis=0)
     return total
 
 
