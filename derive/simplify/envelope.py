@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cache
+from typing import Any
 
 import sympy as sp
 
@@ -96,7 +97,7 @@ class Envelope:
             )
 
     def parameter(self, name: str) -> Fraction:
-        """Bound of a parameter of :data:`COEFFICIENT_PARAMETERS` over the envelope, in units of nominal k1."""
+        """Bound of one of the :data:`COEFFICIENT_PARAMETERS`; of k1 in units of its nominal value."""
         if name == "k1":
             return 1 + Fraction(self.imbalance)
         if name == "R":
@@ -128,18 +129,33 @@ class Envelope:
 
     def motion(self) -> dict[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
-        channels = [self.channel(c.name) for c in MOTION]
-        bounds = {}
-        for name, terms in _polynomials().items():
-            low = high = Fraction(0)
-            for powers, c in terms:
-                size = math.prod((b**n for b, n in zip(channels, powers, strict=True) if n), start=abs(c))
-                # A square keeps its sign; anything else takes both.
-                even = all(n % 2 == 0 for n in powers)
-                low -= size if not even or c < 0 else 0
-                high += size if not even or c > 0 else 0
-            bounds[name] = max(-low, high)
-        return bounds
+        return ranges(self.channel)
+
+    def scaled(self, names: Sequence[str], factor: float) -> Envelope:
+        """The envelope with these bounds multiplied by a factor."""
+        changed: dict[str, Any] = {}
+        for n in names:
+            value = getattr(self, n)
+            changed[n] = tuple(v * factor for v in value) if isinstance(value, tuple) else value * factor
+        return replace(self, **changed)
+
+
+def ranges(bound: Callable[[str], Fraction | int]) -> dict[str, Fraction]:
+    """Bounds of a, T and S by those of the motion channels (Eq. 16), which are independent.
+
+    A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
+    """
+    channels = [Fraction(bound(c.name)) for c in MOTION]
+    bounds = {}
+    for name, terms in _polynomials().items():
+        low = high = Fraction(0)
+        for powers, c in terms:
+            size = abs(c) * product(channels, powers)
+            square = all(n % 2 == 0 for n in powers)
+            low -= size if c < 0 or not square else 0
+            high += size if c > 0 or not square else 0
+        bounds[name] = max(-low, high)
+    return bounds
 
 
 @cache
@@ -157,12 +173,12 @@ def _polynomials() -> dict[str, tuple[tuple[tuple[int, ...], Fraction], ...]]:
     }
 
 
-def bound_of(powers: Sequence[int], bounds: Sequence[Fraction]) -> Fraction:
+def product(bounds: Sequence[Fraction], powers: Sequence[int]) -> Fraction:
     """Product of bounds to their powers."""
     return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=Fraction(1))
 
 
-_G = 9.8
+G0 = 9.8
 """m/s^2, the paper's g."""
 _ARCSECOND, _PER_HOUR = math.radians(1 / 3600), math.radians(1) / 3600
 _SPIN = 0.25
@@ -170,11 +186,11 @@ _OMEGA = 2 * math.pi * _SPIN
 
 PAPER_ENVELOPE = Envelope(
     # "In gravity gradiometry the RAGG acceleration is usually in the order of 0.1 g" (below Eq. 41).
-    a=(0.1 * _G,) * 3,
+    a=(0.1 * G0,) * 3,
     # The greatest rate of the dynamic experiment: 2000 + 800 deg/h (Table VI).
     omega=(2800 * _PER_HOUR,) * 3,
-    # "the angular acceleration is in the order of 1e-3 ~ 1e-2 rad/s^2" (Section IV): the lower end. Only there
-    # does the paper drop nothing that its own rule would keep (see docs/simplified.md).
+    # "the angular acceleration is in the order of 1e-3 ~ 1e-2 rad/s^2" (Section IV): the lower end.
+    # Only there does the paper drop nothing that its own rule would keep (docs/simplified.md).
     omegadot=(1e-3,) * 3,
     # "The maximum gravitational gradient is of the order of 10^3 Eo" (below Eq. 32).
     Gamma=1e3 * 1e-9,
@@ -188,21 +204,21 @@ PAPER_ENVELOPE = Envelope(
     vartheta_y=1e-4,
     vartheta_z=1e-4,
     # The largest of Table V; Section II.B.1 gives none.
-    K0=10e-6 * _G,
+    K0=10e-6 * G0,
     # Section II.B.1: 1e-6 g/g^2.
-    K2=1e-6 / _G,
-    K4=1e-6 / _G,
-    K5=1e-6 / _G,
-    K6=1e-6 / _G,
-    K7=1e-6 / _G,
-    K8=1e-6 / _G,
+    K2=1e-6 / G0,
+    K4=1e-6 / G0,
+    K5=1e-6 / G0,
+    K6=1e-6 / G0,
+    K7=1e-6 / G0,
+    K8=1e-6 / G0,
     imbalance=1e-4,
     spin_frequency=_SPIN,
 )
 """Section II.B.1, each number as the paper gives it. It states no angular motion there: see ``omega``."""
 
 DYNAMIC_EXPERIMENT = Envelope(
-    a=(0.085 * _G, 0.066 * _G, 0.15 * _G),
+    a=(0.085 * G0, 0.066 * G0, 0.15 * G0),
     omega=(1700 * _PER_HOUR, 2400 * _PER_HOUR, 2800 * _PER_HOUR),
     omegadot=(700 * _PER_HOUR * _OMEGA, 900 * _PER_HOUR * _OMEGA, 800 * _PER_HOUR * _OMEGA),
     Gamma=1e3 * 1e-9,
@@ -213,13 +229,13 @@ DYNAMIC_EXPERIMENT = Envelope(
     vartheta_x=0.0,
     vartheta_y=21 * _ARCSECOND,
     vartheta_z=30 * _ARCSECOND,
-    K0=10e-6 * _G,
-    K2=8e-6 / _G,
-    K4=16e-6 / _G,
-    K5=13e-6 / _G,
-    K6=12e-6 / _G,
-    K7=17e-6 / _G,
-    K8=20e-6 / _G,
+    K0=10e-6 * G0,
+    K2=8e-6 / G0,
+    K4=16e-6 / G0,
+    K5=13e-6 / G0,
+    K6=12e-6 / G0,
+    K7=17e-6 / G0,
+    K8=20e-6 / G0,
     # 10, 11, 11.5 and 12 mA/g against their mean: a thousand times the 1e-4 of Section II.B.1.
     imbalance=1 - 10 / 11.125,
     spin_frequency=_SPIN,

@@ -1,4 +1,4 @@
-"""Sizes of the terms of the analytical model, and the simplified model that keeps the large ones (Eq. 31-47)."""
+"""Sizes of the terms of the analytical model; the simplified model keeps the large ones (Eq. 31-47)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from derive.propagation import (
     collect,
     from_generic,
 )
-from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, bound_of
+from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, product
 
 Powers = tuple[int, ...]
 Generic = Mapping[tuple[int, str], Mapping[Powers, PolyElement]]
@@ -68,7 +68,7 @@ def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]
                 coefficients[key] = max(value, coefficients.get(key, value))
     result = []
     for (n, motion, parameters), c in coefficients.items():
-        size = c * bound_of(motion, motions) * bound_of(parameters, nominal) * scale
+        size = c * product(motions, motion) * product(nominal, parameters) * scale
         if balanced(n, parameters):
             size *= envelope.departure(parameters)
         result.append(Size(n, motion, parameters, size))

@@ -1,0 +1,7 @@
+"""Prints the page on the simplified model: ``python -m derive.simplify > docs/simplified.md``."""
+
+import sys
+
+from derive.simplify.page import page
+
+sys.stdout.write(page())

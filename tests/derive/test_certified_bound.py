@@ -1,0 +1,267 @@
+"""The certified bound against a search for the worst case, in a formulation that shares nothing with it.
+
+The searched error is the chain of stages (vectors, no harmonics) minus the simplified amplitudes with their
+D and Sigma; the bound comes from the dropped terms.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+import pytest
+import scipy.optimize
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from derive.chain import accelerometer
+from derive.propagation import (
+    COEFFICIENT_PARAMETERS,
+    MOTION_NUMBERS,
+    Collected,
+    collect,
+    from_generic,
+    motion_numbers,
+)
+from derive.simplify import (
+    DYNAMIC_EXPERIMENT,
+    PAPER_ENVELOPE,
+    Envelope,
+    certified_bound,
+    dropped,
+    simplified,
+)
+from derive.simplify.bound import root_up, round_up
+from derive.symbols import ANGLES, MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS
+
+Array = NDArray[np.float64]
+
+MOTION_NAMES = [c.name for c in MOTION]
+OWN = [n for n in COEFFICIENT_PARAMETERS if n not in ("k1", "R")]
+NAMES = [*MOTION_NAMES, *(f"{n}.{j}" for n in ("k1", "dR", *OWN) for j in range(4))]
+"""The coordinates of the search: motion, then four values of each parameter; the disc angle comes last."""
+
+COMBINATIONS = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
+
+QUIET = dataclasses.replace(
+    PAPER_ENVELOPE,
+    a=(1e-4, 1e-5, 2e-4),
+    omega=(1e-6,) * 3,
+    omegadot=(1e-9,) * 3,
+    Gamma=0.0,
+    beta_x=1e-6,
+    imbalance=1e-7,
+    dR=1e-9,
+    allotted=20.0,
+)
+"""So quiet and so well balanced that imbalances and bare angles are dropped as well."""
+BARE = dataclasses.replace(DYNAMIC_EXPERIMENT, vartheta_x=1e-3, allotted=1e3, Gamma=3e-6, dR=1e-3)
+"""A rough flight with so large an error allotted that angles, imbalances and K a a go."""
+ENVELOPES = {"paper": PAPER_ENVELOPE, "dynamic": DYNAMIC_EXPERIMENT, "quiet": QUIET, "bare": BARE}
+
+
+@cache
+def voltage() -> Callable[..., Array]:
+    """V_j of the chain of stages (Eq. 1-14), as a function of numbers."""
+    a = accelerometer(())
+    inputs = [*MOTION_NAMES, "radius", "dR", *OWN, "K1", "k_VI", "cos_phi", "sin_phi", "cos_j", "sin_j"]
+    f: Callable[..., Array] = sp.lambdify(inputs, a.voltage, "numpy", cse=lambda e: (a.tape.assignments, e))
+    return f
+
+
+def product(values: Sequence[Array], powers: Sequence[int]) -> Array | float:
+    return math.prod((values[i] ** p for i, p in enumerate(powers) if p), start=1.0)
+
+
+class Discrepancy:
+    """(G_full - G_model) / k_ggi in Eo, for points of an envelope in units of its bounds.
+
+    Points have shape (..., len(NAMES) + 1), in [-1, 1]; the last coordinate is the disc angle over pi.
+    """
+
+    def __init__(self, envelope: Envelope, model: Collected) -> None:
+        self.radius = envelope.radius
+        bounds = [float(envelope.channel(n)) for n in MOTION_NAMES]
+        for n in ("k1", "dR", *OWN):
+            bounds += [envelope.imbalance if n == "k1" else getattr(envelope, n)] * 4
+        self.bounds = np.array([*bounds, math.pi])
+        self._numbers = sp.lambdify(MOTION_NAMES, [motion_numbers()[n] for n in MOTION_NUMBERS[3:]], "numpy")
+        self._terms = [
+            (
+                *((0, "c") if name == "A_0" else (int(name[2:-1]), name[-1])),
+                np.array(COMBINATIONS[t.combination]),
+                t.motion,
+                [(p, float(c)) for p, c in t.coefficient.terms()],
+            )
+            for name, terms in model.amplitudes.items()
+            for t in terms
+        ]
+
+    def __call__(self, points: Array) -> Array:
+        x = np.moveaxis(points * self.bounds, -1, 0)
+        motion = list(x[:15])
+        own = x[15:-1].reshape(-1, 4, *x.shape[1:])
+        k1, R = 1 + own[0], self.radius + own[1]
+        parameters = [k1, R, *own[2:]]
+        phi = x[-1]
+        full = np.zeros_like(phi)
+        for j in range(4):
+            q = QUARTER_TURNS[j]
+            cos_j, sin_j = (1.0, 0.0, -1.0, 0.0)[q], (0.0, 1.0, 0.0, -1.0)[q]
+            v = voltage()(
+                *motion, self.radius, *own[1:, j], k1[j], 1.0, np.cos(phi), np.sin(phi), cos_j, sin_j
+            )
+            full = full + SIGNS[j] * v
+        numbers = [*motion[:3], *self._numbers(*motion)]
+        kept = np.zeros_like(phi)
+        for n, phase, weights, powers, coefficient in self._terms:
+            of_each = sum(c * product(parameters, p) for p, c in coefficient)
+            c, monomial = np.tensordot(weights, of_each, axes=(0, 0)), product(numbers, powers)
+            kept = kept + c * monomial * (np.cos if phase == "c" else np.sin)(n * phi)
+        return (full - kept) / np.sum(k1 * R, axis=0) * 1e9
+
+
+def climb(error: Discrepancy, start: Array) -> tuple[float, Array]:
+    """From corner to corner: the best single change of sign (or other disc angle), until none helps."""
+    point, best = start, abs(float(error(start)))
+    n = len(start)
+    angles = 36
+    while True:
+        flips = np.repeat(point[None], n - 1, axis=0)
+        flips[np.arange(n - 1), np.arange(n - 1)] *= -1
+        turns = np.repeat(point[None], angles, axis=0)
+        turns[:, -1] = np.linspace(-1, 1, angles, endpoint=False)
+        tried = np.concatenate([flips, turns])
+        values = np.abs(error(tried))
+        k = int(np.argmax(values))
+        if values[k] <= best * (1 + 1e-9):
+            return best, point
+        point, best = tried[k], float(values[k])
+
+
+def worst(error: Discrepancy, rng: np.random.Generator, starts: int) -> float:
+    """The largest error found: corners climbed from many starts, the best then refined inside the box."""
+    n = len(NAMES) + 1
+    found = []
+    for _ in range(starts):
+        start = rng.choice([-1.0, 1.0], n)
+        start[-1] = rng.uniform(-1, 1)
+        found.append(climb(error, start))
+    found.sort(key=lambda f: -f[0])
+    best, step = found[0][0], 1e-6
+
+    def gradient(x: Array) -> Array:
+        shifts = np.concatenate([x + step * np.eye(n), x - step * np.eye(n)])
+        up, down = np.split(np.abs(error(shifts)), 2)
+        return -(up - down) / (2 * step)
+
+    inside = [f[1] for f in found[:2]] + [rng.uniform(-1, 1, n) for _ in range(3)]
+    for start in inside:
+        r = scipy.optimize.minimize(
+            lambda x: -abs(float(error(x))), start, jac=gradient, bounds=[(-1, 1)] * n, method="L-BFGS-B"
+        )
+        best = max(best, -float(r.fun))
+    return best
+
+
+@pytest.mark.parametrize("name", ENVELOPES)
+def test_no_search_exceeds_the_bound_and_it_is_not_loose(name: str) -> None:
+    envelope = ENVELOPES[name]
+    model = simplified(envelope)
+    bound = certified_bound(envelope, model).eotvos
+    error = Discrepancy(envelope, model)
+    rng = np.random.default_rng(20240607)
+    at_random = float(np.max(np.abs(error(rng.uniform(-1, 1, (5000, len(NAMES) + 1))))))
+    at_corners = float(np.max(np.abs(error(rng.choice([-1.0, 1.0], (5000, len(NAMES) + 1))))))
+    found = worst(error, rng, starts=12)
+    assert max(at_random, at_corners) < found <= bound < 3.5 * found
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(st.lists(st.floats(-3, 2), min_size=6, max_size=6), st.integers(0, 2**32 - 1))
+def test_no_envelope_has_an_error_beyond_its_bound(exponents: list[float], seed: int) -> None:
+    envelope = PAPER_ENVELOPE
+    groups = (("a",), ("omega",), ("omegadot",), ANGLES, SECOND_ORDER, ("imbalance", "dR", "K0"))
+    for names, exponent in zip(groups, exponents, strict=True):
+        envelope = envelope.scaled(names, 10.0**exponent)
+    model = simplified(envelope)
+    error = Discrepancy(envelope, model)
+    rng = np.random.default_rng(seed)
+    points = np.concatenate(
+        [rng.uniform(-1, 1, (200, len(NAMES) + 1)), rng.choice([-1.0, 1.0], (200, len(NAMES) + 1))]
+    )
+    best, _ = climb(error, points[-1])
+    found = max(best, float(np.max(np.abs(error(points)))))
+    # Of the common acceleration a / R, which the four signs cancel, a rounding error is left.
+    rounding = 2e-15 * max(envelope.a) / envelope.radius * 1e9
+    assert found <= certified_bound(envelope, model).eotvos + rounding
+
+
+def test_the_search_notices_a_missing_term() -> None:
+    """Without K_7 a_z^2 the model errs by more than its certified bound had been with it."""
+    model = simplified()
+    generic = {k: dict(v) for k, v in model.generic.items()}
+    a_z_squared = next(m for m, c in generic[0, "c"].items() if str(c.as_expr()) == "K7*k1")
+    del generic[0, "c"][a_z_squared]
+    error = Discrepancy(PAPER_ENVELOPE, from_generic(generic))
+    found = worst(error, np.random.default_rng(1), starts=1)
+    assert found > 100 * certified_bound(PAPER_ENVELOPE, model).eotvos
+    assert found <= certified_bound(PAPER_ENVELOPE, from_generic(generic)).eotvos
+
+
+def test_the_analytical_model_leaves_nothing_out() -> None:
+    assert certified_bound(DYNAMIC_EXPERIMENT, collect()).exact == 0
+    error = Discrepancy(DYNAMIC_EXPERIMENT, collect())
+    rng = np.random.default_rng(3)
+    assert np.max(np.abs(error(rng.uniform(-1, 1, (500, len(NAMES) + 1))))) < 1e-5
+
+
+def test_the_bound_is_attained_where_one_term_is_dropped() -> None:
+    """Only K_0 errs: four biases, all at their bound and each with its own sign, are the worst case."""
+    nothing = {
+        f.name: 0.0 for f in dataclasses.fields(Envelope) if f.name[0] == "K" or f.name[:2] in ("be", "va")
+    }
+    envelope = dataclasses.replace(
+        PAPER_ENVELOPE, **{**nothing, "K0": 1e-9, "imbalance": 0.0, "dR": 0.0, "allotted": 1e3}
+    )
+    model = simplified(envelope)
+    assert certified_bound(envelope, model).eotvos == pytest.approx(4 * 1e-9 / (4 * 0.1) / 1e-9, rel=1e-12)
+
+
+def test_a_model_for_a_larger_error_has_the_larger_bound() -> None:
+    bounds = [
+        certified_bound(
+            PAPER_ENVELOPE, simplified(dataclasses.replace(PAPER_ENVELOPE, allotted=10.0**n))
+        ).exact
+        for n in range(-6, 6)
+    ]
+    assert bounds == sorted(bounds)
+    assert bounds[0] < Fraction(1, 1000) < 10**4 < bounds[-1]
+
+
+def test_dropped_and_kept_make_the_whole() -> None:
+    model, full = simplified(), collect()
+    for key, left in dropped(model).items():
+        kept = model.generic.get(key, {})
+        for motion, coefficient in full.generic[key].items():
+            zero = coefficient.ring.zero
+            assert left.get(motion, zero) + kept.get(motion, zero) == coefficient
+
+
+@given(st.fractions(min_value=0, max_value=10**6))
+def test_roots_and_floats_are_rounded_up(x: Fraction) -> None:
+    root = root_up(x)
+    assert root * root >= x
+    assert (root - Fraction(1, 10**19)) ** 2 <= x or root < Fraction(1, 10**19)
+    assert Fraction(round_up(x)) >= x
+    assert x == 0 or Fraction(math.nextafter(round_up(x), 0.0)) < x
+
+
+def test_the_root_of_a_square_is_itself() -> None:
+    assert root_up(Fraction(9, 16)) == Fraction(3, 4)
