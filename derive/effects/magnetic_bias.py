@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce
+from derive.stages import SensedForce, misalignment_matrix
 
 if TYPE_CHECKING:
     from derive.chain import Context
@@ -17,8 +17,9 @@ FIELD = ("B_x", "B_y", "B_z")
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
     assert c.geometry is not None
-    B = sp.Matrix([c.channel(name) for name in FIELD])
-    return i + p.dK0_dB * B.dot(c.geometry.tau[0, :])
+    k = c.parameters
+    input_axis = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])[0, :] * c.geometry.tau
+    return i + p.dK0_dB * input_axis.dot(sp.Matrix([c.channel(name) for name in FIELD]))
 
 
 EFFECT = Effect(
@@ -29,10 +30,10 @@ EFFECT = Effect(
         "with the disc, so that a steady field looks like a horizontal specific force."
     ),
     source="IEEE Std 1293, magnetic sensitivity of the bias",
-    equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{jx}",
+    equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{ji}",
     limits=(
-        "Linear, in the field of the measurement frame at the disc centre, along the nominal input axis; the "
-        "field along the spin axis, which does not turn, and field of the drive itself are left out."
+        "Linear, in the field recorded in the measurement frame, taken for uniform over the disc, along the input "
+        "axis alone; a response to the field along the spin axis, which does not turn, is left out."
     ),
     channels=FIELD,
     parameters=(

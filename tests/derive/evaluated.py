@@ -1,0 +1,89 @@
+"""The derived chain put into numbers, for tests: SymPy's own NumPy printer, not the project's emitters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from derive.chain import accelerometer
+from derive.effect import Effect
+from derive.stages import Order
+from derive.symbols import ACCELEROMETER, QUARTER_TURNS, symbol
+from derive.tape import Program, simplify
+from ragg_runtime.units import units
+
+Array = NDArray[np.float64]
+
+LIKE_REFERENCE = Order(1, 1, second_order_angles=True)
+"""First-order rotations, kept in the second-order terms too: the counting of the reference simulator."""
+
+G0 = 9.8
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """A program as a function: values by symbol name -> outputs by name, each an array."""
+
+    program: Program
+    inputs: tuple[str, ...]
+    function: Callable[..., Sequence[Array]]
+
+    def __call__(self, values: Mapping[str, Array | float]) -> dict[str, Array]:
+        found = self.function(*(values[n] for n in self.inputs))
+        return {n: np.asarray(v, dtype=float) for (n, _), v in zip(self.program.outputs, found, strict=True)}
+
+
+def evaluated(program: Program) -> Evaluated:
+    """Compile a straight-line program with SymPy's NumPy printer."""
+    inputs = program.inputs()
+    outputs = [e for _, e in program.outputs]
+    function = sp.lambdify(inputs, outputs, "numpy", cse=lambda _: (list(program.assignments), outputs))
+    return Evaluated(program, tuple(s.name for s in inputs), function)
+
+
+def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
+    """Neutral values of what is fitted; an instant of a step stays open."""
+    return {e.symbol(q): sp.nsimplify(q.neutral) for e in effects for q in e.parameters if q.fitted}
+
+
+@lru_cache
+def voltage(effects: tuple[Effect, ...], order: Order) -> Evaluated:
+    """V of the generic accelerometer with ``effects``, their parameters open."""
+    a = accelerometer(effects, order)
+    return evaluated(simplify(a.tape.assignments, [("V", a.voltage)], {}))
+
+
+@lru_cache
+def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
+    """dV/d(parameter) of all ``effects`` at their neutral values, by symbol name, and V itself."""
+    a = accelerometer(effects, order)
+    by = a.tape.derivatives(a.voltage)
+    rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
+    return evaluated(simplify(a.tape.assignments, [("V", a.voltage), *rows], neutral_values(effects)))
+
+
+@lru_cache
+def base_derivatives(order: Order) -> Evaluated:
+    """dV/d(parameter) of the paper's instrument, by parameter name."""
+    a = accelerometer((), order)
+    by = a.tape.derivatives(a.voltage)
+    gamma = [f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz")]
+    names = [q.name for q in ACCELEROMETER] + gamma
+    return evaluated(simplify(a.tape.assignments, [(n, by(symbol(n))) for n in names], {}))
+
+
+def si(unit: str) -> float:
+    """Factor from a display unit to SI."""
+    known = units(G0)
+    return float(known.to_si(1.0, unit, known.base_unit(unit)))
+
+
+def place(j: int) -> dict[str, float]:
+    """Constant cosine and sine of the nominal place of accelerometer j = 0 ... 3."""
+    quarter = QUARTER_TURNS[j]
+    return {"cos_j": (1.0, 0.0, -1.0, 0.0)[quarter], "sin_j": (0.0, 1.0, 0.0, -1.0)[quarter]}

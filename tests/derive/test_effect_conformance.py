@@ -1,0 +1,419 @@
+"""What every effect must hold to, whoever wrote it: runs over the whole catalogue by itself.
+
+The independent formulation is the reference simulator (vectors, exact rotations, integrals over the past).
+Effects that it does not know are written down once more here, in ``DIRECT``; one that is in neither still has
+to pass everything that needs no second opinion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+
+import numpy as np
+import pytest
+from evaluated import G0, LIKE_REFERENCE, evaluated, neutral_values, place, si, signatures, voltage
+from numpy.typing import NDArray
+
+from derive.chain import accelerometer
+from derive.effect import Effect, EffectParameter
+from derive.effects import catalogue
+from derive.stages import EXACT, PAPER, Order
+from derive.symbols import ACCELEROMETER, DISC, MOTION
+from derive.tape import simplify
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.masses import Gradient
+from ragg_runtime.reference import CATALOGUE, Motion, Sinusoids, disc_angle, simulate
+from ragg_runtime.reference.geometry import mount
+from ragg_runtime.reference.instruments import table_v
+from ragg_runtime.reference.rotation import frame_rotation, spin
+from ragg_runtime.units import units
+
+Array = NDArray[np.float64]
+Record = tuple[Mapping[str, Array], Array]
+
+EFFECTS = catalogue()
+HOOKED = tuple(e for e in EFFECTS if e.kind != "output")
+DURATION, RATE = 16.0, 8.0
+STEP_AT = 7.3
+"""Instant of the gain step, s: between two samples."""
+
+by_effect = pytest.mark.parametrize("effect", HOOKED, ids=lambda e: e.id)
+FITTED = [(e, q) for e in HOOKED for q in e.parameters if q.fitted]
+by_parameter = pytest.mark.parametrize(
+    ("effect", "parameter"), FITTED, ids=[f"{e.id}.{q.name}" for e, q in FITTED]
+)
+
+
+# A world in which nothing vanishes and nothing is symmetric.
+
+
+def _instrument() -> Instrument:
+    rng = np.random.default_rng(20)
+    sheet = table_v()
+    angles = {
+        n: 1e-4 * rng.standard_normal(4)
+        for n in ("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
+    }
+    second = {n: 2e-5 / G0 * rng.standard_normal(4) for n in ("K2", "K4", "K5", "K6", "K7", "K8")}
+    return sheet.replace(
+        **angles, **second, K0=1e-3 * rng.standard_normal(4), dR=1e-4 * rng.standard_normal(4)
+    )
+
+
+def _signal(rng: np.random.Generator, mean: float, spread: float) -> Sinusoids:
+    return Sinusoids(
+        mean, spread * rng.uniform(0.3, 1.0, 4), rng.uniform(0.05, 0.5, 4), rng.uniform(0, 6.28, 4)
+    )
+
+
+def _rate_of(s: Sinusoids) -> Sinusoids:
+    omega = 2 * np.pi * np.asarray(s.frequency)
+    return Sinusoids(0.0, omega * np.asarray(s.amplitude), s.frequency, np.asarray(s.phase) + np.pi / 2)
+
+
+INSTRUMENT = _instrument()
+_RNG = np.random.default_rng(21)
+_A = tuple(_signal(_RNG, m, 0.3) for m in (0.15, -0.2, 1.0))
+_OMEGA = tuple(_signal(_RNG, m, 0.02) for m in (0.01, -0.02, 0.015))
+MOTION_TRUE = Motion(_A, _OMEGA)
+GRAVITY = Gradient(np.array([300.0, 120.0, 50.0, 200.0, -80.0, -500.0]) * 1e-9)
+REFERENCE_VALUE = {"temperature": 293.15, "pressure": 101325.0}
+AUXILIARIES = {
+    "temperature": _signal(_RNG, 294.0, 0.5).value,
+    "roll": _signal(_RNG, 0.02, 0.03).value,
+    "pitch": _signal(_RNG, -0.01, 0.02).value,
+    "pressure": _signal(_RNG, 98000.0, 400.0).value,
+    "B_x": _signal(_RNG, 2e-5, 1e-5).value,
+    "B_y": _signal(_RNG, -1e-5, 1e-5).value,
+    "B_z": _signal(_RNG, 4e-5, 1e-5).value,
+}
+CHANNEL_UNIT = {
+    **{c.name: c.unit for c in MOTION},
+    "temperature": "K",
+    "roll": "rad",
+    "pitch": "rad",
+    "pressure": "Pa",
+    "B_x": "T",
+    "B_y": "T",
+    "B_z": "T",
+}
+
+
+def _reference(effects: Mapping[str, Mapping[str, object]]) -> Record:
+    """What the reference records: channels and the four voltages."""
+    found = simulate(
+        INSTRUMENT, MOTION_TRUE, DURATION, RATE, gravity=GRAVITY, effects=effects, auxiliaries=AUXILIARIES
+    )
+    late = float(effects.get("time-offset", {}).get("delta_t", 0.0))
+    channels = dict(found.channels) | {"time": found.time}
+    for name, signals in (("a", _A), ("omegadot", [_rate_of(s) for s in _OMEGA])):
+        for k, s in zip("xyz", signals, strict=True):
+            channels[f"d_{name}_{k}"] = _rate_of(s).value(found.time, late)
+            channels[f"d2_{name}_{k}"] = _rate_of(_rate_of(s)).value(found.time, late)
+    phi = disc_angle(INSTRUMENT.spin_frequency, found.time)
+    return channels | {"cos_phi": np.cos(phi), "sin_phi": np.sin(phi)}, found.voltages
+
+
+@cache
+def _nothing() -> Record:
+    return _reference({})
+
+
+def _bias_of(extra: Callable[[Mapping[str, Array]], Array]) -> Record:
+    """The record of an instrument with an additional specific force (4, N) in every accelerometer's bias."""
+    channels, V = _nothing()
+    k = INSTRUMENT.accelerometers
+    return channels, V + (k["k_VI"] * k["K1"])[:, None] * extra(channels)
+
+
+def _pressure(value: Mapping[str, float]) -> Record:
+    return _bias_of(lambda c: np.tile(value["dK0_dp"] * (c["pressure"] - 101325.0), (4, 1)))
+
+
+def _magnetic(value: Mapping[str, float]) -> Record:
+    def bias(c: Mapping[str, Array]) -> Array:
+        B = np.stack([c["B_x"], c["B_y"], c["B_z"]])
+        phi = np.arctan2(c["sin_phi"], c["cos_phi"])
+        k = INSTRUMENT.accelerometers
+        mounts = [mount(j, k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
+        axes = [frame_rotation(*(k[f"vartheta_{a}"][j] for a in "xyz"), "first-order")[0] for j in range(4)]
+        inputs = [axis @ m.triad for axis, m in zip(axes, mounts, strict=True)]
+        return value["dK0_dB"] * np.stack([np.sum(B * spin(axis, phi), axis=0) for axis in inputs])
+
+    return _bias_of(bias)
+
+
+def _jitter(value: Mapping[str, float]) -> Record:
+    # A random angle that happens to be constant is an offset of the angle.
+    return _reference({"spin-phase-offset": {"phi_0": sum(value.values())}})
+
+
+DIRECT: Mapping[str, Callable[[Mapping[str, float]], Record]] = {
+    "pressure-bias": _pressure,
+    "magnetic-bias": _magnetic,
+    "spin-rate-jitter": _jitter,
+}
+"""Effects that the reference simulator does not know, or knows as a random process, written down again."""
+
+ALONGSIDE: Mapping[str, Mapping[str, float]] = {
+    "gain-step": {"t_step": STEP_AT},
+    # A covariance must be positive: its components are varied about an isotropic one.
+    "vibration-rectification": {"P_xx": 2e3, "P_yy": 2e3, "P_zz": 2e3},
+}
+
+ONE_SIDED = frozenset({"lag"})
+"""The simulator looks backwards only."""
+
+TOLERANCE: Mapping[str, float] = {"lag": 3e-5}
+"""The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too."""
+
+
+def truth(effect: Effect, values: Mapping[str, float]) -> Record:
+    """Record of the independent formulation, channels and voltages (4, N) V."""
+    values = dict(ALONGSIDE.get(effect.id, {})) | dict(values)
+    if effect.id in DIRECT:
+        return DIRECT[effect.id](values)
+    assert effect.id in CATALOGUE, (
+        f"write {effect.id} down independently, in DIRECT or in the reference simulator"
+    )
+    return _reference({effect.id: values})
+
+
+def chain_values(j: int, channels: Mapping[str, Array]) -> dict[str, Array | float]:
+    k = {n: float(v[j]) for n, v in INSTRUMENT.accelerometers.items()}
+    disc = {"radius": INSTRUMENT.radius, "spin_frequency": INSTRUMENT.spin_frequency}
+    return {**channels, **k, **disc, **place(j), "gain_step__t_step": STEP_AT}
+
+
+def model(
+    effects: tuple[Effect, ...], order: Order, channels: Mapping[str, Array], p: Mapping[str, float]
+) -> Array:
+    """V of the derived chain with the values ``p`` by symbol name, (4, N) V."""
+    everything = {s.name: float(v) for s, v in neutral_values(effects).items()} | dict(p)
+    V = voltage(effects, order)
+    n = channels["time"].size
+    return np.stack([np.broadcast_to(V(chain_values(j, channels) | everything)["V"], n) for j in range(4)])
+
+
+@cache
+def all_signatures(order: Order) -> dict[str, Array]:
+    """Every signature on the undisturbed record, (4, N) each; ``V`` itself among them."""
+    channels = _nothing()[0]
+    rows = [signatures(HOOKED, order)(chain_values(j, channels)) for j in range(4)]
+    n = channels["time"].size
+    return {name: np.stack([np.broadcast_to(r[name], n) for r in rows]) for name in rows[0]}
+
+
+def row(effect: Effect, q: EffectParameter, order: Order) -> Array:
+    return all_signatures(order)[effect.symbol(q).name]
+
+
+def rms(x: Array) -> float:
+    return float(np.sqrt(np.mean(x**2)))
+
+
+def reach(effect: Effect, q: EffectParameter, share: float) -> float:
+    """Value of a parameter at which it changes the output by ``share`` of itself."""
+    return share * rms(_nothing()[1]) / rms(row(effect, q, PAPER))
+
+
+by_known_parameter = pytest.mark.parametrize(
+    ("effect", "parameter"),
+    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in FITTED if e.id in CATALOGUE or e.id in DIRECT],
+)
+
+
+# The tests.
+
+
+def test_the_chain_is_the_reference_where_no_effect_is() -> None:
+    """Otherwise the comparisons below would say nothing about the effects."""
+    channels, V = _nothing()
+    np.testing.assert_allclose(model((), LIKE_REFERENCE, channels, {}), V, rtol=0, atol=1e-13 * rms(V))
+
+
+@by_effect
+@pytest.mark.parametrize("order", [PAPER, EXACT], ids=["paper", "exact"])
+def test_neutral_values_change_nothing(effect: Effect, order: Order) -> None:
+    channels, V = _nothing()
+    np.testing.assert_allclose(
+        model((effect,), order, channels, {}), model((), order, channels, {}), rtol=0, atol=2e-15 * rms(V)
+    )
+
+
+def test_the_whole_catalogue_at_neutral_values_changes_nothing() -> None:
+    channels, V = _nothing()
+    found = all_signatures(PAPER)["V"]
+    np.testing.assert_allclose(found, model((), PAPER, channels, {}), rtol=0, atol=1e-14 * rms(V))
+
+
+@by_parameter
+def test_signatures_are_finite_and_not_nothing(effect: Effect, parameter: EffectParameter) -> None:
+    found = row(effect, parameter, PAPER)
+    assert np.all(np.isfinite(found))
+    assert rms(found) > 0
+
+
+@by_known_parameter
+def test_signature_is_what_the_independent_formulation_does(
+    effect: Effect, parameter: EffectParameter
+) -> None:
+    """Derivative of (true output - output of the base model on the same record), by differences."""
+    order = PAPER if effect.id == "second-order-misalignment" else LIKE_REFERENCE
+    h = reach(effect, parameter, 1e-5)
+    start = ALONGSIDE.get(effect.id, {}).get(parameter.name, 0.0)
+
+    def missing(value: float) -> Array:
+        channels, V = truth(effect, {parameter.name: start + value})
+        return V - model((), order, channels, {})
+
+    if effect.id in ONE_SIDED:
+        found = (4 * missing(h) - missing(2 * h) - 3 * missing(0.0)) / (2 * h)
+    else:
+        found = (missing(h) - missing(-h)) / (2 * h)
+    expected = row(effect, parameter, order)
+    assert rms(found - expected) < TOLERANCE.get(effect.id, 1e-6) * rms(expected)
+
+
+@pytest.mark.parametrize(
+    ("effect", "parameter"),
+    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in FITTED if e.id != "second-order-misalignment"],
+)
+def test_signature_hardly_depends_on_the_order(effect: Effect, parameter: EffectParameter) -> None:
+    """Angles to first order, and left out of the second-order terms: parts in a thousand, not more."""
+    exact = row(effect, parameter, EXACT)
+    assert rms(row(effect, parameter, PAPER) - exact) < 2e-3 * rms(exact)
+    assert rms(row(effect, parameter, LIKE_REFERENCE) - exact) < 2e-3 * rms(exact)
+
+
+@by_known_parameter
+def test_the_extended_model_removes_the_effect(effect: Effect, parameter: EffectParameter) -> None:
+    """At a size that is a thousandth of the output the effect's own nonlinearity is followed, too."""
+    order = PAPER if effect.id == "second-order-misalignment" else LIKE_REFERENCE
+    size = 1.0 if parameter.name == "kappa" else reach(effect, parameter, 1e-3)
+    alongside = ALONGSIDE.get(effect.id, {})
+    value = {parameter.name: alongside.get(parameter.name, 0.0) + size}
+    channels, V = truth(effect, value)
+    p = {
+        effect.symbol(q).name: (alongside | value)[q.name]
+        for q in effect.parameters
+        if q.name in alongside | value
+    }
+    before = rms(V - model((), order, channels, {}))
+    after = rms(V - model((effect,), order, channels, p))
+    assert before > 1e-4 * rms(V) or effect.id == "second-order-misalignment"
+    assert after < max(1e-3 * before, 1e-13 * rms(V))
+
+
+@by_effect
+def test_units_are_consistent(effect: Effect) -> None:
+    """In a system of units of other base units, every input converted, the same voltage comes out."""
+    channels, V = _nothing()
+    base = {"[length]": 0.83, "[time]": 1.21, "[mass]": 1.07, "[current]": 0.77, "[temperature]": 1.13}
+
+    def scale(unit: str) -> float:
+        power = units(G0).parse(unit).dimensionality
+        return float(np.prod([base[d] ** n for d, n in power.items()]))
+
+    def channel_scale(name: str) -> float:
+        derivatives = {"d": 1, "d2": 2}.get(name.split("_")[0], 0)
+        if derivatives:
+            return scale(CHANNEL_UNIT[name.split("_", 1)[1]]) / base["[time]"] ** derivatives
+        return {"time": base["[time]"], "cos_phi": 1.0, "sin_phi": 1.0}.get(name) or scale(CHANNEL_UNIT[name])
+
+    def convert(values: Mapping[str, Array | float]) -> dict[str, Array | float]:
+        out: dict[str, Array | float] = {}
+        for name, v in values.items():
+            zero = REFERENCE_VALUE.get(name, 0.0)
+            factor = constants[name] if name in constants else channel_scale(name)
+            out[name] = zero + factor * (v - zero)
+        return out
+
+    constants = {q.name: scale(q.unit) for q in (*DISC, *ACCELEROMETER)} | {"cos_j": 1.0, "sin_j": 1.0}
+    p = {}
+    for q in effect.parameters:
+        name = effect.symbol(q).name
+        # A random process enters as the disc angle itself.
+        constants[name] = 1.0 if effect.kind == "random" else scale(q.unit)
+        p[name] = reach(effect, q, 1e-3) if q.fitted else STEP_AT
+    f = voltage((effect,), PAPER)
+    neutral = {n: 0.0 if n != "gain_step__t_step" else STEP_AT for n in p}
+    for j in range(4):
+        values = {n: v for n, v in (chain_values(j, channels) | p).items() if n in f.inputs}
+        nothing = values | {n: v for n, v in neutral.items() if n in f.inputs}
+        change = f(values)["V"] - f(nothing)["V"]
+        changed = f(convert(values))["V"] - f(convert(nothing))["V"]
+        assert rms(change) > 0
+        np.testing.assert_allclose(
+            changed / scale("V"), change, rtol=0, atol=1e-9 * rms(change) + 1e-14 * rms(V)
+        )
+
+
+@by_effect
+def test_it_reads_the_channels_that_it_declares(effect: Effect) -> None:
+    a = signatures((effect,), PAPER)
+    known = {q.name for q in (*DISC, *ACCELEROMETER)} | {c.name for c in MOTION}
+    known |= {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"} | {
+        effect.symbol(q).name for q in effect.parameters
+    }
+    known |= {f"d_{c.name}" for c in MOTION}
+    declared = {*effect.channels, *(q.channel for q in effect.parameters if q.channel)}
+    assert set(a.inputs) - known <= declared
+    # An accelerometer's own misalignment may hide a channel from one signature, but not from the model.
+    assert declared <= set(voltage((effect,), EXACT).inputs)
+
+
+@pytest.mark.parametrize(
+    ("effect", "parameter"),
+    [pytest.param(e, q, id=f"{e.id}.{q.name}") for e, q in FITTED if q.channel or e.channels],
+)
+def test_without_its_channel_nothing_is_left(effect: Effect, parameter: EffectParameter) -> None:
+    """A record in which the declared channels rest at their reference holds nothing of the effect."""
+    needed = [parameter.channel] if parameter.channel else list(effect.channels)
+    channels = dict(_nothing()[0])
+    for name in needed:
+        channels[name] = np.full_like(channels["time"], REFERENCE_VALUE.get(name, 0.0))
+    found = signatures((effect,), PAPER)(chain_values(1, channels))[effect.symbol(parameter).name]
+    assert np.all(found == 0)
+
+
+@by_effect
+def test_derivatives_hold_where_the_effect_is_strong(effect: Effect) -> None:
+    """Calibration differentiates the extended model away from the neutral point."""
+    fitted = [q for q in effect.parameters if q.fitted]
+    channels = _nothing()[0]
+    a = accelerometer((effect,), PAPER)
+    by = a.tape.derivatives(a.voltage)
+    rows = evaluated(simplify(a.tape.assignments, [(q.name, by(effect.symbol(q))) for q in fitted], {}))
+    at = {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
+    for q in fitted:
+        name = effect.symbol(q).name
+        h = reach(effect, q, 1e-5)
+        up, down = (model((effect,), PAPER, channels, at | {name: at[name] + s * h}) for s in (1, -1))
+        found = np.stack(
+            [np.broadcast_to(rows(chain_values(j, channels) | at)[q.name], up[0].shape) for j in range(4)]
+        )
+        assert rms((up - down) / (2 * h) - found) < 1e-4 * rms(found)
+
+
+@pytest.mark.parametrize("effect", EFFECTS, ids=lambda e: e.id)
+def test_it_can_be_shown_to_a_user(effect: Effect) -> None:
+    for text in (effect.title, effect.physics, effect.source, effect.equation, effect.limits):
+        assert text.strip()
+    assert effect.physics.endswith(".")
+    for q in effect.parameters:
+        assert q.meaning
+        assert q.latex
+        assert 0 < si(q.unit) < np.inf
+        assert q.plausible > 0
+
+
+def test_every_effect_of_the_simulator_is_in_the_catalogue_with_its_parameters() -> None:
+    known = {e.id: e for e in EFFECTS}
+    for id_, parameters in CATALOGUE.items():
+        mine = {q.name: q for q in known[id_].parameters}
+        assert list(mine) == list(parameters), id_
+        for name, theirs in parameters.items():
+            assert mine[name].shared != theirs.per_accelerometer, f"{id_}.{name}"
+            assert units(G0).fits(mine[name].unit, theirs.unit), f"{id_}.{name}"

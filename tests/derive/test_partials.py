@@ -1,0 +1,45 @@
+"""Derivatives in one pass over an expression, against SymPy's own."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+from derive.tape import Tape, partials
+
+X, Y, Z = sp.symbols("x y z", real=True)
+
+
+@pytest.mark.parametrize(
+    "e",
+    [
+        sp.Integer(3),
+        X,
+        3 * X * Y**2 - Z / 7,
+        (X + Y) * (X - Z) ** 3 * (Y * Z + 2),
+        X / (1 + Y) ** 2 + sp.sqrt(1 + Z**2),
+        sp.sin(X * Y) * sp.cos(Z) + Y * sp.Abs(Y),
+        X**Y + sp.exp(X * Z),
+        sp.pi * X * sp.Heaviside(Y, 1),
+    ],
+    ids=str,
+)
+def test_partials_are_derivatives(e: sp.Expr) -> None:
+    found = partials(e)
+    assert list(found) == sorted(found, key=lambda s: s.name)
+    assert 0 not in found.values()
+    for s in (X, Y, Z):
+        assert sp.simplify(found.get(s, sp.Integer(0)) - sp.diff(e, s)) == 0
+
+
+def test_what_cancels_is_left_out() -> None:
+    assert partials((X + Y) * 2 - 2 * X + Z) == {Y: 2, Z: 1}
+
+
+def test_a_name_holds_one_value() -> None:
+    tape = Tape()
+    first = tape.let("product", X * Y)
+    assert tape.let("product", Y * X) is first
+    assert len(tape.assignments) == 1
+    with pytest.raises(ValueError, match="product is assigned twice"):
+        tape.let("product", X + Y)
