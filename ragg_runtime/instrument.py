@@ -23,9 +23,9 @@ Vector = NDArray[np.float64]
 class Parameter:
     """A parameter of an accelerometer.
 
-    ``plausible`` is the size of error, in ``si_unit``, that would not surprise a careful engineer who holds
-    the maker's test sheet; if ``relative``, it is a fraction of the nominal value.
-    ``display_unit`` is the one to print in. Parameters not ``required`` are 0 where model.toml leaves them out.
+    ``plausible`` is the size of error, in ``display_unit``, that would not surprise a careful engineer who
+    holds the maker's test sheet; if ``relative``, it is a fraction of the nominal value. ``display_unit`` is
+    the one to print in. Parameters not ``required`` are 0 where model.toml leaves them out.
     """
 
     name: str
@@ -37,53 +37,43 @@ class Parameter:
     relative: bool = False
     required: bool = False
 
-    def plausible_si(self, nominal: Vector) -> Vector:
-        """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``."""
+    def plausible_si(self, nominal: Vector, g0: float) -> Vector:
+        """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``, with g = ``g0`` m/s^2."""
         if self.relative:
             return np.abs(nominal) * self.plausible
-        return np.full_like(nominal, self.plausible)
-
-
-_MICRO_G = 9.8e-6
-_MICRO_PER_G = 1e-6 / 9.8
+        return np.full_like(nominal, units(g0).to_si(self.plausible, self.display_unit, self.si_unit))
 
 
 def _second_order(index: int, product: str) -> Parameter:
     text = f"second-order coefficient of {product}"
-    return Parameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20 * _MICRO_PER_G)
+    return Parameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20.0)
 
 
 def _angle(name: str, symbol: str, text: str) -> Parameter:
-    return Parameter(name, symbol, "rad", "arcsec", text, 5e-4)
+    return Parameter(name, symbol, "rad", "arcsec", text, 100.0)
 
 
-PARAMETERS: Mapping[str, Parameter] = MappingProxyType(
-    {
-        p.name: p
-        for p in (
-            Parameter("dR", "dR", "m", "um", "radial distance error", 50e-6),
-            _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
-            _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
-            _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
-            _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
-            _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
-            Parameter("K0", "K_0", "m/s^2", "ug", "null bias", 50 * _MICRO_G),
-            Parameter(
-                "K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True
-            ),
-            _second_order(2, "f_i^2"),
-            _second_order(4, "f_i f_p"),
-            _second_order(5, "f_o^2"),
-            _second_order(6, "f_i f_o"),
-            _second_order(7, "f_p^2"),
-            _second_order(8, "f_o f_p"),
-            Parameter(
-                "k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True
-            ),
-        )
-    }
+PARAMETERS: tuple[Parameter, ...] = (
+    Parameter("dR", "dR", "m", "um", "radial distance error", 50.0),
+    _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
+    _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
+    _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
+    _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
+    _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
+    Parameter("K0", "K_0", "m/s^2", "ug", "null bias", 50.0),
+    Parameter("K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True),
+    _second_order(2, "f_i^2"),
+    _second_order(4, "f_i f_p"),
+    _second_order(5, "f_o^2"),
+    _second_order(6, "f_i f_o"),
+    _second_order(7, "f_p^2"),
+    _second_order(8, "f_o f_p"),
+    Parameter("k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True),
 )
 """The accelerometer's parameters, in the order in which every parameter vector holds them."""
+
+PARAMETER: Mapping[str, Parameter] = MappingProxyType({p.name: p for p in PARAMETERS})
+"""The same by name."""
 
 DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})
 
@@ -146,15 +136,15 @@ class Instrument:
         effects_folder: Path | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
-        _check_names(accelerometers, PARAMETERS, "accelerometers")
-        for p in PARAMETERS.values():
+        _check_names(accelerometers, PARAMETER, "accelerometers")
+        for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
                 raise UserError(
                     f"{p.name} ({p.description}) is missing",
                     where=at(path, "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
-        vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETERS}
+        vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
         made = cls(
             radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
         )
@@ -163,7 +153,7 @@ class Instrument:
 
     def replace(self, **changes: ArrayLike) -> Instrument:
         """The same instrument with some accelerometer parameters changed (SI, scalar or (4,))."""
-        _check_names(changes, PARAMETERS, "accelerometers")
+        _check_names(changes, PARAMETER, "accelerometers")
         vectors = dict(self.accelerometers) | {name: _vector(v) for name, v in changes.items()}
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
 
@@ -264,11 +254,11 @@ def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
 
 
 def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
-    _check_names(table, PARAMETERS, "accelerometers", path)
+    _check_names(table, PARAMETER, "accelerometers", path)
     found = {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
-        found[name] = _si(read_quantity(raw, place), PARAMETERS[name].si_unit, g0, place)
+        found[name] = _si(read_quantity(raw, place), PARAMETER[name].si_unit, g0, place)
     return found
 
 
