@@ -127,10 +127,6 @@ def _bias_of(extra: Callable[[Mapping[str, Array]], Array]) -> Record:
     return channels, V + (k["k_VI"] * k["K1"])[:, None] * extra(channels)
 
 
-def _pressure(value: Mapping[str, float]) -> Record:
-    return _bias_of(lambda c: np.tile(value["dK0_dp"] * (c["pressure"] - 101325.0), (4, 1)))
-
-
 def _magnetic(value: Mapping[str, float]) -> Record:
     def bias(c: Mapping[str, Array]) -> Array:
         B = np.stack([c["B_x"], c["B_y"], c["B_z"]])
@@ -150,11 +146,10 @@ def _jitter(value: Mapping[str, float]) -> Record:
 
 
 DIRECT: Mapping[str, Callable[[Mapping[str, float]], Record]] = {
-    "pressure-bias": _pressure,
     "magnetic-bias": _magnetic,
     "spin-rate-jitter": _jitter,
 }
-"""Effects that the reference simulator does not know, or knows as a random process, written down again."""
+"""Effects that the reference knows as a random process, or but along the nominal axes, written down again."""
 
 ALONGSIDE: Mapping[str, Mapping[str, float]] = {
     "gain-step": {"t_step": STEP_AT},
