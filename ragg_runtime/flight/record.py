@@ -1,0 +1,130 @@
+"""A flight in memory: what the columns mean, their SI units, and the record itself."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ragg_runtime.errors import UserError, at
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SPECIFIC_FORCE = ("a_x", "a_y", "a_z")
+ANGULAR_RATE = ("omega_x", "omega_y", "omega_z")
+ANGULAR_ACCELERATION = ("omegadot_x", "omegadot_y", "omegadot_z")
+GRADIENT = ("Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_yy", "Gamma_yz", "Gamma_zz")
+VOLTAGES = ("V_1", "V_2", "V_3", "V_4")
+DEMODULATED = ("inline", "cross")
+OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
+
+SI_UNITS: Mapping[str, str] = MappingProxyType(
+    {"time": "s"}
+    | dict.fromkeys(SPECIFIC_FORCE, "m/s^2")
+    | dict.fromkeys(ANGULAR_RATE, "rad/s")
+    | dict.fromkeys(ANGULAR_ACCELERATION, "rad/s^2")
+    | dict.fromkeys(GRADIENT, "s^-2")
+    | {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "spin_angle": "rad", "pressure": "Pa"}
+    | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
+    | dict.fromkeys(("G_out", *VOLTAGES), "V")
+    | dict.fromkeys(DEMODULATED, "s^-2")
+)
+"""SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
+
+
+@dataclass(frozen=True, eq=False)
+class Flight:
+    """A uniformly sampled record of motion, auxiliary channels and output, in SI, float64.
+
+    Attributes
+    ----------
+    time
+        (N,) s, increasing, one sample every 1/rate; samples that the file lacks have been put in.
+    channels
+        Name -> (N,): motion (m/s^2, rad/s, rad/s^2), gradients (s^-2), ``spin_angle`` (rad), auxiliaries. Where
+        the file has none, interpolated, so that filters may run through.
+    outputs
+        Name -> (N,): ``G_out`` and ``V_1`` ... ``V_4`` in V, ``inline`` and ``cross`` in s^-2; NaN where the
+        file has none.
+    valid
+        (N,) bool: False where a sample is missing or incomplete. All True if not given.
+    units
+        Name -> SI unit of every column.
+    digest
+        SHA-256 of the file, hexadecimal; empty if the flight comes from no file.
+    notes
+        What was derived, filled in or looks odd, in sentences.
+    """
+
+    time: Array
+    channels: Mapping[str, Array]
+    outputs: Mapping[str, Array]
+    name: str = "flight"
+    path: Path | None = None
+    digest: str = ""
+    notes: tuple[str, ...] = ()
+    valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
+    units: Mapping[str, str] = MappingProxyType({})
+
+    def __post_init__(self) -> None:
+        time = _read_only(self.time)
+        valid = np.ones(len(time), dtype=np.bool_) if self.valid.size == 0 else self.valid
+        valid = np.asarray(valid, dtype=np.bool_).view()
+        valid.flags.writeable = False
+        set_field = object.__setattr__  # the way of frozen dataclasses to normalise what they are given
+        set_field(self, "time", time)
+        set_field(self, "valid", valid)
+        for group in ("channels", "outputs"):
+            columns = {name: _read_only(v) for name, v in getattr(self, group).items()}
+            for name, column in columns.items():
+                if column.shape != time.shape:
+                    raise UserError(
+                        f"{name} has another length than time",
+                        where=at(self.path, self.name),
+                        found=column.shape,
+                        expected=time.shape,
+                    )
+            set_field(self, group, MappingProxyType(columns))
+        names = ("time", *self.channels, *self.outputs)
+        units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
+        set_field(self, "units", MappingProxyType(units))
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def rate(self) -> float:
+        """Sampling rate, Hz."""
+        return (len(self.time) - 1) / float(self.time[-1] - self.time[0])
+
+    @property
+    def duration(self) -> float:
+        """Time that the samples stand for, s: N / rate."""
+        return len(self.time) / self.rate
+
+    def with_outputs(self, outputs: Mapping[str, ArrayLike]) -> Flight:
+        """The same motion with other outputs (SI), e.g. a model's; it no longer stands for the file."""
+        columns = {name: np.asarray(v, dtype=np.float64) for name, v in outputs.items()}
+        return dataclasses.replace(self, outputs=columns, path=None, digest="")
+
+    def part(self, rows: slice) -> Flight:
+        """A stretch of the flight, as views."""
+        return dataclasses.replace(
+            self,
+            time=self.time[rows],
+            channels={name: v[rows] for name, v in self.channels.items()},
+            outputs={name: v[rows] for name, v in self.outputs.items()},
+            valid=self.valid[rows],
+        )
+
+
+def _read_only(values: ArrayLike) -> Array:
+    view = np.asarray(values, dtype=np.float64).view()
+    view.flags.writeable = False
+    return view
