@@ -1,5 +1,6 @@
 """Flights: records of motion and output, read from and written to CSV, Parquet and NetCDF."""
 
+from ragg_runtime.flight.files import iter_flight_chunks, read_flight, write_flight
 from ragg_runtime.flight.record import Flight
 
-__all__ = ["Flight"]
+__all__ = ["Flight", "iter_flight_chunks", "read_flight", "write_flight"]

@@ -70,7 +70,7 @@ class Flight:
     digest: str = ""
     notes: tuple[str, ...] = ()
     valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
-    units: Mapping[str, str] = MappingProxyType({})
+    units: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)

@@ -1,0 +1,241 @@
+"""From a file's columns to a flight: SI units, what is missing, what can be derived."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.flight.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    DEMODULATED,
+    GRADIENT,
+    OUTPUTS,
+    SI_UNITS,
+    SPECIFIC_FORCE,
+    VOLTAGES,
+    Array,
+    Flight,
+    Mask,
+)
+from ragg_runtime.flight.sampling import Grid, uniform
+from ragg_runtime.flight.source import Batch, Column
+from ragg_runtime.timeseries import differentiate, runs
+from ragg_runtime.units import Units
+
+BRIDGED = 2.0
+"""Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
+channels are often sampled more slowly than the motion, with blanks between."""
+
+_TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
+_NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The columns of one file with their SI units, checked once; :meth:`flight` turns rows into a flight."""
+
+    path: Path
+    columns: tuple[Column, ...]
+    si_units: dict[str, str]
+    known: Units
+
+    def flight(
+        self, rows: Batch, *, name: str, digest: str, first_row: int = 1, step: float | None = None
+    ) -> Flight:
+        """The flight of these rows (file's units); ``step`` is given for a part of a longer record."""
+        si = {c.name: self._converted(c, rows[c.name]) for c in self.columns}
+        grid = uniform(si.pop("time"), self.path, first_row, step)
+        notes = list(grid.notes)
+        if step is None:
+            _drop_empty(si, notes, self.path)
+        placed = {c: _placed(v, grid) for c, v in si.items()}
+        outputs = {c: placed.pop(c) for c in OUTPUTS if c in placed}
+        valid = _valid(placed | outputs, grid, notes)
+        _derive_output(outputs, notes)
+        channels = {c: _filled(v, c) for c, v in placed.items()}
+        _derive_acceleration(channels, placed, grid, valid, notes)
+        _check_gradient(channels, notes)
+        if step is None and not valid.any():
+            raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
+        units = {n: self.si_units.get(n, SI_UNITS.get(n, "1")) for n in (*channels, *outputs)}
+        return Flight(
+            time=grid.time,
+            channels=channels,
+            outputs=outputs,
+            name=name,
+            path=self.path,
+            digest=digest,
+            notes=tuple(notes),
+            valid=valid,
+            units=units,
+        )
+
+    def _converted(self, column: Column, values: Array) -> Array:
+        where = at(self.path, f"column {column.name!r}")
+        result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
+        return np.where(np.isfinite(result), result, np.nan)
+
+
+def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: bool = True) -> Layout:
+    """Check names and units of a file's columns; UserError if one is missing or does not convert.
+
+    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass.
+    """
+    known = Units(g0) if g0 <= 0 else _shared(g0)
+    names = [c.name for c in columns]
+    _need(path, names, _NEEDED, "the motion needs")
+    if any(n in names for n in ANGULAR_ACCELERATION):
+        _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+    recorded = "G_out" in names or all(n in names for n in VOLTAGES) or all(n in names for n in DEMODULATED)
+    if need_output and not recorded:
+        raise UserError(
+            "the instrument's output is missing",
+            where=path,
+            found="the columns " + ", ".join(names),
+            expected="G_out, or V_1 V_2 V_3 V_4, or inline and cross",
+            remedy=next(filter(None, (did_you_mean(n, OUTPUTS) for n in names if n not in SI_UNITS)), None),
+        )
+    si_units = {}
+    for c in columns:
+        where = at(path, f"column {c.name!r}")
+        si_units[c.name] = SI_UNITS[c.name] if c.name in SI_UNITS else known.base_unit(c.unit, where)
+        known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
+    return Layout(path, tuple(columns), si_units, known)
+
+
+def _shared(g0: float) -> Units:
+    from ragg_runtime.units import units
+
+    return units(g0)
+
+
+def _need(path: Path, names: list[str], needed: Sequence[str], what: str) -> None:
+    missing = [n for n in needed if n not in names]
+    if missing:
+        spare = [n for n in names if n not in SI_UNITS]
+        near = did_you_mean(missing[0], spare)
+        raise UserError(
+            f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing",
+            where=path,
+            found="the columns " + ", ".join(names),
+            expected=f"{what} " + ", ".join(needed),
+            remedy=None if near is None else f"is {near[13:-1]} meant for {missing[0]}?",
+        )
+
+
+def _drop_empty(si: dict[str, Array], notes: list[str], path: Path) -> None:
+    """Leave out columns without a single number, unless the motion would be incomplete."""
+    for name in [n for n, v in si.items() if np.isnan(v).all()]:
+        if name in _NEEDED:
+            raise UserError("the column holds no number", where=at(path, f"column {name!r}"))
+        del si[name]
+        notes.append(f"{name}: the column holds no number; it is left out")
+
+
+def _placed(values: Array, grid: Grid) -> Array:
+    """Values on the whole grid, NaN where the file has no sample."""
+    if len(values) == len(grid.time):
+        return values
+    whole = np.full(len(grid.time), np.nan)
+    whole[grid.index] = values
+    return whole
+
+
+def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
+    """Samples at which everything stands that has to; counts the others in ``notes``."""
+    present = np.zeros(len(grid.time), dtype=np.bool_)
+    present[grid.index] = True
+    valid = present.copy()
+    for name, values in columns.items():
+        missing = np.isnan(values)
+        if not np.any(missing & present):
+            continue
+        count = int(np.sum(missing & present))
+        bridged = np.zeros_like(missing)
+        if name not in SI_UNITS or name in (
+            "temperature",
+            "roll",
+            "pitch",
+            "yaw",
+            "pressure",
+            "B_x",
+            "B_y",
+            "B_z",
+        ):
+            for run in runs(missing & present):
+                inside = run.start > 0 and run.stop < len(missing)
+                bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
+        kept = int(np.sum(bridged & present))
+        if kept:
+            notes.append(f"{name}: {kept} samples without a value are interpolated")
+        if count > kept:
+            notes.append(f"{name}: {count - kept} samples without a value are not used")
+        valid &= ~missing | bridged
+    return valid
+
+
+def _filled(values: Array, name: str) -> Array:
+    missing = np.isnan(values)
+    if not missing.any():
+        return values
+    result = values.copy()
+    places = np.flatnonzero(~missing)
+    if not len(places):  # only in a part of a longer record
+        return np.zeros_like(values)
+    there = values[places]
+    if name == "spin_angle":
+        there = np.unwrap(there)
+    result[missing] = np.interp(np.flatnonzero(missing), places, there)
+    return result
+
+
+def _derive_output(outputs: dict[str, Array], notes: list[str]) -> None:
+    if not all(v in outputs for v in VOLTAGES):
+        return
+    v1, v2, v3, v4 = (outputs[v] for v in VOLTAGES)
+    sum_ = (v1 + v2) - (v3 + v4)
+    if "G_out" not in outputs:
+        outputs["G_out"] = sum_
+        notes.append("G_out is derived: V_1 + V_2 - V_3 - V_4")
+        return
+    there = np.isfinite(sum_) & np.isfinite(outputs["G_out"])
+    difference = np.sqrt(np.mean((sum_ - outputs["G_out"])[there] ** 2)) if there.any() else 0.0
+    size = np.sqrt(np.mean(outputs["G_out"][there] ** 2)) if there.any() else 0.0
+    if difference > 1e-3 * size:
+        notes.append(
+            f"G_out differs from V_1 + V_2 - V_3 - V_4 by {difference:.3g} V rms, with {size:.3g} V rms of its own: "
+            "check the order and the signs of the voltages"
+        )
+
+
+def _derive_acceleration(
+    channels: dict[str, Array], placed: dict[str, Array], grid: Grid, valid: Mask, notes: list[str]
+) -> None:
+    missing = [n for n in ANGULAR_ACCELERATION if n not in channels]
+    if not missing:
+        return
+    for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
+        derived = differentiate(placed[rate_name], 1 / grid.step)
+        # A sample that stands alone between two gaps has no derivative.
+        valid &= np.isfinite(derived)
+        channels[name] = _filled(derived, name)
+    notes.append(
+        "omegadot_x, omegadot_y, omegadot_z are derived from omega, good to 40 % of the Nyquist frequency"
+    )
+
+
+def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
+    given = [n for n in GRADIENT if n in channels]
+    if given and len(given) < len(GRADIENT):
+        notes.append("of the gravity gradient only " + ", ".join(given) + " are given")
+    if all(n in given for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")):
+        trace = float(np.max(np.abs(sum(channels[n] for n in ("Gamma_xx", "Gamma_yy", "Gamma_zz")))))
+        if trace > _TRACE_NOTED:
+            notes.append(
+                f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0"
+            )

@@ -1,0 +1,62 @@
+"""Parquet flights: float columns, the unit in each field's metadata ``units``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.flight.record import Array
+from ragg_runtime.flight.source import Batch, Column, Source, columns_of
+
+
+def open_parquet(path: Path) -> Source:
+    """The Parquet file as a source; UserError if a column is not numeric or has no unit."""
+    try:
+        schema = pq.read_schema(path)
+    except (pa.ArrowException, OSError) as error:
+        raise _damaged(path, error) from None
+    headers = []
+    # pandas keeps an unnamed index as a column of its own.
+    names = [n for n in schema.names if not n.startswith("__index_level_")]
+    for name in names:
+        field = schema.field(name)
+        kind = field.type
+        if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
+            raise UserError(
+                "the column does not hold numbers",
+                where=f"{path}: column {name!r}",
+                found=kind,
+                expected="float64",
+            )
+        unit = (field.metadata or {}).get(b"units")
+        headers.append((name, None if unit is None else unit.decode("utf-8", "replace")))
+    columns = columns_of(path, headers)
+    return Source(path, columns, lambda: _batches(path, names, columns))
+
+
+def write_parquet(path: Path, columns: list[tuple[Column, Array]]) -> None:
+    """Write columns as float64 with their units; NaN becomes null."""
+    fields = [pa.field(c.name, pa.float64(), metadata={"units": c.unit}) for c, _ in columns]
+    arrays = [pa.array(np.ascontiguousarray(v), from_pandas=True) for _, v in columns]
+    pq.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), path)
+
+
+def _batches(path: Path, names: list[str], columns: tuple[Column, ...]) -> Iterator[Batch]:
+    try:
+        with pq.ParquetFile(path) as file:
+            for batch in file.iter_batches(columns=names):
+                yield {
+                    c.name: batch.column(n).cast(pa.float64()).to_numpy(zero_copy_only=False)
+                    for n, c in zip(names, columns, strict=True)
+                }
+    except (pa.ArrowException, OSError) as error:
+        raise _damaged(path, error) from None
+
+
+def _damaged(path: Path, error: Exception) -> UserError:
+    return UserError("the Parquet file is damaged", where=path, found=str(error).splitlines()[0][:200])

@@ -1,0 +1,132 @@
+"""The time axis of a flight: uniform rate, jitter, and the places of samples that the file lacks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError, at
+from ragg_runtime.flight.record import Array
+
+JITTER_NOTED = 1e-3
+"""Deviation from uniform sampling, in steps, that is worth a note."""
+
+JITTER_REFUSED = 0.25
+"""Deviation, in steps, from which a record is not uniformly sampled any more."""
+
+_MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Where the file's samples stand on the uniform grid.
+
+    Attributes
+    ----------
+    index
+        (n,) places of the file's samples, increasing from 0.
+    time
+        (N,) instants of the whole grid, s: the file's own where it has a sample, interpolated elsewhere.
+    step
+        Sampling interval, s.
+    notes
+        Gaps and jitter, in sentences.
+    """
+
+    index: NDArray[np.int64]
+    time: Array
+    step: float
+    notes: tuple[str, ...]
+
+
+def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | None = None) -> Grid:
+    """The grid of a record's instants (n,), s.
+
+    ``step`` is the sampling interval if it is known, else the median is taken. Raises UserError where there
+    are fewer than two samples, or time is missing, stands still, runs back or is not uniform.
+    """
+    where = at(path, "column 'time'")
+    if len(time) < 2:
+        raise UserError(
+            "too few samples", where=path, found=f"{len(time)} rows", expected="at least 2, usually thousands"
+        )
+    if not np.all(np.isfinite(time)):
+        row = int(np.flatnonzero(~np.isfinite(time))[0])
+        raise UserError("the time is missing", where=where, found=f"row {first_row + row}: {time[row]}")
+    steps = np.diff(time)
+    if np.any(steps <= 0):
+        raise _not_increasing(time, steps, where, first_row)
+    if step is None:
+        step = _step(steps)
+    jumps = np.rint(steps / step).astype(np.int64)
+    deviation = np.abs(steps - jumps * step) / step
+    if np.any(jumps < 1) or np.any(deviation[jumps == 1] > JITTER_REFUSED):
+        row = int(np.argmax(np.where(jumps <= 1, deviation, 0.0)))
+        raise UserError(
+            "the record is not uniformly sampled",
+            where=where,
+            found=f"a step of {steps[row]:.6g} s after row {first_row + row} (t = {time[row]:.10g} s)",
+            expected=f"steps of {step:.6g} s",
+            remedy="resample the record to a constant rate",
+        )
+    index = np.concatenate([[0], np.cumsum(jumps)])
+    count = int(index[-1]) + 1
+    if count > len(time) / (1 - _MOST_MISSING):
+        raise UserError(
+            "more than nine samples in ten are missing",
+            where=where,
+            found=f"{len(time)} samples in {time[-1] - time[0]:.6g} s, with steps of {step:.6g} s",
+            remedy="split the record at its gaps into one file each",
+        )
+    whole = time if count == len(time) else np.interp(np.arange(count), index, time)
+    return Grid(index, whole, step, tuple(_notes(time, steps, jumps, deviation, step)))
+
+
+def _step(steps: Array) -> float:
+    """The mean of those steps that are about the median: the rounding of printed times averages out."""
+    median = float(np.median(steps))
+    return float(np.mean(steps[np.abs(steps - median) < 0.5 * median]))
+
+
+def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array, step: float) -> list[str]:
+    notes = []
+    gaps = np.flatnonzero(jumps > 1)
+    if len(gaps):
+        missing = int(np.sum(jumps[gaps] - 1))
+        longest = gaps[np.argmax(steps[gaps])]
+        notes.append(
+            f"{len(gaps)} gap{'s' * (len(gaps) > 1)}: {missing} of {len(time) + missing} samples are missing, the "
+            f"longest stretch {steps[longest]:.6g} s from t = {time[longest]:.10g} s; they are filled in and not used"
+        )
+    worst = int(np.argmax(deviation))
+    if deviation[worst] > JITTER_NOTED:
+        notes.append(
+            f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s "
+            f"(after t = {time[worst]:.10g} s); the record is taken as uniform"
+        )
+    return notes
+
+
+def _not_increasing(time: Array, steps: Array, where: str, first_row: int) -> UserError:
+    if np.all(steps == 0):
+        return UserError(
+            "the time stands still",
+            where=where,
+            found=f"{time[0]:.10g} s in every row",
+            expected="increasing time",
+        )
+    if np.all(steps < 0):
+        return UserError("the time runs backwards", where=where, remedy="sort the rows by time")
+    row = int(np.flatnonzero(steps <= 0)[0])
+    count = int(np.sum(steps <= 0))
+    return UserError(
+        "an instant stands there twice" if steps[row] == 0 else "the time runs back",
+        where=where,
+        found=f"row {first_row + row}: {time[row]:.10g} s, row {first_row + row + 1}: {time[row + 1]:.10g} s"
+        + (f" (and {count - 1} more such places)" if count > 1 else ""),
+        expected="increasing time",
+        remedy="remove doubled rows or sort the rows by time; two records need two files",
+    )
