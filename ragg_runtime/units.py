@@ -80,11 +80,9 @@ class Units:
             try:
                 return self._registry.parse_units(text.replace("·", "*"))
             except pint.UndefinedUnitError as error:
-                names = error.unit_names
-                remedy = (
-                    f"{names if isinstance(names, str) else ', '.join(map(str, names))!s} is not a known unit"
-                )
-            except Exception:  # what pint raises for a malformed expression is not documented
+                names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
+                remedy = f"{', '.join(map(str, names))} is not a known unit"
+            except Exception:  # noqa: BLE001 - what pint raises for a malformed expression is not documented
                 remedy = None
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 

@@ -12,6 +12,7 @@ from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
+    AUXILIARY,
     DEMODULATED,
     GRADIENT,
     OUTPUTS,
@@ -25,7 +26,7 @@ from ragg_runtime.flight.record import (
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
 from ragg_runtime.timeseries import differentiate, runs
-from ragg_runtime.units import Units
+from ragg_runtime.units import Units, units
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
@@ -62,7 +63,6 @@ class Layout:
         _check_gradient(channels, notes)
         if step is None and not valid.any():
             raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
-        units = {n: self.si_units.get(n, SI_UNITS.get(n, "1")) for n in (*channels, *outputs)}
         return Flight(
             time=grid.time,
             channels=channels,
@@ -72,7 +72,7 @@ class Layout:
             digest=digest,
             notes=tuple(notes),
             valid=valid,
-            units=units,
+            units=self.si_units,
         )
 
     def _converted(self, column: Column, values: Array) -> Array:
@@ -86,7 +86,7 @@ def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: boo
 
     ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass.
     """
-    known = Units(g0) if g0 <= 0 else _shared(g0)
+    known = units(g0)
     names = [c.name for c in columns]
     _need(path, names, _NEEDED, "the motion needs")
     if any(n in names for n in ANGULAR_ACCELERATION):
@@ -106,12 +106,6 @@ def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: boo
         si_units[c.name] = SI_UNITS[c.name] if c.name in SI_UNITS else known.base_unit(c.unit, where)
         known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
     return Layout(path, tuple(columns), si_units, known)
-
-
-def _shared(g0: float) -> Units:
-    from ragg_runtime.units import units
-
-    return units(g0)
 
 
 def _need(path: Path, names: list[str], needed: Sequence[str], what: str) -> None:
@@ -157,16 +151,7 @@ def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
             continue
         count = int(np.sum(missing & present))
         bridged = np.zeros_like(missing)
-        if name not in SI_UNITS or name in (
-            "temperature",
-            "roll",
-            "pitch",
-            "yaw",
-            "pressure",
-            "B_x",
-            "B_y",
-            "B_z",
-        ):
+        if name not in SI_UNITS or name in AUXILIARY:
             for run in runs(missing & present):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED

@@ -24,14 +24,20 @@ VOLTAGES = ("V_1", "V_2", "V_3", "V_4")
 DEMODULATED = ("inline", "cross")
 OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
 
+AUXILIARY: Mapping[str, str] = MappingProxyType(
+    {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "pressure": "Pa"}
+    | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
+)
+"""Auxiliary channels of fixed meaning and their SI units; any other name is an auxiliary channel as well."""
+
 SI_UNITS: Mapping[str, str] = MappingProxyType(
     {"time": "s"}
     | dict.fromkeys(SPECIFIC_FORCE, "m/s^2")
     | dict.fromkeys(ANGULAR_RATE, "rad/s")
     | dict.fromkeys(ANGULAR_ACCELERATION, "rad/s^2")
     | dict.fromkeys(GRADIENT, "s^-2")
-    | {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "spin_angle": "rad", "pressure": "Pa"}
-    | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
+    | {"spin_angle": "rad"}
+    | AUXILIARY
     | dict.fromkeys(("G_out", *VOLTAGES), "V")
     | dict.fromkeys(DEMODULATED, "s^-2")
 )
