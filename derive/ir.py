@@ -7,6 +7,7 @@ at a time, with exact derivatives: it holds for any list of effects.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -14,7 +15,7 @@ import sympy as sp
 from sympy.polys.rings import PolyElement
 
 from derive.chain import accelerometer, auxiliary_channel
-from derive.effect import Effect
+from derive.effect import Effect, EffectParameter
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,
     MOTION_NUMBERS,
@@ -22,8 +23,8 @@ from derive.propagation import (
     motion_numbers,
 )
 from derive.stages import PAPER, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter
-from derive.tape import Program, simplify, symbol_factory
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
+from derive.tape import Program, simplify
 
 
 @dataclass(frozen=True)
@@ -125,8 +126,6 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
 
 
 def _monomial(powers: Sequence[int]) -> sp.Expr:
-    from derive.symbols import symbol
-
     return sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, powers, strict=True)))
 
 
@@ -159,7 +158,7 @@ def chain(
     their neutral values, that is, the signature that each would leave in this instrument.
     """
     a = accelerometer([*effects, *candidates], order)
-    neutral = {e.symbol(q): sp.Float(q.neutral) if q.neutral else sp.Integer(0) for e in candidates for q in e.parameters}
+    neutral = {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)
     if candidates:
@@ -167,7 +166,6 @@ def chain(
     else:
         named = [(q.symbol, q.name, False) for q in ACCELEROMETER]
         named += [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted]
-    # The disc angle itself: what an error of it does to V_j.
     outputs = [(n, by(s)) for s, n, _ in named]
     derivatives = simplify(a.tape.assignments, outputs, neutral)
     known = {p.name for p in (*INSTRUMENT, *effect_parameters(effects))}
@@ -184,6 +182,13 @@ def chain(
         (*INSTRUMENT, *effect_parameters(effects)),
         tuple(candidates) or tuple(effects),
     )
+
+
+def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
+    """The value at which a candidate's signature is taken: a step acts all the time (the runtime masks it)."""
+    if e.kind == "step" and not q.fitted:
+        return -sp.oo
+    return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
 
 
 def operations(program: Program) -> int:
@@ -211,7 +216,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "meaning": q.meaning,
                 "plausible": q.plausible,
                 "shared": q.shared,
-                "neutral": q.neutral,
+                "neutral": q.neutral if math.isfinite(q.neutral) else None,
                 "channel": q.channel,
                 "fitted": q.fitted,
             }
@@ -219,5 +224,3 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         ],
     }
 
-
-__all__ = ["Chain", "Harmonic", "chain", "harmonic", "manifest_of_effect", "operations", "symbol_factory"]

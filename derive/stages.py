@@ -14,11 +14,11 @@ this, too, is what Eq. 19 requires (see the audit for the proof of both).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import sympy as sp
 
-Vector = sp.Matrix
+Vector: TypeAlias = sp.Matrix
 
 
 @dataclass(frozen=True)

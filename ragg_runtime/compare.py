@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,8 +45,17 @@ class Fitted:
     def n_base(self) -> int:
         return len(self.calibration.columns)
 
-    def triangle(self, blocks: Sequence[int] = range(BLOCKS)) -> Array:
-        """Triangle of all flights over some blocks of time, the prior in it."""
+    @cached_property
+    def whole(self) -> Array:
+        """Triangle of all flights, the prior in it."""
+        return self._triangle(range(BLOCKS))
+
+    @cached_property
+    def half(self) -> Array:
+        """The same over the blocks on which a held-out fit is made."""
+        return self._triangle(FITTED_BLOCKS)
+
+    def _triangle(self, blocks: Sequence[int]) -> Array:
         joined = np.vstack([w.triangles[b] for w in self.works for b in blocks])
         return likelihood.with_prior(joined, self.n_base, self.to_nominal)
 
@@ -53,11 +63,14 @@ class Fitted:
         """The candidates among ``available`` effects, on the triangle of everything."""
         candidates = likelihood.grouped(design.candidate_columns(self.model, self.instrument))
         kept = {e: tuple(c) for e, c in candidates.items() if e in available}
-        return Field(self.triangle(), self.n_base, kept, self.calibration.rows)
+        return Field(self.whole, self.n_base, kept, self.calibration.rows)
 
-    def coefficients(self, extra: Sequence[int], blocks: Sequence[int] = range(BLOCKS)) -> tuple[Array, Array]:
-        """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included."""
-        T = self.triangle(blocks)
+    def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
+        """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
+
+        With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted.
+        """
+        T = self.half if held_out else self.whole
         n = self.n_base
         picked = [*range(n), *(n + k for k in extra)]
         prior = np.zeros((len(extra), len(picked) + 1))
@@ -309,7 +322,7 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         nominal.append(as_output(o, np.where(o.record.valid, o.data - predicted, 0.0)))
     zero = np.zeros(f.n_base)
     residual = f.residuals(zero, ())
-    half, _ = f.coefficients((), FITTED_BLOCKS)
+    half, _ = f.coefficients((), held_out=True)
     scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
     rem = remainder(f)
     available = testable_effects(f)

@@ -80,11 +80,11 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
     for name, size in model.chain.PARAMETERS:
         start[name] = position
         position += size
-    for q in PARAMETERS.values():
+    for q in PARAMETERS:
         if q.name in UNOBSERVABLE:
             continue
         factor = unit_factor(q.display_unit, known)
-        scales = q.plausible_si(instrument.accelerometers[q.name])
+        scales = q.plausible_si(instrument.accelerometers[q.name], instrument.g0)
         for j in range(4):
             column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
             found.append((column, start[q.name] + j))

@@ -324,7 +324,7 @@ def _ranking(
             continue
         extra = list(t.which)
         c, covariance = f.coefficients(extra)
-        half, _ = f.coefficients(extra, FITTED_BLOCKS)
+        half, _ = f.coefficients(extra, held_out=True)
         own = dict(field.candidates[e])
         parameters = _values(f, [own[n] for n in extra], c[f.n_base :], covariance[f.n_base :, f.n_base :])
         if e in instants:

@@ -133,7 +133,7 @@ def vector(model: Model, instrument: Instrument) -> Array:
             size = 1 if q.shared else 4
             given = setting.values.get(q.name) if setting else None
             if given is None:
-                values[q.symbol] = np.full(size, q.neutral * unit_factor(q.unit, known))
+                values[q.symbol] = np.full(size, (q.neutral or 0.0) * unit_factor(q.unit, known))
             else:
                 si = known.base_unit(q.unit)
                 value = known.to_si(np.asarray(given.value), given.unit, si, f"effect {e.id}, {q.name}")

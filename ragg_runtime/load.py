@@ -48,7 +48,7 @@ class EffectParameter:
     meaning: str
     plausible: float
     shared: bool
-    neutral: float
+    neutral: float | None
     channel: str | None
     fitted: bool
 
