@@ -1,0 +1,48 @@
+# Every target makes its own environment first (.venv), once.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.complete
+
+.DEFAULT_GOAL := help
+.PHONY: help demo derive check test lint bench bench-diagnosis docs clean
+
+help:  ## list the targets
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
+
+$(STAMP): requirements.lock pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	@touch $@
+
+demo: $(STAMP)  ## find a hidden effect in a recorded flight, add it, watch the error fall
+	$(BIN)/python -m examples.demo
+
+derive: $(STAMP)  ## derive every model and generate all code and pages anew
+	$(BIN)/ragg derive
+
+check: $(STAMP)  ## does the committed code match the derivation?
+	$(BIN)/ragg derive --check
+
+test: $(STAMP)  ## run the tests
+	$(BIN)/python -m pytest -q -n 2
+
+lint: $(STAMP)  ## style, types, layers
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+bench: $(STAMP)  ## measure speed, as ratios within one run
+	$(BIN)/python -m benchmarks
+
+bench-diagnosis: $(STAMP)  ## measure how often the diagnosis is right
+	$(BIN)/python -m benchmarks.diagnosis
+
+docs: $(STAMP)  ## write the generated pages of docs/
+	$(BIN)/ragg derive
+	$(BIN)/python -m ragg_runtime.experiments docs
+
+clean:  ## remove the environment and caches
+	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
