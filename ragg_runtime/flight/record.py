@@ -37,7 +37,7 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
     | dict.fromkeys(ANGULAR_ACCELERATION, "rad/s^2")
     | dict.fromkeys(GRADIENT, "s^-2")
     | {"spin_angle": "rad"}
-    | AUXILIARY
+    | dict(AUXILIARY)
     | dict.fromkeys(("G_out", *VOLTAGES), "V")
     | dict.fromkeys(DEMODULATED, "s^-2")
 )
