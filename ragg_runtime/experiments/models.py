@@ -1,0 +1,103 @@
+"""The derived models over a simulated record, and their errors against the numerical model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Protocol, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.demodulate import demodulate
+from ragg_runtime.evaluate import EOTVOS
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.reference import Simulation, disc_angle
+
+Array = NDArray[np.float64]
+
+ANGLES_DROPPED = {"second-order-misalignment": {"kappa": 0.0}}
+"""The numerical model with the second-order terms of Eq. 5, without angles, in place of those of Eq. 52."""
+
+
+class HarmonicModel(Protocol):
+    """A generated module in the paper's form (``generated/analytical.py``)."""
+
+    INPUTS: tuple[str, ...]
+    PARAMETERS: tuple[tuple[str, int], ...]
+
+    def output(self, t: Array, inputs: Array, p: Array, angle: Array | None = None) -> Array: ...
+
+
+@cache
+def harmonic_models() -> Mapping[str, HarmonicModel]:
+    """The analytical model (Eq. 17-19) and the simplified one (Eq. 42-47), as derived."""
+    from generated import analytical, simplified
+
+    return {"analytical": cast(HarmonicModel, analytical), "simplified": cast(HarmonicModel, simplified)}
+
+
+def output(name: str, run: Simulation, instrument: Instrument | None = None) -> Array:
+    """G_out, (N,) V, of a derived model that is given the recorded motion and gradients of a run.
+
+    Parameters
+    ----------
+    name
+        ``analytical`` or ``simplified``.
+    run
+        Record of the numerical model, gradients included.
+    instrument
+        Whose parameters to use; ``None``: those of the run.
+    """
+    model = harmonic_models()[name]
+    known = run.instrument if instrument is None else instrument
+    values: dict[str, Array] = {
+        "radius": np.array([known.radius]),
+        "spin_frequency": np.array([known.spin_frequency]),
+        **known.accelerometers,
+    }
+    p = np.concatenate([values[q] for q, _ in model.PARAMETERS])
+    inputs = np.stack([run.channels[channel] for channel in model.INPUTS])
+    return model.output(run.time, inputs, p)
+
+
+def error(name: str, run: Simulation) -> Array:
+    """Model error, (N,) V: output of the numerical model *minus* that of a derived one.
+
+    The paper says "the differences between the analytical model and the numerical model". With this sign
+    all of its model errors in Section III.B have the signs of ours, with the other none.
+    """
+    difference: Array = run.G_out - output(name, run)
+    return difference
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Demodulated: (M,) Eo each, at ``time`` (M,) s."""
+
+    time: Array
+    inline: Array
+    cross: Array
+
+
+def channels(G: Array, run: Simulation, attenuation: float = 100.0) -> Channels:
+    """Inline and cross channel, Eo, of an output or an error (N,) V; ``attenuation`` of the filter, dB."""
+    rate = 1 / (run.time[1] - run.time[0])
+    phi = disc_angle(run.instrument.spin_frequency, run.time)
+    d = demodulate(G, phi, float(rate), run.instrument.scale_factor, attenuation=attenuation)
+    return Channels(run.time[d.valid], d.inline / EOTVOS, d.cross / EOTVOS)
+
+
+def over_turns(G: Array, run: Simulation) -> tuple[float, float]:
+    """Inline and cross channel, Eo, by ideal demodulation: the mean over the whole turns of a record."""
+    turn = round(1 / (run.instrument.spin_frequency * (run.time[1] - run.time[0])))
+    whole = slice(0, run.time.size // turn * turn)
+    phi = disc_angle(run.instrument.spin_frequency, run.time[whole])
+    g = G[whole] / (run.instrument.scale_factor * EOTVOS)
+    return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
+
+
+def rms(values: Array) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))

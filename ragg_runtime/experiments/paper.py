@@ -1,0 +1,116 @@
+"""What Section III prints: the set-ups of Tables VI and VII and the numbers to compare with.
+
+M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity
+Gradiometer*. The instrument of Table V is ``ragg_runtime.reference.instruments.table_v``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ragg_runtime.experiments.result import Printed
+
+CITATION = (
+    "M. Yu and T. Cai, *Mathematic Model And Error Analysis of Moving-base Rotating Accelerometer Gravity "
+    "Gradiometer*"
+)
+
+DEGREE_PER_HOUR = np.pi / 180 / 3600
+ARCSEC = np.pi / 180 / 3600
+
+MASS = 486.0
+"""kg, Section III.A."""
+MASS_POSITION = (1.2, 0.0, 0.0)
+"""m, at the start."""
+MASS_RATE = (3600.0, 360.0, 0.0628)
+"""Angular rate of the mass: mean and amplitude in deg/h, and the angular frequency of the sine in rad/s."""
+
+TABLE_VI: Mapping[str, tuple[float, float]] = {
+    "a_x": (0.08, 0.005),
+    "a_y": (0.06, 0.006),
+    "a_z": (0.1, 0.05),
+    "omega_x": (1000, 700),
+    "omega_y": (1500, 900),
+    "omega_z": (2000, 800),
+}
+"""Constant and amplitude of sin(Omega t): g for a, deg/h for omega."""
+
+
+@dataclass(frozen=True)
+class Turbulent:
+    """A row of Table VII: mean and standard deviation of a_z, mg, and of each angular rate, deg/h."""
+
+    a_mean: float
+    a_std: float
+    omega_mean: float
+    omega_std: float
+
+
+TABLE_VII: tuple[Turbulent, ...] = (
+    Turbulent(100, 10, 0, 0),
+    Turbulent(100, 10, 100, 50),
+    Turbulent(200, 10, 100, 50),
+)
+
+HORIZONTAL = 0.15
+"""Section III.C: rms of a_x and of a_y over that of a_z."""
+
+TABLE_VIII: tuple[Mapping[str, str], ...] = (
+    {
+        "M_in": "-0.037", "M_cs": "-0.0004", "Ms_in": "-0.080", "Ms_cs": "0.033",
+        "sigma_in": "0.062", "sigma_cs": "0.031", "sigmas_in": "0.11", "sigmas_cs": "0.052",
+    },
+    {
+        "M_in": "-0.032", "M_cs": "-0.001", "Ms_in": "-0.09", "Ms_cs": "0.015",
+        "sigma_in": "0.068", "sigma_cs": "0.032", "sigmas_in": "0.294", "sigmas_cs": "0.149",
+    },
+    {
+        "M_in": "-0.145", "M_cs": "-0.001", "Ms_in": "-0.253", "Ms_cs": "0.134",
+        "sigma_in": "0.064", "sigma_cs": "0.029", "sigmas_in": "0.556", "sigmas_cs": "0.281",
+    },
+)  # fmt: skip
+"""Eo. M and sigma of the analytical, Ms and sigmas of the simplified model (the paper's M^s, sigma^s)."""
+
+
+def table_viii(experiment: int, name: str) -> Printed:
+    """An entry of Table VIII; ``experiment`` is 1, 2 or 3."""
+    return Printed(TABLE_VIII[experiment - 1][name], "Eo", "Table VIII")
+
+
+K_GGI = Printed("4.54e-4", "V/Eo", "Section III.B")
+OUTPUT = Printed("1e5", "V", "Section III.B", order=True)
+MODEL_ERROR = Printed("1e-3", "V", "Section III.B", order=True)
+RELATIVE_ERROR = Printed("1e-8", "", "Section III.B", order=True)
+GRADIENT_VOLTAGE = Printed("1e-2", "V", "Section III.B", order=True)
+
+DYNAMIC: Mapping[tuple[str, str], Printed] = {
+    ("analytical", "inline"): Printed("-0.72", "Eo", "Section III.B"),
+    ("analytical", "cross"): Printed("0.56", "Eo", "Section III.B"),
+    ("simplified", "inline"): Printed("-2.9", "Eo", "Section III.B"),
+    ("simplified", "cross"): Printed("-0.99", "Eo", "Section III.B"),
+}
+"""Model errors after demodulation; the paper says "roughly"."""
+
+DIFFERENCE: Mapping[str, Printed] = {
+    "analytical": Printed("1e-3", "Eo", "Section III.A", order=True),
+    "simplified": Printed("1e-3", "Eo", "Section III.A", order=True),
+    "numerical": Printed("1e-1", "Eo", "Section III.A", order=True),
+}
+"""Differences of the demodulated outputs from the centre gradients."""
+
+ANGULAR_ACCELERATION = (1e-3, 1e-2)
+"""rad/s^2, Section IV: "in the order of 1e-3 ~ 1e-2" in the turbulence experiments."""
+
+BANDWIDTH = 0.2
+"""Hz, by which the paper turns a standard deviation into a noise density."""
+
+DENSITIES: tuple[tuple[str, int, Printed], ...] = (
+    ("analytical", 1, Printed("0.13", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 1, Printed("0.25", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 2, Printed("0.66", "Eo/sqrt(Hz)", "Section III.C")),
+    ("simplified", 3, Printed("1.24", "Eo/sqrt(Hz)", "Section III.C")),
+)
+"""Model, turbulence experiment, noise density of the inline channel."""

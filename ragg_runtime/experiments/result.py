@@ -1,0 +1,232 @@
+"""A number of the paper beside ours, with a verdict; and tables of them as text, Markdown and JSON."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, Protocol
+
+Verdict = Literal["agrees", "open input", "unexplained"]
+"""``open input``: the number hangs on something that the paper does not state, and the printed one is within
+its reach. ``unexplained``: neither."""
+
+Cell = str | float
+Json = dict[str, object]
+
+
+@dataclass(frozen=True)
+class Printed:
+    """A number as the paper prints it.
+
+    Attributes
+    ----------
+    text
+        Its digits.
+    unit
+        Empty for a pure number.
+    where
+        Section or table.
+    order
+        The paper says only "of the order of".
+    """
+
+    text: str
+    unit: str
+    where: str
+    order: bool = False
+
+    @property
+    def value(self) -> float:
+        """The number."""
+        return float(self.text)
+
+    def matches(self, ours: float) -> bool:
+        """Whether ``ours`` has the printed digits, or the printed order of magnitude.
+
+        An order of magnitude is met from a third of it up to ten times.
+        """
+        if self.order:
+            return math.copysign(1, ours) == math.copysign(1, self.value) and (
+                -0.5 <= math.log10(abs(ours / self.value)) < 1
+            )
+        mantissa, _, exponent = self.text.partition("e")
+        decimals = len(mantissa.partition(".")[2])
+        return abs(ours - self.value) <= 0.5000001 * 10.0 ** (int(exponent or 0) - decimals)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One printed number beside ours.
+
+    Attributes
+    ----------
+    quantity, printed
+        What it is, and the paper's number.
+    ours
+        In the printed unit; the mean where there are several runs.
+    spread
+        Least and greatest of several runs; ``None`` for a single one.
+    verdict, reason
+        ``reason`` is empty only where the numbers agree.
+    """
+
+    quantity: str
+    printed: Printed
+    ours: float
+    spread: tuple[float, float] | None
+    verdict: Verdict
+    reason: str
+
+    def as_json(self) -> Json:
+        """The row as JSON."""
+        return {
+            "quantity": self.quantity,
+            "where": self.printed.where,
+            "unit": self.printed.unit,
+            "paper": self.printed.value,
+            "paper_gives_order_only": self.printed.order,
+            "ours": self.ours,
+            "spread": None if self.spread is None else list(self.spread),
+            "verdict": self.verdict,
+            "reason": self.reason,
+        }
+
+
+def judge(
+    quantity: str,
+    printed: Printed,
+    ours: float,
+    *,
+    spread: tuple[float, float] | None = None,
+    reach: tuple[float, float] | None = None,
+    open_input: str = "",
+    unexplained: str = "",
+) -> Row:
+    """Compare, by the same rule for every number.
+
+    Parameters
+    ----------
+    quantity, printed, ours
+        Name, the paper's number, and ours in its unit.
+    spread
+        Least and greatest of several runs: a printed number between them agrees.
+    reach
+        Least and greatest of our number over an input that the paper leaves open; without it, a disagreement
+        is unexplained.
+    open_input, unexplained
+        The reason to give in either case.
+    """
+    inside = spread is not None and spread[0] <= printed.value <= spread[1]
+    if inside or printed.matches(ours):
+        return Row(quantity, printed, ours, spread, "agrees", "")
+    if reach is not None and reach[0] <= printed.value <= reach[1]:
+        return Row(quantity, printed, ours, spread, "open input", open_input)
+    return Row(quantity, printed, ours, spread, "unexplained", unexplained)
+
+
+@dataclass(frozen=True)
+class Table:
+    """Runs with something changed, which show what a number hangs on; ``finding`` says what they show."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    finding: str
+
+    def as_json(self) -> Json:
+        """The table as JSON."""
+        return {
+            "title": self.title,
+            "columns": list(self.columns),
+            "rows": [list(r) for r in self.rows],
+            "finding": self.finding,
+        }
+
+
+class Result(Protocol):
+    """What every experiment gives."""
+
+    @property
+    def title(self) -> str: ...
+    @property
+    def settings(self) -> Mapping[str, str]: ...
+    @property
+    def rows(self) -> tuple[Row, ...]: ...
+    @property
+    def tables(self) -> tuple[Table, ...]: ...
+    def as_json(self) -> Json: ...
+    def text(self) -> str: ...
+    def figures(self, folder: Path) -> list[Path]: ...
+
+
+def as_json(result: Result) -> Json:
+    """An experiment as JSON: settings, rows, tables."""
+    return {
+        "title": result.title,
+        "settings": dict(result.settings),
+        "rows": [r.as_json() for r in result.rows],
+        "checks": [t.as_json() for t in result.tables],
+    }
+
+
+def as_text(result: Result) -> str:
+    """An experiment as plain text: the comparison, the reasons, the checks."""
+    parts = [result.title, "\n".join(f"  {k}: {v}" for k, v in result.settings.items())]
+    parts.append(plain(COLUMNS, [cells(r) for r in result.rows]))
+    parts += [_wrap(text) for text in reasons(result.rows)]
+    for t in result.tables:
+        parts.append(f"{_wrap(t.title)}\n{plain(t.columns, t.rows)}\n{_wrap(t.finding)}")
+    return "\n\n".join(parts) + "\n"
+
+
+COLUMNS = ("quantity", "paper", "ours", "runs from ... to", "unit", "verdict")
+
+
+def cells(row: Row) -> tuple[Cell, ...]:
+    """A row under ``COLUMNS``."""
+    p = row.printed
+    spread = "" if row.spread is None else f"{number(row.spread[0])} ... {number(row.spread[1])}"
+    return (
+        row.quantity, ("order of " if p.order else "") + p.text, row.ours, spread, p.unit, row.verdict,
+    )  # fmt: skip
+
+
+def reasons(rows: Sequence[Row]) -> list[str]:
+    """Every reason once, with the quantities that it is for."""
+    named: dict[str, list[str]] = {}
+    for r in rows:
+        if r.reason:
+            named.setdefault(f"({r.verdict}) {r.reason}", []).append(r.quantity)
+    return [f"{'; '.join(quantities)}: {reason}" for reason, quantities in named.items()]
+
+
+def number(value: float) -> str:
+    """Three significant digits; the same text on any machine but for the last of them."""
+    if value == 0:
+        return "0"
+    return f"{value:.3g}" if 1e-3 <= abs(value) < 1e4 else f"{value:.2e}"
+
+
+def _wrap(text: str) -> str:
+    return textwrap.fill(text, 110, break_on_hyphens=False)
+
+
+def _text(cell: Cell) -> str:
+    return cell if isinstance(cell, str) else number(cell)
+
+
+def plain(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
+    """A table in columns of equal width."""
+    lines = [list(columns), *([_text(c) for c in r] for r in rows)]
+    widths = [max(len(line[n]) for line in lines) for n in range(len(columns))]
+    padded = ["  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines]
+    return "\n".join([padded[0], "  ".join("-" * w for w in widths), *padded[1:]])
+
+
+def markdown(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
+    """A Markdown table."""
+    lines = [list(columns), ["---"] * len(columns), *([_text(c) for c in r] for r in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
