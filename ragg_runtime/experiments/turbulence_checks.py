@@ -166,8 +166,8 @@ def both_open_inputs(*, rate: float, duration: float) -> tuple[Table, tuple[floa
         ("entry", "paper", "without noise", "with noise"),
         rows,
         "The angles are fitted to the two means of experiment 3, the noise to the inline sigma of "
-        f"experiment 1; all twelve entries then come out within {miss:.3f} Eo. The sigma that the paper calls "
-        "the analytical model's noise floor would then be that of its accelerometers (Eq. 52). It is a "
+        f"experiment 1; all twelve entries then come out within {miss:.3f} Eo. The sigma that the paper "
+        "calls the analytical model's noise floor would then be that of its accelerometers (Eq. 52). It is a "
         f"possibility, not a measurement; and the same angles give {inline:.2f} Eo inline and {cross:.2f} Eo "
         f"cross in the dynamic experiment, not the printed {printed[0]} and {printed[1]}.",
     ), (min(growth), max(growth))
