@@ -1,0 +1,18 @@
+"""Documentation pages of the effects, written from the effects themselves."""
+
+from __future__ import annotations
+
+from derive.effect import Effect
+from derive.effects import catalogue
+from derive.emit.render import render
+
+
+def effects() -> dict[str, str]:
+    """``effects/<id>.md`` of every effect, and their index."""
+    found = {f"effects/{e.id}.md": _page(e) for e in catalogue()}
+    found["effects.md"] = render("effects.md.j2", effects=catalogue())
+    return found
+
+
+def _page(e: Effect) -> str:
+    return render("effect.md.j2", e=e)

@@ -1,0 +1,5 @@
+"""``python -m ragg_runtime`` is ``ragg``."""
+
+from ragg_runtime.cli import main
+
+main()

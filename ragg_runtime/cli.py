@@ -1,0 +1,299 @@
+"""The command line, ``ragg``: results to stdout, progress to stderr, exit status 0, 1 (fault) or 2 (input)."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from ragg_runtime.errors import UserError
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+DIRECTORY = click.Path(path_type=Path)
+_json = click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
+_report = click.option("--report", "report_file", metavar="FILE.html", help="Write a self-contained report.")
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="ragg", prog_name="ragg")
+def cli() -> None:
+    """Instrument models of a rotating-accelerometer gravity gradiometer, derived, not typed.
+
+    Compare the model with recorded flights, learn which physical effect it lacks, add it, watch the error
+    fall: ragg new, compare, diagnose, add.
+    """
+
+
+def _progress(text: str) -> None:
+    click.echo(f"... {text}", err=True)
+
+
+def _emit(result: Any, json_file: str | None, text: str) -> None:
+    """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+    if json_file == "-":
+        click.echo(json.dumps(result, indent=1, allow_nan=False))
+        return
+    click.echo(text)
+    if json_file is not None:
+        from ragg_runtime.atomic import write_text
+
+        write_text(Path(json_file), json.dumps(result, indent=1, allow_nan=False) + "\n")
+
+
+def _write_report(file: str | None, make: Callable[[], str]) -> None:
+    if file is not None:
+        from ragg_runtime.atomic import write_text
+
+        _progress("writing the report")
+        write_text(Path(file), make())
+        click.echo(f"report: {file}", err=True)
+
+
+def _command() -> str:
+    return shlex.join(["ragg", *sys.argv[1:]])
+
+
+@cli.command()
+@click.option("--out", type=DIRECTORY, help="Root of the project to write to (default: where ragg is installed).")
+@click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
+def derive(out: Path | None, check: bool) -> None:
+    """Derive all models and generate their code and pages."""
+    import generated
+    from derive import everything
+
+    root = out if out is not None else Path(str(generated.__file__)).parents[1]
+    if check:
+        found = everything.difference(root)
+        if found:
+            raise UserError(
+                "the committed code does not match the derivation",
+                where=root,
+                found="\n" + found,
+                expected="the same files, byte for byte",
+                remedy="run: make derive   (or: ragg derive), look at the change, and commit it",
+            )
+        click.echo("The committed code is what the derivation yields, byte for byte.")
+        return
+    changed = everything.write(root)
+    for name in changed:
+        click.echo(f"written: {root / name}")
+    click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
+def new(model_dir: Path, source: Path | None) -> None:
+    """Make a model directory from a test sheet."""
+    from ragg_runtime import workflow
+
+    m = workflow.new(model_dir, source)
+    click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
+    click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
+
+
+@cli.command()
+@click.argument("identifier", metavar="[ID]", required=False)
+@_json
+def effects(identifier: str | None, json_file: str | None) -> None:
+    """The catalogue of physical effects; with ID one of them in full."""
+    from derive.effects import catalogue
+    from derive.ir import manifest_of_effect
+    from ragg_runtime.errors import did_you_mean
+
+    found = {e.id: manifest_of_effect(e) for e in catalogue()}
+    if identifier is None:
+        lines = [f"{i:28} {e['title']}" for i, e in found.items()]
+        _emit(list(found.values()), json_file, "\n".join(lines))
+        return
+    if identifier not in found:
+        raise UserError(
+            "unknown effect",
+            found=repr(identifier),
+            expected="an id listed by `ragg effects`",
+            remedy=did_you_mean(identifier, found),
+        )
+    e: Any = found[identifier]
+    lines = [f"{e['id']}: {e['title']}", "", e["physics"], "", f"  {e['equation']}", ""]
+    for q in e["parameters"]:
+        which = "one value" if q["shared"] else "one value for each accelerometer"
+        lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
+    lines += ["", f"needs: {', '.join(e['channels']) or 'the motion alone'}", f"limits: {e['limits'] or 'none stated'}"]
+    _emit(e, json_file, "\n".join([*lines, f"source: {e['source']}"]))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@_json
+@_report
+def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+    """How far is the model from the flight, and where does it fail?"""
+    from ragg_runtime import texts, workflow
+
+    m = workflow.load(model_dir)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow.read_flights(m, flights)
+    _progress("calibrating and comparing")
+    c = workflow.compare(m, read)
+
+    def page() -> str:
+        from ragg_runtime.report import compare_html
+
+        title = f"{m.name} and {', '.join(x.name for x in read)}"
+        return compare_html(c, title=title, command=_command(), sources=workflow.sources(m, read))
+
+    _write_report(report_file, page)
+    _emit(c.as_json() | texts.origin(m, read, _command()), json_file, texts.compared(c, read))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@_json
+@_report
+def diagnose(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+    """Which physical effect is missing?"""
+    from ragg_runtime import texts, workflow
+
+    m = workflow.load(model_dir)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow.read_flights(m, flights)
+    _progress("calibrating, then testing every effect of the catalogue")
+    d = workflow.diagnose(m, read)
+
+    def page() -> str:
+        from ragg_runtime.report import diagnose_html
+
+        title = f"{m.name} and {', '.join(x.name for x in read)}"
+        return diagnose_html(d, title=title, command=_command(), sources=workflow.sources(m, read))
+
+    _write_report(report_file, page)
+    _emit(d.as_json() | texts.origin(m, read, _command()), json_file, texts.diagnosed(d, model_dir))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("effect")
+@click.argument("flights", type=DIRECTORY, nargs=-1)
+@_json
+@_report
+def add(
+    model_dir: Path, effect: str, flights: Sequence[Path], json_file: str | None, report_file: str | None
+) -> None:
+    """Put an effect into the model, derive again, calibrate, show the error fall."""
+    from ragg_runtime import texts, workflow
+
+    m = workflow.load(model_dir)
+    if report_file is not None and not flights:
+        raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow.read_flights(m, flights)
+    _progress(f"deriving the model with {effect}, calibrating")
+    result = workflow.add(m, effect, read)
+
+    def page() -> str:
+        from ragg_runtime.report import add_html
+
+        assert result.before is not None
+        assert result.after is not None
+        history = [s.as_json() for s in result.loaded.directory.history]
+        title = f"{m.name}: {effect} added"
+        origin = workflow.sources(result.loaded, read)
+        return add_html(history, result.before, result.after, title=title, command=_command(), sources=origin)
+
+    _write_report(report_file, page)
+    _emit(result.as_json() | texts.origin(result.loaded, read, _command()), json_file, texts.added(result))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("effect")
+@_json
+def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
+    """Take an effect out of the model."""
+    from ragg_runtime import workflow
+
+    m = workflow.remove(workflow.load(model_dir), effect)
+    left = [e.id for e in m.model.effects]
+    _emit({"effect": effect, "effects": left}, json_file, f"removed {effect}; effects left: {', '.join(left) or 'none'}")
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@_json
+def history(model_dir: Path, json_file: str | None) -> None:
+    """The error after every step."""
+    from ragg_runtime import texts
+    from ragg_runtime.model_dir import load_model_dir
+
+    steps = [s.as_json() for s in load_model_dir(model_dir).history]
+    _emit({"steps": steps}, json_file, texts.history(steps))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.option("-o", "--output", type=DIRECTORY, required=True, metavar="FLIGHT", help="File to write (.csv, .parquet, .nc).")
+@click.option(
+    "--effect",
+    "hidden",
+    multiple=True,
+    metavar="ID:NAME=VALUE[,NAME=...]",
+    help="Hide an effect in the flight; VALUE in the effect's units, four values joined by /.",
+)
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
+@click.option("--duration", type=click.FloatRange(1.0), default=1800.0, show_default=True, help="s")
+@click.option("--rate", type=click.FloatRange(1.0), default=16.0, show_default=True, help="Hz")
+@click.option("--noise", type=click.FloatRange(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
+@click.option("--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion.")
+@click.option("--sheet-error", type=click.FloatRange(0.0), default=1.0, show_default=True,
+              help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
+@click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
+@click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
+def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: Any) -> None:
+    """A flight from the numerical reference, with hidden effects on request."""
+    from ragg_runtime import workflow
+    from ragg_runtime.flight import write_flight
+    from ragg_runtime.simulate import simulated
+
+    m = workflow.load(model_dir)
+    _progress("flying")
+    flight = simulated(m.instrument, hidden, **options)
+    write_flight(flight, output)
+    click.echo(f"{output}: {len(flight.time)} samples at {flight.rate:g} Hz")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Entry point: never a traceback for bad input."""
+    from ragg_runtime.experiments.command import experiment
+
+    cli.add_command(experiment)
+    try:
+        cli.main(args=None if arguments is None else list(arguments), standalone_mode=False)
+    except UserError as error:
+        click.echo(f"ragg: {error}", err=True)
+        sys.exit(2)
+    except click.exceptions.Exit as end:
+        sys.exit(end.exit_code)
+    except click.Abort:
+        click.echo("ragg: interrupted; nothing was changed", err=True)
+        sys.exit(130)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(2)
+    except BrokenPipeError:
+        sys.exit(0)
+    except KeyboardInterrupt:
+        click.echo("ragg: interrupted; nothing was changed", err=True)
+        sys.exit(130)
+    except Exception:
+        traceback.print_exc()
+        click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
+        sys.exit(1)

@@ -1,0 +1,198 @@
+"""From fitted flights to the panels of figures, and the rows of tables that all three reports share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime import compare
+from ragg_runtime.compare import FITTED_BLOCKS, Comparison, Fitted
+from ragg_runtime.evidence.work import BLOCKS
+from ragg_runtime.metrics import Error
+from ragg_runtime.report import draw, figures, series, words
+from ragg_runtime.report.figures import Bar, ChannelPanel, Line, SpectrumPanel, TimePanel
+
+Array = NDArray[np.float64]
+Residuals = Sequence[Array]
+
+FLIGHTS = 4
+"""Flights that are drawn one by one, the worst of all that were given."""
+
+ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
+
+
+def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]) -> list[TimePanel]:
+    """Envelope of the last residual of ``lines``, blocks of time of all."""
+    found = []
+    for n in chosen:
+        w = f.works[n]
+        r = w.observation.record
+        rows, edges = [], r.time
+        for line, residuals in lines:
+            edges, rms = series.blocks(w, residuals[n], f.k_ggi)
+            rows.append((line, rms))
+        e = series.envelope(r.time, lines[-1][1][n] / f.k_ggi, r.valid)
+        found.append(TimePanel(w.observation.name, e, edges, rows, noise_rms(f, n)))
+    return found
+
+
+def noise_rms(f: Fitted, n: int) -> float:
+    """rms of the estimated noise of flight ``n``, Eo."""
+    return float(np.sqrt(sum(m.rms**2 for m in f.works[n].noise.models))) / f.k_ggi
+
+
+def spectrum_panels(
+    f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]
+) -> list[SpectrumPanel]:
+    """Spectra of each residual, and the noise of ``f``; flights without a long enough stretch are left out."""
+    found = []
+    for n in chosen:
+        w = f.works[n]
+        r = w.observation.record
+        drawn = []
+        for line, residuals in lines:
+            s = series.spectrum(residuals[n] / f.k_ggi, r.valid, r.rate)
+            if s is not None:
+                drawn.append((line, s))
+        if drawn:
+            grid = drawn[0][1].frequency
+            noise = series.Spectrum(grid, series.noise_density(w, f.k_ggi, grid))
+            found.append(SpectrumPanel(w.observation.name, drawn, noise, f.instrument.spin_frequency))
+    return found
+
+
+def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> list[ChannelPanel]:
+    """Inline and cross residual of each flight that is long enough for the demodulator."""
+    found = []
+    series_of = compare.demodulated(f, residuals)
+    for n in chosen:
+        time, *both = series_of[n]
+        w = f.works[n]
+        if not len(time):
+            continue
+        several = f" — {w.observation.name}" if len(f.works) > 1 else ""
+        for title, x, amplitude in (("inline", both[0], 4.0), ("cross", both[1], 2.0)):
+            noise = series.demodulated_noise(w, f.k_ggi, f.instrument.spin_frequency, 2, amplitude)
+            t, y = series.broken(time, x)
+            found.append(ChannelPanel(title + several, t, y, noise))
+    return found
+
+
+def harmonic_bars(f: Fitted, residuals: Residuals) -> list[Bar]:
+    """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
+    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in compare.harmonic_errors(f, residuals)}
+    noise = series.harmonic_noise(f) if rows else {}
+    return [
+        Bar(words.harmonic(h), rows[h], noise[h], rows[h] > 1.2 * noise[h]) for h in noise if h in rows
+    ]
+
+
+def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, Any]]:
+    """Generic terms of a residual for a table; ``rms`` is their own size in Eo."""
+    found = []
+    for t in rows:
+        found.append(
+            {
+                "label": f"{words.harmonic(t['harmonic'])} × {words.product(t['term'])}",
+                "coefficient": words.plus_minus(float(t["coefficient"]), float(t["std"])),
+                "unit": words.unit(str(t["unit"])),
+                "z": words.number(abs(float(t["z"])), 3),
+                "share": words.percent(float(t["share"])),
+                "rms": float(np.sqrt(float(t["share"]))) * rms_Eo,
+            }
+        )
+    return found
+
+
+def term_bars(rows: Sequence[Mapping[str, Any]]) -> list[Bar]:
+    ordered = sorted(rows, key=lambda t: -float(t["rms"]))
+    return [Bar(str(t["label"]), float(t["rms"])) for t in ordered]
+
+
+def error_row(label: str, e: Error | None, note: str = "") -> dict[str, Any]:
+    """A row of the table of errors; ``None`` gives dashes."""
+    cells = [words.number(getattr(e, k)) if e is not None else words.ABSENT for k in ERROR_COLUMNS]
+    return {"label": label, "cells": cells, "note": note}
+
+
+def noise_row(f: Fitted, floor: float) -> dict[str, Any]:
+    """What the estimated noise alone would give in each column."""
+    inline, cross = series.channel_noise(f)
+    return error_row("noise alone", error_of_noise(floor, inline, cross, f.k_ggi))
+
+
+def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> Error:
+    from ragg_runtime.demodulate import CUTOFF
+
+    root = float(np.sqrt(CUTOFF))
+    return Error(floor * k_ggi, floor, inline, cross, inline / root, cross / root)
+
+
+def holdout_before(f: Fitted) -> Error:
+    """Held-out error of the model without further effects, as :func:`ragg_runtime.compare.compare` makes it."""
+    half, _ = f.coefficients((), held_out=True)
+    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+    return f.error(f.residuals(half, ()), scored)
+
+
+def facts(f: Fitted) -> list[tuple[str, str]]:
+    """What was recorded and what was fitted."""
+    records = [o.record for o in f.observations]
+    samples = sum(len(r.time) for r in records)
+    valid = sum(int(np.sum(r.valid)) for r in records)
+    duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
+    kind = {"G_out": "G_out", "voltages": "V_1 … V_4, each by itself"}.get(f.observations[0].kind, "")
+    used = f"{words.fixed(samples, 0)} at {words.number(records[0].rate, 4)} Hz"
+    if valid < samples:
+        used += f", {words.fixed(samples - valid, 0)} of them not usable"
+    effects = words.listed([e.id for e in f.model.effects]) or "none: the paper’s instrument"
+    return [
+        ("flights", words.listed([words.clean(o.name) for o in f.observations])),
+        ("duration", words.seconds(duration)),
+        ("samples", used),
+        ("output", kind),
+        ("effects in the model", effects),
+        ("k_ggi", f"{words.number(f.k_ggi, 4)} V/Eo"),
+        ("spin", f"{words.number(f.instrument.spin_frequency, 4)} Hz"),
+    ]
+
+
+def where_it_fails(c: Comparison, key: str) -> list[dict[str, str]]:
+    """Figures of harmonics and of motion terms of a comparison's residual; ``key`` begins their ids."""
+    return remainder_figures(c.fitted, c.residual, terms(_terms_of(c), c.calibrated.rms_Eo), key)
+
+
+def _terms_of(c: Comparison) -> list[dict[str, object]]:
+    return compare.terms_json(c.remainder, c.residual, c.fitted)
+
+
+def remainder_figures(
+    f: Fitted, residuals: Residuals, rows: Sequence[Mapping[str, Any]], key: str
+) -> list[dict[str, str]]:
+    """The same of any residual."""
+    found = []
+    bars = harmonic_bars(f, residuals)
+    if bars:
+        label = "error by harmonic of the spin"
+        caption = (
+            "Residual by harmonic of the spin: it is multiplied by 1, 2 cos kΩt or 2 sin kΩt and low-passed at"
+            " 0.2 Hz as the demodulator does. Dashed: what the noise alone gives. Harmonics 2 are the ones that"
+            " the demodulator reads as gradient. Bars in grey do not stand out of the noise."
+        )
+        found.append({"svg": figures.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
+    if rows:
+        label = "error by motion term"
+        caption = "Motion terms that stand out of the residual, by their own size before demodulation."
+        shown = term_bars(rows)
+        found.append(
+            {"svg": figures.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
+        )
+    return found
+
+
+def colors() -> dict[str, str]:
+    """For the style sheet: the figures' colours."""
+    return {"residual": draw.RESIDUAL, "noise": draw.NOISE, "ink": draw.INK, "quiet": draw.QUIET}

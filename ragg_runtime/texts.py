@@ -1,0 +1,136 @@
+"""Results in words, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from ragg_runtime.compare import Comparison
+from ragg_runtime.diagnose import Diagnosis, Ranked
+from ragg_runtime.flight import Flight
+from ragg_runtime.metrics import Error
+from ragg_runtime.workflow import Added, Loaded, sources
+
+
+def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, object]:
+    """What makes a result again: command, versions, digests of all that was read, and what the reader did."""
+    try:
+        own = version("ragg")
+    except PackageNotFoundError:
+        own = "not installed"
+    versions = {"ragg": own, **{n: version(n) for n in ("numpy", "scipy", "sympy")}}
+    return {
+        "command": command,
+        "versions": versions,
+        "sources": [{"name": n, "sha256": d} for n, d in sources(m, flights)],
+        "derivation": m.model.digest,
+        "notes": [f"{x.name}: {note}" for x in flights for note in x.notes],
+    }
+
+
+def _error(e: Error) -> str:
+    channels = f"{e.inline_Eo:10.4g} {e.cross_Eo:10.4g} {e.inline_Eo_per_rtHz:12.4g} {e.cross_Eo_per_rtHz:12.4g}"
+    return f"{e.rms_Eo:12.5g} {channels}"
+
+
+_HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
+
+
+def compared(c: Comparison, flights: Sequence[Flight]) -> str:
+    """The result of ``compare``."""
+    f = c.fitted
+    lines = [
+        f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
+        f"{', '.join(e.id for e in f.model.effects) or 'none'}",
+        _HEAD,
+        f"{'nominal':12} {_error(c.nominal)}",
+        f"{'calibrated':12} {_error(c.calibrated)}",
+        f"{'held out':12} {_error(c.holdout)}",
+        f"{'noise floor':12} {c.noise_floor:12.5g}",
+        "",
+        "The model is adequate: nothing significant is left."
+        if c.adequate
+        else "The model is NOT adequate. Find what is missing: ragg diagnose",
+    ]
+    where: Any = c.as_json()["where"]
+    if where["motion"]:
+        lines.append("\nwhere it fails (harmonic x motion term, share of the residual's power):")
+        lines += [f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma" for t in where["motion"]]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def _ranked(r: Ranked) -> str:
+    p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
+    return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {r.before.rms_Eo:10.4g} {r.after.rms_Eo:10.4g} {r.after_holdout.rms_Eo:10.4g}"
+
+
+def diagnosed(d: Diagnosis, model_dir: Path) -> str:
+    """The result of ``diagnose``."""
+    head = {
+        "adequate": "ADEQUATE: nothing significant is missing.",
+        "missing-effect": f"MISSING: {' and '.join(d.found)}",
+        "unexplained": "UNEXPLAINED: something is missing that no effect of the catalogue accounts for.",
+    }[d.verdict]
+    lines = [
+        head,
+        f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
+        "",
+        f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10}  (Eo rms)",
+    ]
+    lines += [_ranked(r) for r in d.ranking[:8]]
+    for r in d.ranking:
+        if r.effect in d.found:
+            lines.append("")
+            for q in r.parameters:
+                which = f" of A{q.accelerometer}" if q.accelerometer else ""
+                lines.append(f"  {r.effect}: {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+            if r.indistinguishable_from:
+                lines.append(f"  this record cannot tell it from: {', '.join(r.indistinguishable_from)}")
+    if d.verdict == "unexplained":
+        terms: Any = d.as_json()["unexplained"]
+        lines.append("\n  what is left (harmonic x motion term):")
+        for t in terms["terms"]:
+            lines.append(
+                f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']}, {t['z']:+.1f} sigma"
+            )
+    if d.not_testable:
+        lines.append("\n  not testable on this record:")
+        lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
+    if d.found and d.verdict == "missing-effect":
+        lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+    return "\n".join(lines)
+
+
+def added(a: Added) -> str:
+    """The result of ``add``."""
+    lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
+    if a.before is not None and a.after is not None:
+        lines += [
+            _HEAD,
+            f"{'before':12} {_error(a.before.calibrated)}",
+            f"{'after':12} {_error(a.after.calibrated)}",
+            f"{'held out':12} {_error(a.after.holdout)}",
+            f"{'noise floor':12} {a.after.noise_floor:12.5g}",
+            "",
+            "The model is now adequate." if a.after.adequate else "Something is still missing: ragg diagnose",
+        ]
+        for q in a.parameters:
+            which = f" of A{q.accelerometer}" if q.accelerometer else ""
+            lines.append(f"  {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+    return "\n".join(lines)
+
+
+def history(steps: Sequence[Mapping[str, Any]]) -> str:
+    """The steps of a model directory."""
+    lines = [f"{'when':26} {'step':8} {'effect':28} {'before Eo':>10} {'after Eo':>10}"]
+    for s in steps:
+        values = []
+        for key in ("before", "after"):
+            e = s[key]
+            calibrated = e.get("calibrated", e) if e else None
+            values.append(f"{calibrated['rms_Eo']:10.4g}" if calibrated else f"{'-':>10}")
+        lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
+    return "\n".join(lines)

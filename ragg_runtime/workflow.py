@@ -1,0 +1,257 @@
+"""The steps of the loop: load a model, compare, diagnose, add, remove. The command line and notebooks call these.
+
+>>> import ragg_runtime.workflow as ragg                      # doctest: +SKIP
+>>> m = ragg.load("my-model")
+>>> flights = ragg.read_flights(m, ["flight.csv"])
+>>> d = ragg.diagnose(m, flights)
+>>> step = ragg.add(m, d.found[0], flights)
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from derive import tree
+from ragg_runtime import compare as _compare
+from ragg_runtime import diagnose as _diagnose
+from ragg_runtime import extend
+from ragg_runtime.compare import Comparison
+from ragg_runtime.diagnose import Diagnosis, ParameterValue
+from ragg_runtime.errors import UserError, at
+from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
+from ragg_runtime.load import Model
+from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_toml import add_effect, remove_effect
+from ragg_runtime.units import RawQuantity
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A model directory and the model derived for it."""
+
+    directory: ModelDir
+    model: Model
+
+    @property
+    def instrument(self) -> Instrument:
+        return self.directory.instrument
+
+    @property
+    def name(self) -> str:
+        return self.directory.path.resolve().name
+
+
+@dataclass(frozen=True)
+class Added:
+    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+
+    loaded: Loaded
+    effect: str
+    before: Comparison | None
+    after: Comparison | None
+    parameters: tuple[ParameterValue, ...]
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "before": errors_of(self.before),
+            "after": errors_of(self.after),
+            "parameters": [p.as_json() for p in self.parameters],
+        }
+
+
+def errors_of(c: Comparison | None) -> dict[str, object] | None:
+    """The ``error`` of compare: nominal, calibrated, holdout."""
+    if c is None:
+        return None
+    return {
+        "nominal": c.nominal.as_json(),
+        "calibrated": c.calibrated.as_json(),
+        "holdout": c.holdout.as_json(),
+    }
+
+
+def new(path: Path | str, source: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+    if source is None:
+        text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+    else:
+        try:
+            text = Path(source).read_text("utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise UserError(
+                "the test sheet cannot be read", where=source, found=str(error), remedy="name a model.toml"
+            ) from None
+    instrument = parse_instrument(text, Path(source) if source else Path("example.toml"))
+    history = (Step("new", _now()),)
+    with _staged(extend.files_of(instrument)) as generated:
+        return _loaded(create_model_dir(path, text, generated=generated, history=history))
+
+
+def load(path: Path | str) -> Loaded:
+    """Read a model directory and derive its model."""
+    return _loaded(load_model_dir(path))
+
+
+def _loaded(directory: ModelDir) -> Loaded:
+    return Loaded(directory, extend.model_of(directory.instrument))
+
+
+def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
+    """Read flight files in the units of this model (its g0)."""
+    return [read_flight(p, m.instrument.g0) for p in paths]
+
+
+def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
+    """How far the model is from the flights, and where it fails."""
+    return _compare.compare(m.model, m.instrument, flights)
+
+
+def diagnose(m: Loaded, flights: Sequence[Flight]) -> Diagnosis:
+    """Which physical effect the model lacks."""
+    return _diagnose.diagnose(
+        m.model, m.instrument, flights, lambda model, ids: extend.with_effects(m.instrument, model, ids)
+    )
+
+
+def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+
+    The directory is changed whole or not at all.
+    """
+    instrument = m.instrument
+    known = extend.known(instrument)
+    symbolic = known.get(effect, at(m.directory.path))
+    if effect in {e.id for e in m.model.effects}:
+        raise UserError(
+            "the effect is in the model already",
+            where=str(m.directory.path),
+            found=effect,
+            remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
+        )
+    for x in flights:
+        missing = [c for c in symbolic.channels if c not in x.channels]
+        if missing:
+            raise UserError(
+                f"the effect {effect} needs a channel that the flight lacks",
+                where=x.path or x.name,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy="record it, or choose another effect",
+            )
+    before = compare(m, flights) if flights else None
+    values: dict[str, RawQuantity] = {}
+    if symbolic.kind == "step" and flights:
+        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+    setting = EffectSetting(effect, MappingProxyType(values))
+    extended = replace(instrument, effects=(*instrument.effects, setting))
+    model = extend.model_of(extended)
+    after, parameters = None, ()
+    if flights:
+        after = _compare.compare(model, extended, flights)
+        parameters = calibrated(after, effect)
+        values |= settings(parameters)
+    text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values)))
+    step = Step(
+        "add",
+        _now(),
+        effect,
+        errors_of(before),
+        errors_of(after),
+        MappingProxyType({x.name: x.digest for x in flights}),
+    )
+    with _staged(extend.files_of(extended)) as generated:
+        directory = replace_model_dir(
+            m.directory, text, generated=generated, history=(*m.directory.history, step)
+        )
+    return Added(_loaded(directory), effect, before, after, tuple(parameters))
+
+
+def remove(m: Loaded, effect: str) -> Loaded:
+    """Take an effect out of the model again."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", _now(), effect)
+    with _staged(extend.files_of(instrument)) as generated:
+        directory = replace_model_dir(
+            m.directory, text, generated=generated, history=(*m.directory.history, step)
+        )
+    return _loaded(directory)
+
+
+def calibrated(c: Comparison, effect: str) -> tuple[ParameterValue, ...]:
+    """The calibrated parameters of an effect that is in the model, in display units."""
+    found = []
+    f = c.fitted
+    cal = f.calibration
+    for n, column in enumerate(cal.columns):
+        if column.effect == effect:
+            std = float(np.sqrt(cal.covariance[n, n])) * column.scale / column.unit_factor
+            value = float(cal.p[cal.index[n]]) / column.unit_factor
+            name = column.name.split(".", 1)[1]
+            found.append(ParameterValue(name, column.accelerometer, value, std, column.unit))
+    return tuple(found)
+
+
+def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
+    """Calibrated parameters as they are written to model.toml."""
+    values: dict[str, RawQuantity] = {}
+    for p in parameters:
+        if p.accelerometer is None:
+            values[p.name] = RawQuantity(p.value, p.unit)
+        else:
+            old = values.get(p.name)
+            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
+            four[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(four), p.unit)
+    return values
+
+
+def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+    """The most likely instant of a step."""
+    d = _diagnose.diagnose(m.model, m.instrument, flights)
+    for r in d.ranking:
+        if r.effect == effect:
+            for p in r.parameters:
+                if p.name == "t_step":
+                    return p.value
+    return 0.0
+
+
+class _staged:
+    """A temporary folder that holds generated files; ``None`` if there are none."""
+
+    def __init__(self, files: Mapping[str, str]) -> None:
+        self._files = files
+        self._folder = tempfile.TemporaryDirectory() if files else None
+
+    def __enter__(self) -> Path | None:
+        if self._folder is None:
+            return None
+        place = Path(self._folder.name) / "generated"
+        tree.write(self._files, place)
+        return place
+
+    def __exit__(self, *_: object) -> None:
+        if self._folder is not None:
+            self._folder.cleanup()
+
+
+def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
+    """(name, sha256) of everything that a result depends on."""
+    text = hashlib.sha256(m.directory.text.encode()).hexdigest()
+    return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
