@@ -41,19 +41,20 @@ def derive_base() -> Files:
 
 
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Files:
-    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it."""
+    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
     active = [e for e in effects if e.kind in ("deterministic", "step")]
-    chain = ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")
-    files = {"chain.py": render.chain_numpy(chain)}
-    files["c/chain.h"], files["c/chain.c"] = render.chain_c(chain)
+    chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
+    files: dict[str, str] = {}
+    files["c/chain.h"], files["c/chain.c"] = render.chain_c(chains[0])
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
-    signatures = ir.chain(
-        active, "signatures", "Signatures: what each candidate effect would add to V_j.", candidates=open_
-    )
-    files["signatures.py"] = render.chain_numpy(signatures)
-    files["__init__.py"] = render.render("init.py.j2", modules=["chain", "signatures"])
-    return _complete(files, effects, candidates, chain, signatures)
+    if open_:
+        title = "Signatures: what each candidate effect would add to V_j."
+        chains.append(ir.chain(active, "signatures", title, candidates=open_))
+    for c in chains:
+        files[f"{c.name}.py"] = render.chain_numpy(c)
+    every = [*candidates, *(e for e in effects if e not in candidates)]
+    return _complete(files, effects, every, *chains)
 
 
 def _complete(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import calibrate, design
-from ragg_runtime.calibrate import Calibration
+from ragg_runtime.calibrate import Calibration, Noise
 from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import record, scale_factor, vector, voltages
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
@@ -140,9 +140,14 @@ def observe(flight: Flight, instrument: Instrument) -> Observation:
     return Observation(kind, r, np.where(valid, data, 0.0), flight.name)
 
 
-def fit(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> Fitted:
-    """Calibrate a model on flights and prepare the evidence."""
-    c = calibrate.fit(model, instrument, observations)
+def fit(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    noise: Sequence[Noise] | None = None,
+) -> Fitted:
+    """Calibrate a model on flights and prepare the evidence; the noise is estimated unless given."""
+    c = calibrate.fit(model, instrument, observations, noise=noise)
     works = work.prepare(model, instrument, observations, c)
     return Fitted(
         model,
@@ -313,13 +318,7 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     observations = [observe(x, instrument) for x in flights]
     f = fit(model, instrument, observations)
-    p0 = vector(model, instrument)
-    nominal = []
-    for w in f.works:
-        o = w.observation
-        v = voltages(model.chain, o.record, p0)
-        predicted = ((v[0] + v[1]) - (v[2] + v[3]))[None] if o.kind == "G_out" else v
-        nominal.append(as_output(o, np.where(o.record.valid, o.data - predicted, 0.0)))
+    nominal = nominal_residuals(f, instrument)
     zero = np.zeros(f.n_base)
     residual = f.residuals(zero, ())
     half, _ = f.coefficients((), held_out=True)
@@ -340,6 +339,17 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         tuple(nominal),
         tuple(residual),
     )
+
+
+def nominal_residuals(f: Fitted, instrument: Instrument) -> list[Array]:
+    """Residual of G_out, (N,) V, of every flight with the instrument's values as they are."""
+    p = vector(f.model, instrument)
+    found = []
+    for o in f.observations:
+        v = voltages(f.model.chain, o.record, p)
+        predicted = ((v[0] + v[1]) - (v[2] + v[3]))[None] if o.kind == "G_out" else v
+        found.append(as_output(o, np.where(o.record.valid, o.data - predicted, 0.0)))
+    return found
 
 
 def noise_floor(f: Fitted) -> float:

@@ -67,6 +67,7 @@ class Ranked:
     after: Error
     after_holdout: Error
     parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
     indistinguishable_from: tuple[str, ...]
 
     @property
@@ -86,6 +87,7 @@ class Ranked:
             "error_after": self.after.as_json(),
             "error_after_holdout": self.after_holdout.as_json(),
             "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
             "indistinguishable_from": list(self.indistinguishable_from),
         }
 
@@ -215,7 +217,7 @@ def _confirmed(
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return chosen, given, None, compare.remainder(f, given)
-    final = compare.fit(extend(f.model, chosen), f.instrument, f.observations)
+    final = compare.fit(extend(f.model, chosen), f.instrument, f.observations, f.calibration.noise)
     return chosen, given, final, compare.remainder(final)
 
 
@@ -322,11 +324,13 @@ def _ranking(
     for e, t in choice.tests.items():
         if not t.rank:
             continue
-        extra = list(t.which)
+        extra = field.testable(e)
         c, covariance = f.coefficients(extra)
         half, _ = f.coefficients(extra, held_out=True)
         own = dict(field.candidates[e])
-        parameters = _values(f, [own[n] for n in extra], c[f.n_base :], covariance[f.n_base :, f.n_base :])
+        mine = [own[n] for n in extra]
+        values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
+        parameters = parameter_values(mine, values, spread)
         if e in instants:
             parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
         bic = t.chi2 - t.rank * np.log(f.calibration.rows)
@@ -345,27 +349,63 @@ def _ranking(
                 f.error(f.residuals(c, extra)),
                 f.error(f.residuals(half, extra), scored),
                 tuple(parameters),
+                tuple(visible_combinations(mine, values, spread)),
                 twins,
             )
         )
     for e, t in random.items():
         bic = t.chi2 - np.log(f.calibration.rows)
-        ranked.append(Ranked(e, t.log_p, t.chi2, t.rank, float(bic), before, before, before, (), ()))
+        ranked.append(Ranked(e, t.log_p, t.chi2, t.rank, float(bic), before, before, before, (), (), ()))
     for e in output:
-        ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), ()))
+        ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), (), ()))
     order = {e: n for n, e in enumerate(choice.chosen)}
     return sorted(ranked, key=lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect))
 
 
-def _values(
-    f: Fitted, columns: Sequence[Column], values: Array, covariance: Array
-) -> list[ParameterValue]:
+def parameter_values(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
+    """Fitted parameters (in scales) in their display units."""
     found = []
     for k, c in enumerate(columns):
         factor = c.scale / c.unit_factor
         name = c.name.split(".", 1)[1] if c.effect else c.name
         std = float(np.sqrt(covariance[k, k])) * factor
         found.append(ParameterValue(name, c.accelerometer, float(values[k]) * factor, std, c.unit))
+    return found
+
+
+PATTERNS: tuple[tuple[str, tuple[float, ...]], ...] = (
+    ("{0}[1] - {0}[2]", (1.0, -1.0, 0.0, 0.0)),
+    ("{0}[3] - {0}[4]", (0.0, 0.0, 1.0, -1.0)),
+    ("{0}[1] + {0}[2] - {0}[3] - {0}[4]", (1.0, 1.0, -1.0, -1.0)),
+    ("{0}[1] + {0}[2] + {0}[3] + {0}[4]", (1.0, 1.0, 1.0, 1.0)),
+)
+"""The paper's D^12, D^34, D^1234 and Sigma of a parameter: what the output may see of it."""
+
+
+def visible_combinations(
+    columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
+    """The combinations of four values that the record determines, where it does not determine each of them.
+
+    A combination counts as seen where its standard deviation is below a tenth of the prior's.
+    """
+    found = []
+    for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
+        at = [k for k, c in enumerate(columns) if c.name == name]
+        if len(at) != 4:
+            continue
+        c = columns[at[0]]
+        factor = c.scale / c.unit_factor
+        block = covariance[np.ix_(at, at)]
+        if np.all(np.diag(block) < 0.01):
+            continue  # each value is seen by itself
+        for pattern, weights in PATTERNS:
+            w = np.array(weights)
+            variance = float(w @ block @ w)
+            if variance < 0.01 * float(w @ w):
+                label = pattern.format(name.split(".", 1)[-1])
+                value = float(w @ values[at]) * factor
+                found.append(ParameterValue(label, None, value, float(np.sqrt(variance)) * factor, c.unit))
     return found
 
 

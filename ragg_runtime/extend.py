@@ -99,10 +99,10 @@ def derived(
 
 
 def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
-    """``model`` with further effects derived into it."""
+    """``model`` with further effects derived into it; without signatures of any more."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, k.effects)[0]
+    return derived(chosen, ())[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:

@@ -77,7 +77,7 @@ class Model:
     effects
         Effects in the model beyond the paper's instrument.
     candidates
-        Effects known but not in the model; their signatures are in ``signatures``.
+        Effects known but not in the model; their signatures are in ``signatures`` (none: no signatures).
     chain, signatures
         Generated modules.
     digest
@@ -113,22 +113,24 @@ def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
     """
     modules = {}
     for name in ("chain", "signatures"):
+        if f"{name}.py" not in files:
+            continue
         module = ModuleType(f"ragg_{label}_{name}")
         sys.modules[module.__name__] = module
         exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
         modules[name] = module
-    return _model(json.loads(files["manifest.json"]), modules["chain"], modules["signatures"])
+    return _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
 
 
-def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType) -> Model:
+def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None) -> Model:
     effects = tuple(_effect(e) for e in manifest["catalogue"])
     present = list(manifest["effects"])
     by_id = {e.id: e for e in effects}
     return Model(
         tuple(by_id[i] for i in present),
-        tuple(e for e in effects if e.id not in present),
+        tuple(e for e in effects if e.id not in present) if signatures is not None else (),
         cast(Chain, chain),
-        cast(Chain, signatures),
+        cast(Chain, signatures or chain),
         manifest["digest"],
     )
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.compare import Comparison
-from ragg_runtime.diagnose import Diagnosis, Ranked
+from ragg_runtime.diagnose import Diagnosis, ParameterValue, Ranked
 from ragg_runtime.flight import Flight
 from ragg_runtime.metrics import Error
 from ragg_runtime.workflow import Added, Loaded, sources
@@ -67,6 +67,19 @@ def _ranked(r: Ranked) -> str:
     return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {r.before.rms_Eo:10.4g} {r.after.rms_Eo:10.4g} {r.after_holdout.rms_Eo:10.4g}"
 
 
+def _parameters(
+    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
+) -> list[str]:
+    lines = []
+    for q in parameters:
+        which = f" of A{q.accelerometer}" if q.accelerometer else ""
+        lines.append(f"  {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+    if combinations:
+        lines.append("  of which the record sees only:")
+        lines += [f"  {q.name} = {q.value:.4g} +- {q.std:.2g} {q.unit}" for q in combinations]
+    return lines
+
+
 def diagnosed(d: Diagnosis, model_dir: Path) -> str:
     """The result of ``diagnose``."""
     head = {
@@ -84,9 +97,7 @@ def diagnosed(d: Diagnosis, model_dir: Path) -> str:
     for r in d.ranking:
         if r.effect in d.found:
             lines.append("")
-            for q in r.parameters:
-                which = f" of A{q.accelerometer}" if q.accelerometer else ""
-                lines.append(f"  {r.effect}: {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+            lines += _parameters(r.parameters, r.combinations)
             if r.indistinguishable_from:
                 lines.append(f"  this record cannot tell it from: {', '.join(r.indistinguishable_from)}")
     if d.verdict == "unexplained":
@@ -117,9 +128,7 @@ def added(a: Added) -> str:
             "",
             "The model is now adequate." if a.after.adequate else "Something is still missing: ragg diagnose",
         ]
-        for q in a.parameters:
-            which = f" of A{q.accelerometer}" if q.accelerometer else ""
-            lines.append(f"  {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+        lines += _parameters(a.parameters, a.combinations)
     return "\n".join(lines)
 
 

@@ -25,7 +25,7 @@ from ragg_runtime import compare as _compare
 from ragg_runtime import diagnose as _diagnose
 from ragg_runtime import extend
 from ragg_runtime.compare import Comparison
-from ragg_runtime.diagnose import Diagnosis, ParameterValue
+from ragg_runtime.diagnose import Diagnosis, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
@@ -60,6 +60,7 @@ class Added:
     before: Comparison | None
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
 
     def as_json(self) -> dict[str, object]:
         return {
@@ -67,6 +68,7 @@ class Added:
             "before": errors_of(self.before),
             "after": errors_of(self.after),
             "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
         }
 
 
@@ -156,11 +158,16 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     setting = EffectSetting(effect, MappingProxyType(values))
     extended = replace(instrument, effects=(*instrument.effects, setting))
     model = extend.model_of(extended)
-    after, parameters = None, ()
+    after, parameters, combinations = None, (), ()
     if flights:
         after = _compare.compare(model, extended, flights)
-        parameters = calibrated(after, effect)
+        parameters, combinations = calibrated(after, effect)
         values |= settings(parameters)
+        with_values = replace(
+            instrument, effects=(*instrument.effects, EffectSetting(effect, MappingProxyType(values)))
+        )
+        nominal = _compare.nominal_residuals(after.fitted, with_values)
+        after = replace(after, nominal=after.fitted.error(nominal), residual_nominal=tuple(nominal))
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values)))
     step = Step(
         "add",
@@ -174,7 +181,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         directory = replace_model_dir(
             m.directory, text, generated=generated, history=(*m.directory.history, step)
         )
-    return Added(_loaded(directory), effect, before, after, tuple(parameters))
+    return Added(_loaded(directory), effect, before, after, parameters, combinations)
 
 
 def remove(m: Loaded, effect: str) -> Loaded:
@@ -189,18 +196,19 @@ def remove(m: Loaded, effect: str) -> Loaded:
     return _loaded(directory)
 
 
-def calibrated(c: Comparison, effect: str) -> tuple[ParameterValue, ...]:
-    """The calibrated parameters of an effect that is in the model, in display units."""
-    found = []
-    f = c.fitted
-    cal = f.calibration
-    for n, column in enumerate(cal.columns):
-        if column.effect == effect:
-            std = float(np.sqrt(cal.covariance[n, n])) * column.scale / column.unit_factor
-            value = float(cal.p[cal.index[n]]) / column.unit_factor
-            name = column.name.split(".", 1)[1]
-            found.append(ParameterValue(name, column.accelerometer, value, std, column.unit))
-    return tuple(found)
+def calibrated(
+    c: Comparison, effect: str
+) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
+    cal = c.fitted.calibration
+    mine = [n for n, column in enumerate(cal.columns) if column.effect == effect]
+    columns = [cal.columns[n] for n in mine]
+    values = np.array([cal.p[cal.index[n]] / cal.columns[n].scale for n in mine])
+    covariance = cal.covariance[np.ix_(mine, mine)]
+    return (
+        tuple(parameter_values(columns, values, covariance)),
+        tuple(visible_combinations(columns, values, covariance)),
+    )
 
 
 def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
