@@ -109,7 +109,9 @@ class Accelerometer:
     sensed: SensedForce
 
 
-def accelerometer(effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None) -> Accelerometer:
+def accelerometer(
+    effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None
+) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
     tape = Tape() if tape is None else tape
     let = tape.let
@@ -155,7 +157,11 @@ def accelerometer(effects: Sequence[Effect] = (), order: Order = PAPER, tape: Ta
             return g, SensedForce(*resolved), resolved
         vartheta = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
         sensed = stages.sensed_force(resolved, vartheta, order)
-        return g, SensedForce(*(let(f"{label}_f_{n}", v) for n, v in zip("iop", sensed, strict=True))), resolved
+        return (
+            g,
+            SensedForce(*(let(f"{label}_f_{n}", v) for n, v in zip("iop", sensed, strict=True))),
+            resolved,
+        )
 
     c.parameters = dict(k)
     if any(e.instrument for e in effects):
@@ -193,7 +199,11 @@ def _named_motion(let: Let, label: str, m: Motion) -> Motion:
     def vector(name: str, v: sp.Matrix) -> sp.Matrix:
         return sp.Matrix([let(f"{label}_{name}_{'xyz'[n]}", v[n]) for n in range(3)])
 
-    G = {(i, j): let(f"{label}_Gamma_{'xyz'[i]}{'xyz'[j]}", m.Gamma[i, j]) for i in range(3) for j in range(i, 3)}
+    G = {
+        (i, j): let(f"{label}_Gamma_{'xyz'[i]}{'xyz'[j]}", m.Gamma[i, j])
+        for i in range(3)
+        for j in range(i, 3)
+    }
     return Motion(
         vector("a", m.a),
         vector("omega", m.omega),

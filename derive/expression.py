@@ -23,18 +23,30 @@ if TYPE_CHECKING:
 LONGEST = 500
 """Longest expression, characters."""
 
-FUNCTIONS = {"abs": sp.Abs, "sin": sp.sin, "cos": sp.cos, "exp": sp.exp, "tanh": sp.tanh, "sqrt": sp.sqrt, "sign": sp.sign}
+FUNCTIONS = {
+    "abs": sp.Abs,
+    "sin": sp.sin,
+    "cos": sp.cos,
+    "exp": sp.exp,
+    "tanh": sp.tanh,
+    "sqrt": sp.sqrt,
+    "sign": sp.sign,
+}
 STAGES = ("transducer",)
 FORCES = ("f_i", "f_o", "f_p")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
-_RESERVED = frozenset({"time", "cos_phi", "sin_phi", "inputs", "q", "j", "D", "V", "np", "i", "n", "p", "in", "lambda"})
+_RESERVED = frozenset(
+    {"time", "cos_phi", "sin_phi", "inputs", "q", "j", "D", "V", "np", "i", "n", "p", "in", "lambda"}
+)
 
 
 class ExpressionError(ValueError):
     """The expression is not of the grammar, or names something that does not exist."""
 
 
-def from_expression(identifier: str, stage: str, add: str, parameters: Mapping[str, Mapping[str, Any]]) -> Effect:
+def from_expression(
+    identifier: str, stage: str, add: str, parameters: Mapping[str, Mapping[str, Any]]
+) -> Effect:
     """An effect that adds ``add`` at a stage.
 
     Parameters
@@ -120,7 +132,9 @@ def _translate(node: ast.expr, name: Any, depth: int = 0) -> sp.Expr:
     def inner(n: ast.expr) -> sp.Expr:
         return _translate(n, name, depth + 1)
 
-    if isinstance(node, ast.Constant) and type(node.value) in (int, float):
+    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
+        if isinstance(node.value, bool):
+            raise ExpressionError("True and False are not numbers")
         if abs(node.value) > 1e30:
             raise ExpressionError(f"the number {str(node.value)[:20]} is out of range")
         return sp.Integer(node.value) if isinstance(node.value, int) else sp.Rational(repr(node.value))
@@ -132,7 +146,9 @@ def _translate(node: ast.expr, name: Any, depth: int = 0) -> sp.Expr:
         left = inner(node.left)
         if isinstance(node.op, ast.Pow):
             exponent = node.right
-            if not (isinstance(exponent, ast.Constant) and type(exponent.value) is int and 0 < exponent.value <= 8):
+            if not (
+                isinstance(exponent, ast.Constant) and type(exponent.value) is int and 0 < exponent.value <= 8
+            ):
                 raise ExpressionError("an exponent must be a whole number from 1 to 8")
             return left**exponent.value
         right = inner(node.right)
@@ -151,7 +167,6 @@ def _translate(node: ast.expr, name: Any, depth: int = 0) -> sp.Expr:
             raise ExpressionError(f"{node.func.id} takes one argument")
         return FUNCTIONS[node.func.id](inner(node.args[0]))
     raise ExpressionError(
-        f"{ast.unparse(node)[:40]!r} is not allowed: numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
+        f"{ast.unparse(node)[:40]!r} is not allowed: "
+        f"numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
     )
-
-

@@ -111,7 +111,7 @@ def series(
         raise NotHarmonic(f"{e} has no finite Fourier series in the disc angle")
 
     # Only what the output needs: an unused branch may hold symbols outside the ring.
-    needed = {s for s in variables(output)}
+    needed = set(variables(output))
     live: list[tuple[sp.Symbol, sp.Expr]] = []
     for s, e in reversed(list(assignments)):
         if s in needed and s not in values:

@@ -105,7 +105,8 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
         amplitudes.append(
             (amplitude, tuple(AmplitudeTerm(tuple(c), _monomial(m)) for m, c in grouped.items()))
         )
-    basis, slopes = [], {p: [] for p in COEFFICIENT_PARAMETERS}
+    basis: list[tuple[int, str, sp.Expr]] = []
+    slopes: dict[str, list[tuple[int, sp.Expr]]] = {p: [] for p in COEFFICIENT_PARAMETERS}
     for (n, phase), terms_of in collected.generic.items():
         for motion in sorted(terms_of, reverse=True):
             for p, generator in zip(COEFFICIENT_PARAMETERS, collected.ring.gens, strict=True):
@@ -162,10 +163,14 @@ def chain(
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)
     if candidates:
-        named = [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in candidates for q in e.parameters if q.fitted]
+        named = [
+            (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in candidates for q in e.parameters if q.fitted
+        ]
     else:
         named = [(q.symbol, q.name, False) for q in ACCELEROMETER]
-        named += [(e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted]
+        named += [
+            (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted
+        ]
     outputs = [(n, by(s)) for s, n, _ in named]
     derivatives = simplify(a.tape.assignments, outputs, neutral)
     known = {p.name for p in (*INSTRUMENT, *effect_parameters(effects))}
@@ -185,7 +190,7 @@ def chain(
 
 
 def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
-    """The value at which a candidate's signature is taken: a step acts all the time (the runtime masks it)."""
+    """Where a candidate's signature is taken: a step acts all the time (the runtime masks it)."""
     if e.kind == "step" and not q.fitted:
         return -sp.oo
     return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
@@ -223,4 +228,3 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
             for q in e.parameters
         ],
     }
-

@@ -31,7 +31,9 @@ def derive_base() -> Files:
     files: dict[str, str] = {}
     harmonic = [
         ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19)."),
-        ir.harmonic(simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."),
+        ir.harmonic(
+            simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
+        ),
     ]
     for m in harmonic:
         files[f"{m.name}.py"] = render.harmonic_numpy(m)
@@ -64,7 +66,9 @@ def _complete(
     *chains: ir.Chain,
 ) -> Files:
     """Add the package file and the manifest, which names everything that was derived."""
-    modules = sorted(n.removesuffix(".py") for n in files if n.endswith(".py") and "/" not in n and n[0] != "_")
+    modules = sorted(
+        n.removesuffix(".py") for n in files if n.endswith(".py") and "/" not in n and n[0] != "_"
+    )
     files["__init__.py"] = render.render("init.py.j2", modules=modules)
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files) if name != "manifest.json")
     manifest: dict[str, object] = {
@@ -80,7 +84,8 @@ def _complete(
             c.name: {
                 "inputs": [{"name": i.name, "unit": i.unit, "meaning": i.meaning} for i in c.inputs],
                 "parameters": [
-                    {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning} for q in c.parameters
+                    {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning}
+                    for q in c.parameters
                 ],
                 "rows": [r.name for r in c.rows],
                 "operations": {"value": ir.operations(c.value), "derivatives": ir.operations(c.derivatives)},

@@ -48,7 +48,7 @@ def _numbers_of_gradient() -> dict[str, sp.Expr]:
     a step along y changes a_y by -S_3, and one along x changes a_y by S_5.
     """
     M = sp.Matrix(3, 3, lambda i, k: symbol(f"M_{'xyz'[i]}{'xyz'[k]}"))
-    ring = PolyRing([s for s in M], QQ_I, lex)
+    ring = PolyRing(list(M), QQ_I, lex)
     turning = dict(zip((COS_PHI, SIN_PHI), rotating(ring), strict=True))
     radial, tangential = sp.Matrix([COS_PHI, SIN_PHI, 0]), sp.Matrix([-SIN_PHI, COS_PHI, 0])
     step = M * radial
@@ -195,6 +195,4 @@ def _combinations(n: int, source: str, target: str) -> list[tuple[Combination, i
         patterns = [h for h in halves if any(h)]
     else:
         patterns = [tuple(weights)] if any(weights) else []
-    return [
-        (_PATTERNS[p], 1) if p in _PATTERNS else (_PATTERNS[tuple(-w for w in p)], -1) for p in patterns
-    ]
+    return [(_PATTERNS[p], 1) if p in _PATTERNS else (_PATTERNS[tuple(-w for w in p)], -1) for p in patterns]

@@ -93,10 +93,7 @@ def linearise(
         q = np.concatenate([p, np.zeros(model.signatures.SIZE - len(p))])
         _, by = design.derivatives(model.signatures, r, q)
         candidates = np.stack(
-            [
-                design.observe(kind, by[c.name, c.accelerometer], c.accelerometer) * c.scale
-                for c in columns
-            ]
+            [design.observe(kind, by[c.name, c.accelerometer], c.accelerometer) * c.scale for c in columns]
         )
     eotvos = scale_factor(model.chain, p)
     size = {"G_out": np.array([1.0]), "voltages": np.array([0.25, 0.25, -0.25, -0.25])}[kind]
@@ -166,7 +163,7 @@ def _least_squares(X: Array, y: Array) -> Array:
     R = design.triangle(np.vstack([X / norms[:, None], y]))
     n = len(norms)
     # A truncated solution: directions that are numerically absent must not be amplified.
-    return np.linalg.lstsq(R[:n, :n], R[:n, n], rcond=1e-12)[0] / norms
+    return np.asarray(np.linalg.lstsq(R[:n, :n], R[:n, n], rcond=1e-12)[0] / norms)
 
 
 def fit(
@@ -219,10 +216,8 @@ def solve(R: Array, to_nominal: Array, n: int) -> tuple[Array, Array]:
 
     The prior pulls every parameter to its nominal value, ``to_nominal`` away, with a width of one scale.
     """
-    rows = np.vstack(
-        [np.column_stack([R[:, :n], R[:, -1]]), np.column_stack([np.eye(n), to_nominal])]
-    )
-    T = np.linalg.qr(rows, mode="r")
+    rows = np.vstack([np.column_stack([R[:, :n], R[:, -1]]), np.column_stack([np.eye(n), to_nominal])])
+    T = np.asarray(np.linalg.qr(rows, mode="r"))
     step = np.linalg.solve(T[:n, :n], T[:n, n])
     inverse = np.linalg.inv(T[:n, :n])
     return step, inverse @ inverse.T

@@ -1,4 +1,7 @@
-"""The command line, ``ragg``: results to stdout, progress to stderr, exit status 0, 1 (fault) or 2 (input)."""
+"""The command line, ``ragg``.
+
+Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ours) or 2 (bad input).
+"""
 
 from __future__ import annotations
 
@@ -61,7 +64,9 @@ def _command() -> str:
 
 
 @cli.command()
-@click.option("--out", type=DIRECTORY, help="Root of the project to write to (default: where ragg is installed).")
+@click.option(
+    "--out", type=DIRECTORY, help="Root of the project to write to (default: where ragg is installed)."
+)
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
@@ -125,7 +130,11 @@ def effects(identifier: str | None, json_file: str | None) -> None:
     for q in e["parameters"]:
         which = "one value" if q["shared"] else "one value for each accelerometer"
         lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
-    lines += ["", f"needs: {', '.join(e['channels']) or 'the motion alone'}", f"limits: {e['limits'] or 'none stated'}"]
+    lines += [
+        "",
+        f"needs: {', '.join(e['channels']) or 'the motion alone'}",
+        f"limits: {e['limits'] or 'none stated'}",
+    ]
     _emit(e, json_file, "\n".join([*lines, f"source: {e['source']}"]))
 
 
@@ -159,7 +168,9 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @_json
 @_report
-def diagnose(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def diagnose(
+    model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None
+) -> None:
     """Which physical effect is missing?"""
     from ragg_runtime import texts, workflow
 
@@ -223,7 +234,11 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 
     m = workflow.remove(workflow.load(model_dir), effect)
     left = [e.id for e in m.model.effects]
-    _emit({"effect": effect, "effects": left}, json_file, f"removed {effect}; effects left: {', '.join(left) or 'none'}")
+    _emit(
+        {"effect": effect, "effects": left},
+        json_file,
+        f"removed {effect}; effects left: {', '.join(left) or 'none'}",
+    )
 
 
 @cli.command()
@@ -240,7 +255,14 @@ def history(model_dir: Path, json_file: str | None) -> None:
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
-@click.option("-o", "--output", type=DIRECTORY, required=True, metavar="FLIGHT", help="File to write (.csv, .parquet, .nc).")
+@click.option(
+    "-o",
+    "--output",
+    type=DIRECTORY,
+    required=True,
+    metavar="FLIGHT",
+    help="File to write (.csv, .parquet, .nc).",
+)
 @click.option(
     "--effect",
     "hidden",
@@ -252,7 +274,9 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option("--duration", type=click.FloatRange(1.0), default=1800.0, show_default=True, help="s")
 @click.option("--rate", type=click.FloatRange(1.0), default=16.0, show_default=True, help="Hz")
 @click.option("--noise", type=click.FloatRange(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
-@click.option("--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion.")
+@click.option(
+    "--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion."
+)
 @click.option("--sheet-error", type=click.FloatRange(0.0), default=1.0, show_default=True,
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")

@@ -75,7 +75,7 @@ class Fitted:
         picked = [*range(n), *(n + k for k in extra)]
         prior = np.zeros((len(extra), len(picked) + 1))
         prior[:, n:-1] = np.eye(len(extra))
-        R = np.linalg.qr(np.vstack([T[:, [*picked, T.shape[1] - 1]], prior]), mode="r")
+        R = np.asarray(np.linalg.qr(np.vstack([T[:, [*picked, T.shape[1] - 1]], prior]), mode="r"))
         k = len(picked)
         inverse = np.linalg.inv(R[:k, :k])
         return inverse @ R[:k, k], inverse @ inverse.T
@@ -173,7 +173,7 @@ class Remainder:
 
     @property
     def significant(self) -> bool:
-        return self.log_p < np.log(omnibus.FAMILY)
+        return bool(self.log_p < np.log(omnibus.FAMILY))
 
 
 def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
@@ -224,7 +224,6 @@ class Comparison:
                 "time": self.by_time(),
                 "motion": terms_json(self.remainder, self.residual, f),
             },
-            "notes": [n for o in f.observations for n in ()],
         }
 
     def by_harmonic(self) -> list[dict[str, object]]:
@@ -254,7 +253,7 @@ class Comparison:
 
 
 def harmonic_errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
-    """rms of the residual demodulated at const, cos k, sin k, as the demodulator would see it."""
+    """Residual demodulated at const, cos k, sin k, as the demodulator would see it."""
     from ragg_runtime.demodulate import low_pass
 
     rows: list[dict[str, object]] = []

@@ -17,16 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import compare, design
-from ragg_runtime.compare import BLOCKS, FITTED_BLOCKS, Fitted, Remainder
+from ragg_runtime.compare import FITTED_BLOCKS, Fitted, Remainder
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
 from ragg_runtime.evidence import likelihood, omnibus, search, special
 from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.search import Choice, Field
+from ragg_runtime.evidence.work import BLOCKS
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error
+from ragg_runtime.whiten import whiten
 
 Array = NDArray[np.float64]
 
@@ -259,7 +261,7 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
         for n, _ in own:
             candidates[n] = np.where(on, lin.candidates[n], 0.0)
             parts = [
-                special.whiten(candidates[n][m][None], taps, w.observation.record.valid)[0]
+                whiten(candidates[n][m][None], taps, w.observation.record.valid)[0]
                 for m, taps in enumerate(w.noise.filters)
             ]
             whitened_columns[f.n_base + n] = np.concatenate(parts)
@@ -382,9 +384,7 @@ PATTERNS: tuple[tuple[str, tuple[float, ...]], ...] = (
 """The paper's D^12, D^34, D^1234 and Sigma of a parameter: what the output may see of it."""
 
 
-def visible_combinations(
-    columns: Sequence[Column], values: Array, covariance: Array
-) -> list[ParameterValue]:
+def visible_combinations(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
     """The combinations of four values that the record determines, where it does not determine each of them.
 
     A combination counts as seen where its standard deviation is below a tenth of the prior's.
@@ -432,11 +432,15 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
         return "this record hardly excites it: even a hundred times its plausible size leaves no trace"
     solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
     names: dict[str, float] = {}
-    for c, v, norm in zip(f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True):
+    for c, v, norm in zip(
+        f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True
+    ):
         names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
     most = sorted(names, key=lambda x: -names[x])[:3]
     share = float(left[k] / whole[k]) if whole[k] else 0.0
-    return f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
+    return (
+        f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
+    )
 
 
 def _sizes(f: Fitted, field: Field) -> list[tuple[str, str]]:

@@ -51,7 +51,9 @@ def known(instrument: Instrument) -> Known:
         try:
             own += from_folder(instrument.effects_folder)
         except (ValueError, SyntaxError) as error:
-            raise UserError("an effect of your own cannot be read", where=str(instrument.effects_folder), found=str(error)) from error
+            raise UserError(
+                "an effect of your own cannot be read", where=str(instrument.effects_folder), found=str(error)
+            ) from error
     own += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
     for e in own:
         if e.id in taken:
@@ -62,14 +64,16 @@ def known(instrument: Instrument) -> Known:
                 remedy="choose another id",
             )
         taken.add(e.id)
-    return Known(tuple([*found, *own]))
+    return Known((*found, *own))
 
 
 def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
     where = at(path, f"effect {s.id}")
     assert s.expression is not None
     try:
-        return from_expression(s.id, str(s.expression["stage"]), str(s.expression["add"]), s.expression["params"])
+        return from_expression(
+            s.id, str(s.expression["stage"]), str(s.expression["add"]), s.expression["params"]
+        )
     except ExpressionError as error:
         raise UserError("the expression is not understood", where=where, found=str(error)) from error
 

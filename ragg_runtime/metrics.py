@@ -40,7 +40,9 @@ class Error:
         return {k: (v if np.isfinite(v) else None) for k, v in asdict(self).items()}
 
 
-def channels(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]) -> tuple[Array, Array, Array]:
+def channels(
+    residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
+) -> tuple[Array, Array, Array]:
     """Demodulated residual: (time, inline, cross), s and Eo, of every selected stretch, joined."""
     phi = np.arctan2(r.sin_phi, r.cos_phi)
     times, inline, cross = [np.empty(0)], [np.empty(0)], [np.empty(0)]
@@ -59,9 +61,7 @@ def shortest_demodulated(rate: float) -> int:
     return len(low_pass(rate)) + int(2 * rate)
 
 
-def error(
-    residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] | None = None
-) -> Error:
+def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] | None = None) -> Error:
     """The error object of a residual of G_out.
 
     Parameters

@@ -51,9 +51,9 @@ class Dictionary:
         self._series["time"] = r.time - np.mean(r.time)
         derivatives = [f"d_a_{k}" for k in "xyz"]
         for name in derivatives:
-            x = r.series(name)
-            if x is not None:
-                self._series[name] = x
+            rate = r.series(name)
+            if rate is not None:
+                self._series[name] = rate
         self._series = {n: x for n, x in self._series.items() if np.ptp(x[r.valid]) > 0.0}
         names = tuple(self._series)
         motion = [n for n in names if n in _MOTION]

@@ -31,7 +31,9 @@ def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, obje
 
 
 def _error(e: Error) -> str:
-    channels = f"{e.inline_Eo:10.4g} {e.cross_Eo:10.4g} {e.inline_Eo_per_rtHz:12.4g} {e.cross_Eo_per_rtHz:12.4g}"
+    channels = (
+        f"{e.inline_Eo:10.4g} {e.cross_Eo:10.4g} {e.inline_Eo_per_rtHz:12.4g} {e.cross_Eo_per_rtHz:12.4g}"
+    )
     return f"{e.rms_Eo:12.5g} {channels}"
 
 
@@ -57,19 +59,21 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     where: Any = c.as_json()["where"]
     if where["motion"]:
         lines.append("\nwhere it fails (harmonic x motion term, share of the residual's power):")
-        lines += [f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma" for t in where["motion"]]
+        lines += [
+            f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma"
+            for t in where["motion"]
+        ]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
 def _ranked(r: Ranked) -> str:
     p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
-    return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {r.before.rms_Eo:10.4g} {r.after.rms_Eo:10.4g} {r.after_holdout.rms_Eo:10.4g}"
+    errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
+    return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
 
 
-def _parameters(
-    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
-) -> list[str]:
+def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]) -> list[str]:
     lines = []
     for q in parameters:
         which = f" of A{q.accelerometer}" if q.accelerometer else ""
@@ -91,7 +95,7 @@ def diagnosed(d: Diagnosis, model_dir: Path) -> str:
         head,
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
         "",
-        f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10}  (Eo rms)",
+        f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
     ]
     lines += [_ranked(r) for r in d.ranking[:8]]
     for r in d.ranking:
@@ -105,7 +109,8 @@ def diagnosed(d: Diagnosis, model_dir: Path) -> str:
         lines.append("\n  what is left (harmonic x motion term):")
         for t in terms["terms"]:
             lines.append(
-                f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']}, {t['z']:+.1f} sigma"
+                f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
+                f" {t['z']:+.1f} sigma"
             )
     if d.not_testable:
         lines.append("\n  not testable on this record:")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +54,7 @@ class NoiseModel:
     def whitening_filter(self, length: int) -> Array:
         """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance."""
         n = 1 << max(13, (4 * length - 1).bit_length())
-        f = np.fft.fftfreq(n, 1 / self.rate)
+        f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)
         # Kolmogorov: the causal half of the cepstrum of 1/sqrt(two-sided density, per sample).
         cepstrum = np.fft.ifft(-0.5 * np.log(self.psd(f) * self.rate / 2)).real
         cepstrum[1 : n // 2] *= 2
@@ -148,7 +148,7 @@ def whiten(columns: Floats, taps: Array, valid: NDArray[np.bool_]) -> Floats:
     n = columns.shape[1]
     size = fft.next_fast_len(n + min(n, len(taps)) - 1, real=True)
     gain = fft.rfft(taps[:n].astype(columns.dtype), size)
-    masked = columns if valid.all() else np.where(valid, columns, columns.dtype.type(0.0))
+    masked = columns if valid.all() else cast("Floats", columns * valid)
     y = fft.irfft(fft.rfft(masked, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
     kept: Floats = y[:, :n] if valid.all() else y[:, :n][:, valid]
     return kept

@@ -1,4 +1,4 @@
-"""The steps of the loop: load a model, compare, diagnose, add, remove. The command line and notebooks call these.
+"""The steps of the loop, for the command line and for notebooks: load, compare, diagnose, add, remove.
 
 >>> import ragg_runtime.workflow as ragg                      # doctest: +SKIP
 >>> m = ragg.load("my-model")
@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -158,7 +159,9 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     setting = EffectSetting(effect, MappingProxyType(values))
     extended = replace(instrument, effects=(*instrument.effects, setting))
     model = extend.model_of(extended)
-    after, parameters, combinations = None, (), ()
+    after: Comparison | None = None
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
     if flights:
         after = _compare.compare(model, extended, flights)
         parameters, combinations = calibrated(after, effect)
@@ -196,9 +199,7 @@ def remove(m: Loaded, effect: str) -> Loaded:
     return _loaded(directory)
 
 
-def calibrated(
-    c: Comparison, effect: str
-) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
     """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
     cal = c.fitted.calibration
     mine = [n for n, column in enumerate(cal.columns) if column.effect == effect]
@@ -236,23 +237,16 @@ def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
     return 0.0
 
 
-class _staged:
+@contextmanager
+def _staged(files: Mapping[str, str]) -> Iterator[Path | None]:
     """A temporary folder that holds generated files; ``None`` if there are none."""
-
-    def __init__(self, files: Mapping[str, str]) -> None:
-        self._files = files
-        self._folder = tempfile.TemporaryDirectory() if files else None
-
-    def __enter__(self) -> Path | None:
-        if self._folder is None:
-            return None
-        place = Path(self._folder.name) / "generated"
-        tree.write(self._files, place)
-        return place
-
-    def __exit__(self, *_: object) -> None:
-        if self._folder is not None:
-            self._folder.cleanup()
+    if not files:
+        yield None
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "generated"
+        tree.write(files, place)
+        yield place
 
 
 def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:

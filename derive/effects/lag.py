@@ -28,7 +28,7 @@ EFFECT = Effect(
     ),
     source="closed-loop transfer function of a force-rebalance accelerometer, 1/(1 + tau s)",
     equation=r"V_j \leftarrow V_j/(1 + \tau_j s)",
-    limits="Expanded to second order in tau: holds while tau is far below the time scale of the force (0.1 s).",
+    limits="Expanded to second order in tau: tau must be far below the time scale of the force (0.1 s).",
     parameters=(EffectParameter("tau", r"\tau", "s", "time constant of the loop", 1e-8),),
     transducer=transducer,
 )

@@ -32,8 +32,8 @@ EFFECT = Effect(
     source="IEEE Std 1293, magnetic sensitivity of the bias",
     equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{ji}",
     limits=(
-        "Linear, in the field recorded in the measurement frame, taken for uniform over the disc, along the input "
-        "axis alone; a response to the field along the spin axis, which does not turn, is left out."
+        "Linear, in the field recorded in the measurement frame, taken for uniform over the disc, along the "
+        "input axis alone; a response to the field along the spin axis, which does not turn, is left out."
     ),
     channels=FIELD,
     parameters=(

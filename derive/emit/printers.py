@@ -13,7 +13,7 @@ from sympy.printing.numpy import NumPyPrinter
 from derive.symbols import INSTRUMENT, MOTION
 
 
-class _NumPy(NumPyPrinter):  # type: ignore[misc]
+class _NumPy(NumPyPrinter):
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
 
@@ -41,7 +41,7 @@ class _NumPy(NumPyPrinter):  # type: ignore[misc]
         return fqn.replace("numpy.", "np.")
 
 
-class _C(C99CodePrinter):  # type: ignore[misc]
+class _C(C99CodePrinter):
     def _print_Pow(self, e: sp.Pow) -> str:
         if e.exp.is_Integer and 2 <= e.exp <= 6:
             base = self.parenthesize(e.base, sp.printing.precedence.PRECEDENCE["Mul"] + 1)
@@ -77,12 +77,13 @@ def _decimal(e: sp.Rational) -> str:
     return text if sp.Rational(text) == e and "e" not in text else ""
 
 
-class _LaTeX(LatexPrinter):  # type: ignore[misc]
+class _LaTeX(LatexPrinter):
     def _print_Symbol(self, e: sp.Symbol, style: str = "plain") -> str:
         return _SYMBOLS.get(e.name) or str(super()._print_Symbol(e, style))
 
 
-_SYMBOLS = {c.name: c.latex for c in (*MOTION, *INSTRUMENT)} | {"k1": "k_1", "R": "R"}
+_SYMBOLS: dict[str, str] = {c.name: c.latex for c in MOTION}
+_SYMBOLS |= {q.name: q.latex for q in INSTRUMENT} | {"k1": "k_1", "R": "R"}
 
 
 def to_numpy(e: sp.Expr) -> str:

@@ -95,7 +95,11 @@ def _numpy_term(t: AmplitudeTerm) -> str:
         return inner
     if len(t.coefficients) > 1:
         inner = f"({inner})"
-    return f"{inner} * {to_numpy(t.motion)}" if t.motion.is_Pow or t.motion.is_Symbol else f"{inner} * ({to_numpy(t.motion)})"
+    return (
+        f"{inner} * {to_numpy(t.motion)}"
+        if t.motion.is_Pow or t.motion.is_Symbol
+        else f"{inner} * ({to_numpy(t.motion)})"
+    )
 
 
 def _latex_term(t: AmplitudeTerm) -> str:

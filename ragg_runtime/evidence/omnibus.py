@@ -59,7 +59,7 @@ class Omnibus:
 
     @property
     def significant(self) -> bool:
-        return self.log_p < np.log(FAMILY)
+        return bool(self.log_p < np.log(FAMILY))
 
 
 def basis(columns: Array, prior: bool = True) -> Array:
@@ -108,7 +108,7 @@ def search(
         # in single precision a column that is nearly all in the base has no direction of its own left
         good = after > 1e-3 * before
         scale = np.where(good, after, np.float32(np.inf))
-        pieces.append(X / scale[:, None])
+        pieces.append((X / scale[:, None]).astype(np.float32))
         series += list(zip(terms, scale, strict=True))
     X = np.concatenate(pieces)
     pieces.clear()

@@ -138,7 +138,7 @@ def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
 def _swap(
     f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], exclude: Sequence[str]
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
-    for old in list(chosen):
+    for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         ranked = sorted((t.log_p, e) for e, t in conditional.items() if e not in exclude)
@@ -152,7 +152,7 @@ def _swap(
 def _drop(
     f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
-    for e in list(chosen):
+    for e in tuple(chosen):
         others = [o for o in chosen if o != e]
         if others and not significant(f.tests(others)[e], count):
             chosen, blocks = others, {o: blocks[o] for o in others}

@@ -1,5 +1,6 @@
 """Effects that no fixed column can express: steps at an unknown instant, random ones, and what the
-recorder does to the output channel."""
+recorder does to the output channel.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +37,11 @@ class Step:
 
 
 def best_step(
-    works: Sequence[Work], n_base: int, given: Sequence[int], columns: Sequence[tuple[int, Column]], prior: Array
+    works: Sequence[Work],
+    n_base: int,
+    given: Sequence[int],
+    columns: Sequence[tuple[int, Column]],
+    prior: Array,
 ) -> Step | None:
     """Scan a step effect over the edges of the blocks of one flight.
 
