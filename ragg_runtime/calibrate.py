@@ -109,38 +109,46 @@ class Whitened:
     sample: NDArray[np.intp]
 
 
-def whitened(lin: Linearised, noise: Noise) -> Whitened:
-    """Every column through the noise's whitening filter, the gradient nuisance projected out of all."""
+def nuisance_basis(nuisance: Array, noise: Noise, valid: NDArray[np.bool_]) -> Array | None:
+    """(rows, k): orthonormal basis of the whitened nuisance columns; ``None`` if there are none."""
+    if not len(nuisance):
+        return None
+    parts = [whiten(nuisance[:, m], taps, valid) for m, taps in enumerate(noise.filters)]
+    return np.asarray(np.linalg.qr(np.concatenate(parts, axis=1).T)[0])
+
+
+def whitened(lin: Linearised, noise: Noise, Q: Array | None) -> Whitened:
+    """Every column through the noise's whitening filter, the nuisance basis Q projected out of all."""
     valid = lin.observation.record.valid
     parts, samples = [], []
-    skip = len(lin.nuisance)
     for m, taps in enumerate(noise.filters):
-        blocks = (lin.nuisance, lin.base, lin.candidates)
+        blocks = (lin.base, lin.candidates)
         parts.append(whiten(np.concatenate([*(b[:, m] for b in blocks), lin.residual[None, m]]), taps, valid))
         samples.append(np.flatnonzero(valid))
     columns = np.concatenate(parts, axis=1)
-    if skip:
-        Q, _ = np.linalg.qr(columns[:skip].T)
-        columns = columns[skip:] - (columns[skip:] @ Q) @ Q.T
+    if Q is not None:
+        columns -= (columns @ Q) @ Q.T
     return Whitened(columns, np.concatenate(samples))
 
 
-def estimate_noise(lin: Linearised, extra: Array | None = None) -> Noise:
-    """Noise of each output from what no column (base, candidate, nuisance, ``extra``) explains."""
+def estimate_noise(lin: Linearised) -> Noise:
+    """Noise of each output from what no column (base, candidate, nuisance) explains."""
     r = lin.observation.record
     models, filters = [], []
     length = int(min(TAPS, len(r.time)))
     for m in range(lin.residual.shape[0]):
-        blocks = [lin.nuisance[:, m], lin.base[:, m], lin.candidates[:, m]]
-        if extra is not None:
-            blocks.append(extra[:, m])
-        X = np.concatenate(blocks)[:, r.valid]
+        X = np.concatenate([lin.base[:, m], lin.candidates[:, m]])[:, r.valid]
         X = X[np.any(X != 0.0, axis=1)]
         y = lin.residual[m, r.valid]
+        taken = 0
+        if len(lin.nuisance):
+            Q = np.linalg.qr(lin.nuisance[:, m][:, r.valid].T)[0]
+            X, y, taken = X - (X @ Q) @ Q.T, y - Q @ (Q.T @ y), Q.shape[1]
         e = np.zeros(len(r.time))
-        e[r.valid] = y - X.T @ _least_squares(X, y)
+        solution, rank = _least_squares(X, y)
+        e[r.valid] = y - X.T @ solution
         # The fit takes as many degrees of freedom as it has columns.
-        e *= np.sqrt(len(y) / max(1, len(y) - np.linalg.matrix_rank(X @ X.T)))
+        e *= np.sqrt(len(y) / max(1, len(y) - rank - taken))
         if np.sum(r.valid) < SHORTEST:
             raise UserError(
                 "the record is too short to estimate its noise",
@@ -158,12 +166,13 @@ def estimate_noise(lin: Linearised, extra: Array | None = None) -> Noise:
     return Noise(tuple(models), tuple(filters))
 
 
-def _least_squares(X: Array, y: Array) -> Array:
+def _least_squares(X: Array, y: Array) -> tuple[Array, int]:
+    """Truncated least squares: directions that are numerically absent must not be amplified."""
     norms = np.linalg.norm(X, axis=1)
     R = design.triangle(np.vstack([X / norms[:, None], y]))
     n = len(norms)
-    # A truncated solution: directions that are numerically absent must not be amplified.
-    return np.asarray(np.linalg.lstsq(R[:n, :n], R[:n, n], rcond=1e-12)[0] / norms)
+    solution, _, rank, _ = np.linalg.lstsq(R[:n, :n], R[:n, n], rcond=1e-12)
+    return np.asarray(solution / norms), int(rank)
 
 
 def fit(
@@ -189,13 +198,16 @@ def fit(
     scale = np.array([c.scale for c in columns])
     n = len(columns)
     known = list(noise) if noise is not None else None
+    bases: list[Array | None] = []
     eotvos = scale_factor(model.chain, p)
     for iteration in range(iterations):
         triangles, rows = [], 0
         for k, o in enumerate(observations):
             lin = linearise(model, instrument, o, p, with_candidates=False)
             used = known[k] if known is not None else _white(o, eotvos)
-            X = whitened(lin, used).columns
+            if len(bases) <= k:
+                bases.append(nuisance_basis(lin.nuisance, used, o.record.valid))
+            X = whitened(lin, used, bases[k]).columns
             rows += X.shape[1]
             triangles.append(design.triangle(X))
         step, covariance = solve(design.join(triangles), (nominal[index] - p[index]) / scale, n)
@@ -205,6 +217,7 @@ def fit(
             known = [
                 estimate_noise(linearise(model, instrument, o, p, with_candidates=True)) for o in observations
             ]
+            bases = []
         elif known is not None and settled:
             break
     assert known is not None

@@ -88,7 +88,7 @@ class Fitted:
             e = w.lin.residual - np.tensordot(coefficients[:n], w.lin.base, 1)
             if len(extra):
                 e = e - np.tensordot(coefficients[n:], w.lin.candidates[list(extra)], 1)
-            found.append(as_output(w.observation, _without_nuisance(w, e)))
+            found.append(as_output(w.observation, w.without_gradient(e)))
         return found
 
     def error(self, residuals: Sequence[Array], blocks: Sequence[int] | None = None) -> Error:
@@ -110,17 +110,6 @@ class Fitted:
 def as_output(o: Observation, e: Array) -> Array:
     """G_out of what an observation holds: itself, or V_1 + V_2 - V_3 - V_4."""
     return e[0] if o.kind == "G_out" else np.asarray((e[0] + e[1]) - (e[2] + e[3]))
-
-
-def _without_nuisance(w: Work, e: Array) -> Array:
-    """Take the fitted unknown gradient out of a residual: it is signal, not error."""
-    if not len(w.lin.nuisance):
-        return e
-    X = w.lin.nuisance.reshape(len(w.lin.nuisance), -1)
-    mask = np.tile(w.observation.record.valid, e.shape[0])
-    y = e.reshape(-1)
-    c = np.linalg.lstsq(X[:, mask].T, y[mask], rcond=None)[0]
-    return np.asarray((y - c @ X).reshape(e.shape))
 
 
 def observe(flight: Flight, instrument: Instrument) -> Observation:
@@ -180,9 +169,7 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
     for w in f.works:
-        n = f.n_base
-        columns = np.concatenate([w.columns[:n], w.columns[[n + k for k in given]]])
-        Q = omnibus.basis(columns)
+        Q = w.projection(f.n_base, given)
         y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
         o = w.observation
         weights = np.ones(1) if o.kind == "G_out" else np.array([0.25, 0.25, -0.25, -0.25])

@@ -153,7 +153,14 @@ def observe(kind: str, v: Array, accelerometer: int | None) -> Array:
     raise ValueError(f"unknown kind of observation {kind!r}")
 
 
-def gradient_nuisance(observation: Observation, scale: Array, knot_seconds: float = 60.0) -> Array:
+KNOT_SECONDS = 10.0
+"""Distance of the knots of an unknown gradient: it follows periods of half a minute and longer."""
+
+MOST_KNOTS = 400
+"""Most knots of an unknown gradient; on a record longer than an hour they lie further apart."""
+
+
+def gradient_nuisance(observation: Observation, scale: Array) -> Array:
     """Columns (n, m, N) of an unknown, slowly varying gravity gradient, if none was recorded.
 
     The gradient enters as T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30) with T_1, T_2 cubic splines of time.
@@ -162,7 +169,7 @@ def gradient_nuisance(observation: Observation, scale: Array, knot_seconds: floa
     r = observation.record
     if all(g in r.channels for g in GRADIENTS):
         return np.empty((0, *observation.data.shape))
-    count = max(4, int(np.ceil(r.time[-1] / knot_seconds)) + 3)
+    count = max(4, min(MOST_KNOTS, int(np.ceil(r.time[-1] / KNOT_SECONDS)) + 3))
     knots = np.concatenate([[0.0] * 3, np.linspace(0.0, r.time[-1], count - 2), [r.time[-1]] * 3])
     splines = interpolate.BSpline.design_matrix(r.time, knots, 3).toarray().T
     double = np.stack([2 * r.sin_phi * r.cos_phi, r.cos_phi**2 - r.sin_phi**2])

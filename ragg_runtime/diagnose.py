@@ -20,7 +20,7 @@ from ragg_runtime import compare, design
 from ragg_runtime.compare import FITTED_BLOCKS, Fitted, Remainder
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
-from ragg_runtime.evidence import likelihood, omnibus, search, special
+from ragg_runtime.evidence import likelihood, search, special
 from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.work import BLOCKS
@@ -250,7 +250,7 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
         if best is None:
             continue
         scan, given = best
-        Q = omnibus.basis(np.concatenate([w.columns[: f.n_base], w.columns[[f.n_base + n for n in given]]]))
+        Q = w.projection(f.n_base, given)
         y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
         rows = lin.candidates[[n for n, _ in own], 0]
         instant = scan.instant
@@ -264,7 +264,10 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
                 whiten(candidates[n][m][None], taps, w.observation.record.valid)[0]
                 for m, taps in enumerate(w.noise.filters)
             ]
-            whitened_columns[f.n_base + n] = np.concatenate(parts)
+            column = np.concatenate(parts)
+            if w.nuisance is not None:
+                column -= w.nuisance @ (w.nuisance.T @ column)
+            whitened_columns[f.n_base + n] = column
         penalties[e.id] = float(np.log(scan.variants))
         available = [*available, e.id]
         instants[e.id] = instant
@@ -286,7 +289,7 @@ def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
         sensitivities, residuals = [], []
         for w in f.works:
             n = f.n_base
-            Q = omnibus.basis(np.concatenate([w.columns[:n], w.columns[[n + k for k in given]]]))
+            Q = w.projection(n, given)
             residuals.append(w.columns[-1] - Q @ (Q.T @ w.columns[-1]))
             sensitivities.append(w.columns[n + own[0]])
         tests[e.id] = special.random_test(np.concatenate(sensitivities), np.concatenate(residuals))

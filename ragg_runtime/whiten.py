@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,7 +148,10 @@ def whiten(columns: Floats, taps: Array, valid: NDArray[np.bool_]) -> Floats:
     n = columns.shape[1]
     size = fft.next_fast_len(n + min(n, len(taps)) - 1, real=True)
     gain = fft.rfft(taps[:n].astype(columns.dtype), size)
-    masked = columns if valid.all() else cast("Floats", columns * valid)
+    masked = columns
+    if not valid.all():
+        masked = columns.copy()
+        masked[:, ~valid] = 0.0
     y = fft.irfft(fft.rfft(masked, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
     kept: Floats = y[:, :n] if valid.all() else y[:, :n][:, valid]
     return kept

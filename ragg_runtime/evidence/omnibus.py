@@ -62,18 +62,6 @@ class Omnibus:
         return bool(self.log_p < np.log(FAMILY))
 
 
-def basis(columns: Array, prior: bool = True) -> Array:
-    """(rows, k): orthonormal basis of whitened columns (n, rows), those of no influence left out.
-
-    With ``prior`` a column of unit prior width that the data hardly see does not count as absorbing:
-    it is shrunk away rather than projected out in full.
-    """
-    norms = np.linalg.norm(columns, axis=1)
-    U, s, _ = np.linalg.svd(columns[norms > 0].T, full_matrices=False)
-    # a direction that the data see worse than the prior (s < 1) is not determined by them
-    return np.asarray(U[:, s > (1.0 if prior else 1e-9 * s[0])])
-
-
 def search(
     dictionary: Dictionary,
     valid: NDArray[np.bool_],
