@@ -8,7 +8,7 @@ at a time, with exact derivatives: it holds for any list of effects.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -196,9 +196,45 @@ def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
     return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
 
 
-def operations(program: Program) -> int:
-    """Arithmetic operations of a straight-line program, as SymPy counts them."""
-    return int(sum(sp.count_ops(e) for _, e in (*program.assignments, *program.outputs)))
+def operations(m: Harmonic | Chain) -> Mapping[str, int]:
+    """Arithmetic operations as SymPy counts them, by what they serve.
+
+    Of a chain: ``value`` and ``derivatives`` of one accelerometer at one instant. Of a harmonic model:
+    ``coefficients`` once for an instrument, ``amplitudes`` (motion numbers included) at one instant.
+    """
+    if isinstance(m, Chain):
+        programs = {"value": m.value, "derivatives": m.derivatives}
+        return {name: _operations(e for _, e in (*p.assignments, *p.outputs)) for name, p in programs.items()}
+    terms = [t for _, row in m.amplitudes for t in row]
+    coefficients = [c for t in terms for c in t.coefficients]
+    folding = _operations({c.expression: None for c in coefficients})  # each once, for four accelerometers
+    combining = sum(1 if c.combination in ("D12", "D34") else 3 for c in coefficients)
+    joining = sum(len(t.coefficients) - 1 + (t.motion != 1) for t in terms)
+    joining += sum(len(row) - 1 for _, row in m.amplitudes)
+    each_instant = _operations([*(e for _, e in m.numbers), *(t.motion for t in terms)])
+    return {"coefficients": 4 * folding + combining, "amplitudes": joining + each_instant}
+
+
+def _operations(expressions: Iterable[sp.Expr]) -> int:
+    return int(sum(sp.count_ops(e) for e in expressions))
+
+
+def manifest_of_model(m: Harmonic | Chain) -> Mapping[str, object]:
+    """What a user of the generated code has to know: inputs, parameters, outputs, cost."""
+    outputs = (
+        {"amplitudes": [name for name, _ in m.amplitudes]}
+        if isinstance(m, Harmonic)
+        else {"rows": [r.name for r in m.rows]}
+    )
+    return {
+        "title": m.title,
+        "inputs": [{"name": i.name, "unit": i.unit, "meaning": i.meaning} for i in m.inputs],
+        "parameters": [
+            {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning} for q in m.parameters
+        ],
+        **outputs,
+        "operations": operations(m),
+    }
 
 
 def manifest_of_effect(e: Effect) -> Mapping[str, object]:

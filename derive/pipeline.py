@@ -28,26 +28,29 @@ def derive_base() -> Files:
     """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest."""
     from derive.simplify import simplified
 
-    files: dict[str, str] = {}
-    harmonic = [
+    return _derive(
+        (),
+        catalogue(),
         ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19)."),
         ir.harmonic(
             simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
         ),
-    ]
-    for m in harmonic:
-        files[f"{m.name}.py"] = render.harmonic_numpy(m)
-        files[f"c/{m.name}.h"], files[f"c/{m.name}.c"] = render.harmonic_c(m)
-        files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
-    return _complete(files | dict(derive_model((), catalogue())), (), catalogue())
+    )
 
 
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
+    return _derive(effects, candidates)
+
+
+def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics: ir.Harmonic) -> Files:
+    files: dict[str, str] = {}
+    for m in harmonics:
+        files[f"{m.name}.py"] = render.harmonic_numpy(m)
+        files[f"c/{m.name}.h"], files[f"c/{m.name}.c"] = render.harmonic_c(m)
+        files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
     active = [e for e in effects if e.kind in ("deterministic", "step")]
     chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
-    files: dict[str, str] = {}
-    files["c/chain.h"], files["c/chain.c"] = render.chain_c(chains[0])
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
     if open_:
@@ -55,44 +58,30 @@ def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Fil
         chains.append(ir.chain(active, "signatures", title, candidates=open_))
     for c in chains:
         files[f"{c.name}.py"] = render.chain_numpy(c)
+        # The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere.
+        if harmonics or c.name == "chain":
+            files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    return _complete(files, effects, every, *chains)
+    return _complete(files, effects, every, [*harmonics, *chains])
 
 
 def _complete(
     files: dict[str, str],
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
-    *chains: ir.Chain,
+    models: Sequence[ir.Harmonic | ir.Chain],
 ) -> Files:
     """Add the package file and the manifest, which names everything that was derived."""
-    modules = sorted(
-        n.removesuffix(".py") for n in files if n.endswith(".py") and "/" not in n and n[0] != "_"
-    )
-    files["__init__.py"] = render.render("init.py.j2", modules=modules)
-    text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files) if name != "manifest.json")
+    files["__init__.py"] = render.render("init.py.j2", modules=sorted(m.name for m in models))
+    text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
     manifest: dict[str, object] = {
         "format": FORMAT,
         "sympy": sympy.__version__,
         "digest": hashlib.sha256(text.encode()).hexdigest(),
         "effects": [e.id for e in effects],
-        "files": sorted([*(n for n in files if n != "manifest.json"), "manifest.json"]),
+        "files": sorted([*files, "manifest.json"]),
+        "models": {m.name: ir.manifest_of_model(m) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }
-    if chains:
-        manifest["models"] = {
-            c.name: {
-                "inputs": [{"name": i.name, "unit": i.unit, "meaning": i.meaning} for i in c.inputs],
-                "parameters": [
-                    {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning}
-                    for q in c.parameters
-                ],
-                "rows": [r.name for r in c.rows],
-                "operations": {"value": ir.operations(c.value), "derivatives": ir.operations(c.derivatives)},
-            }
-            for c in chains
-        }
-    else:
-        manifest["models"] = json.loads(files["manifest.json"])["models"]
     files["manifest.json"] = json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
     return dict(sorted(files.items()))
