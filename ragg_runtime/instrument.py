@@ -95,7 +95,7 @@ class EffectSetting:
     def si(
         self, name: str, si_unit: str, g0: float, *, shared: bool = False, where: str | None = None
     ) -> Vector | None:
-        """Value of parameter ``name`` in ``si_unit``: shape (1,) if ``shared``, else (4,); None if not given."""
+        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (4,); None if not given."""
         if name not in self.values:
             return None
         raw = self.values[name]
@@ -178,7 +178,7 @@ class Instrument:
 
 
 def read_instrument(path: Path | str) -> Instrument:
-    """The instrument of a ``model.toml``; UserError names the file, the key, what is there and what should be."""
+    """The instrument of a ``model.toml``; UserError names file and key, what is there and what should be."""
     path = Path(path)
     text = read_text(path)
     return parse_instrument(text, path)

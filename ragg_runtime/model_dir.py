@@ -23,15 +23,13 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-import filelock
-
 from ragg_runtime.atomic import sync
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.instrument import Instrument, parse_instrument, read_text
+from ragg_runtime.lock import locked
 
 MODEL, GENERATED, HISTORY = "model.toml", "generated", "history.json"
 _WORK = ".ragg"
-_LOCK = ".ragg.lock"
 _JOURNAL = "journal.json"
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
@@ -115,9 +113,10 @@ def load_model_dir(path: Path | str) -> ModelDir:
             remedy=f"make one with: ragg new {path}",
         )
     deadline = time.monotonic() + _PATIENCE
-    while True:
+    while time.monotonic() < deadline:
         if _is_committing(path):
             _recover(path)
+            continue
         before = _stamp(path)
         try:
             state = _read(path)
@@ -128,10 +127,7 @@ def load_model_dir(path: Path | str) -> ModelDir:
         else:
             if _stamp(path) == before and not _is_committing(path):
                 return state
-        if time.monotonic() > deadline:
-            raise UserError(
-                "the model directory keeps changing", where=path, remedy="wait for the other commands"
-            )
+    raise UserError("the model directory keeps changing", where=path, remedy="wait for the other commands")
 
 
 def create_model_dir(
@@ -177,8 +173,16 @@ def replace_model_dir(
     """
     path = current.path
     parse_instrument(text, path / MODEL)
-    with _locked(path):
-        _finish(path)
+    with contextlib.ExitStack() as held:
+        try:
+            held.enter_context(locked(path, _PATIENCE))
+            _finish(path)
+        except TimeoutError:
+            raise UserError(
+                "another command is changing the model", where=path, remedy="wait for it to end and try again"
+            ) from None
+        except OSError as error:
+            raise UserError("the model cannot be written", where=path, found=error.strerror) from None
         if load_model_dir(path).digest != current.digest:
             raise UserError(
                 "the model was changed by someone else meanwhile",
@@ -262,37 +266,23 @@ def _is_committing(path: Path) -> bool:
 
 
 def _recover(path: Path) -> None:
+    """Finish a dead process's change; one that is alive gets a moment to finish its own."""
     try:
-        with _locked(path):
+        with locked(path, 0.0):
             _finish(path)
+    except TimeoutError:
+        time.sleep(0.002)
     except OSError as error:
-        raise UserError(
-            "a change of the model was interrupted and cannot be completed",
-            where=path,
-            found=error.strerror,
-            remedy="make the directory writable and run any command on it",
-        ) from None
+        raise _cannot_complete(path, error) from None
 
 
-@contextlib.contextmanager
-def _locked(path: Path) -> Iterator[None]:
-    """Hold the directory's lock; the lock file is there only as long as it is held."""
-    lock = filelock.FileLock(path / _LOCK)
-    try:
-        lock.acquire(timeout=_PATIENCE)
-    except filelock.Timeout:
-        raise UserError(
-            "another command is changing the model", where=path, remedy="wait for it to end and try again"
-        ) from None
-    except OSError as error:
-        raise UserError("the model directory cannot be written", where=path, found=error.strerror) from None
-    try:
-        yield
-    finally:
-        # Removed while it is held: filelock looks whether the file that it locked still has a name.
-        with contextlib.suppress(OSError):
-            (path / _LOCK).unlink()
-        lock.release()
+def _cannot_complete(path: Path, error: OSError) -> UserError:
+    return UserError(
+        "a change of the model was interrupted and cannot be completed",
+        where=path,
+        found=error.strerror,
+        remedy="make the directory writable and run any command on it",
+    )
 
 
 @contextlib.contextmanager

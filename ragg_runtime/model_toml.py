@@ -69,7 +69,7 @@ def remove_effect(text: str, effect_id: str) -> str:
 
 
 def model_text(instrument: Instrument) -> str:
-    """A whole model.toml for an instrument, in display units; reads back to the same numbers but for rounding."""
+    """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
     document = tomlkit.document()
     document.add(tomlkit.comment("Four values: A1, A2, A3, A4."))
     disc = tomlkit.table()

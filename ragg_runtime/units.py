@@ -25,10 +25,10 @@ DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
 _EXAMPLES = "a unit such as m, um, rad, arcsec, ug, ug/g^2, mA/g, ohm, deg/h, Eo, 1/K, s^-2, or 1 for none"
 
+_ROTATIONS = ("revolutions_per_minute", "revolutions_per_second")
 # Words that count angle though their dimension is one: 1 Hz is one turn a second, not one radian a second.
 _ANGLES = frozenset(
-    ("radian", "degree", "arcminute", "arcsecond", "milliarcsecond", "turn", "grade", "mil")
-    + ("revolutions_per_minute", "revolutions_per_second")
+    ("radian", "degree", "arcminute", "arcsecond", "milliarcsecond", "turn", "grade", "mil", *_ROTATIONS)
 )
 _CYCLES = frozenset(("hertz", "counts_per_second"))
 
@@ -82,7 +82,7 @@ class Units:
             except pint.UndefinedUnitError as error:
                 names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
                 remedy = f"{', '.join(map(str, names))} is not a known unit"
-            except Exception:  # noqa: BLE001 - what pint raises for a malformed expression is not documented
+            except Exception:  # what pint raises for a malformed expression is not documented
                 remedy = None
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
@@ -118,7 +118,7 @@ class Units:
         return result
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
-        """The SI base unit of the dimension of ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
+        """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
         base = self._registry.get_base_units(self.parse(unit, where))[1]
         return f"{base:~C}" or "1"
 

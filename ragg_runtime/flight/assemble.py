@@ -114,7 +114,9 @@ def _need(path: Path, names: list[str], needed: Sequence[str], what: str) -> Non
         spare = [n for n in names if n not in SI_UNITS]
         near = did_you_mean(missing[0], spare)
         raise UserError(
-            f"the column{'s' * (len(missing) > 1)} {', '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing",
+            ("the columns " if len(missing) > 1 else "the column ")
+            + ", ".join(missing)
+            + (" are missing" if len(missing) > 1 else " is missing"),
             where=path,
             found="the columns " + ", ".join(names),
             expected=f"{what} " + ", ".join(needed),
@@ -193,8 +195,8 @@ def _derive_output(outputs: dict[str, Array], notes: list[str]) -> None:
     size = np.sqrt(np.mean(outputs["G_out"][there] ** 2)) if there.any() else 0.0
     if difference > 1e-3 * size:
         notes.append(
-            f"G_out differs from V_1 + V_2 - V_3 - V_4 by {difference:.3g} V rms, with {size:.3g} V rms of its own: "
-            "check the order and the signs of the voltages"
+            f"G_out differs from V_1 + V_2 - V_3 - V_4 by {difference:.3g} V rms, with {size:.3g} V rms "
+            "of its own: check the order and the signs of the voltages"
         )
 
 

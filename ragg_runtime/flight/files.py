@@ -27,12 +27,15 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
     """The flight in a CSV (``.csv``, ``.csv.gz``), Parquet or NetCDF-4 file, in SI.
 
     Columns are described in :class:`~ragg_runtime.flight.record.Flight`; the header of a CSV column is
-    ``name [unit]``, elsewhere the unit is the column's attribute ``units``. ``g0`` (m/s^2) is the g of the
-    units. Missing samples are filled in and marked in ``valid``; ``omegadot`` and ``G_out`` are derived
-    where they are absent; ``notes`` says so.
+    ``name [unit]``, elsewhere the unit is the column's attribute ``units``. Missing samples are filled in
+    and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent; ``notes`` says so.
 
     Parameters
     ----------
+    path
+        The file; the ending of its name says the format.
+    g0
+        The g of the file's units, m/s^2.
     need_output
         False lets a file of motion alone pass.
 
@@ -96,9 +99,9 @@ def write_flight(
 ) -> None:
     """Write a flight to CSV (``.csv``, ``.csv.gz``), Parquet or NetCDF-4, by the ending; whole or not at all.
 
-    In SI, the default, reading it back gives the same numbers to the last bit. ``units_of`` gives some columns
-    another unit; ``g0`` (m/s^2) is needed where one is made with g. Samples that are not valid are written
-    without output (without motion, if there is no output).
+    In SI, the default, reading it back gives the same numbers to the last bit. ``units_of`` gives some
+    columns another unit; ``g0`` (m/s^2) is needed where one is made with g. Samples that are not valid are
+    written without output (without motion, if there is no output).
     """
     path = Path(path)
     kind = format_of(path)
@@ -158,7 +161,7 @@ def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> l
     known = Units(1.0) if g0 is None else units(g0)
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
-    blanked = flight.outputs if flight.outputs else flight.channels
+    blanked = flight.outputs or flight.channels
     columns = []
     for name in ("time", *ordered, *flight.outputs):
         values = flight.time if name == "time" else flight.channels.get(name, flight.outputs.get(name))

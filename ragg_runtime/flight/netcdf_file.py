@@ -60,7 +60,7 @@ def _dataset(path: Path) -> Any:
     try:
         # CF decoding would turn a time "in seconds" into durations.
         return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
-    except Exception as error:  # noqa: BLE001 - h5py, h5netcdf and xarray each raise their own
+    except Exception as error:  # h5py, h5netcdf and xarray each raise their own
         raise UserError(
             "the NetCDF file is damaged or not NetCDF-4", where=path, found=str(error).split("\n", 1)[0][:200]
         ) from None

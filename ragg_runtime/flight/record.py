@@ -53,8 +53,8 @@ class Flight:
     time
         (N,) s, increasing, one sample every 1/rate; samples that the file lacks have been put in.
     channels
-        Name -> (N,): motion (m/s^2, rad/s, rad/s^2), gradients (s^-2), ``spin_angle`` (rad), auxiliaries. Where
-        the file has none, interpolated, so that filters may run through.
+        Name -> (N,): motion (m/s^2, rad/s, rad/s^2), gradients (s^-2), ``spin_angle`` (rad), auxiliaries.
+        Where the file has none, interpolated, so that filters may run through.
     outputs
         Name -> (N,): ``G_out`` and ``V_1`` ... ``V_4`` in V, ``inline`` and ``cross`` in s^-2; NaN where the
         file has none.

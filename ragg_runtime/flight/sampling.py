@@ -98,8 +98,9 @@ def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array
         missing = int(np.sum(jumps[gaps] - 1))
         longest = gaps[np.argmax(steps[gaps])]
         notes.append(
-            f"{len(gaps)} gap{'s' * (len(gaps) > 1)}: {missing} of {len(time) + missing} samples are missing, the "
-            f"longest stretch {steps[longest]:.6g} s from t = {time[longest]:.10g} s; they are filled in and not used"
+            f"{len(gaps)} gap{'s' * (len(gaps) > 1)}: {missing} of {len(time) + missing} samples missing, "
+            f"the longest stretch {steps[longest]:.6g} s from t = {time[longest]:.10g} s; "
+            "they are filled in and not used"
         )
     worst = int(np.argmax(deviation))
     if deviation[worst] > JITTER_NOTED:

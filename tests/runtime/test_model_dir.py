@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import filelock
 import pytest
 
 from ragg_runtime import model_dir as md
 from ragg_runtime.errors import UserError
+from ragg_runtime.lock import locked
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 
 MODEL = """# state {n}
@@ -30,6 +32,7 @@ K1 = "10 mA/g"
 k_VI = "1e9 ohm"
 """
 FILES = 6
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def text_of(n: int) -> str:
@@ -129,6 +132,12 @@ def test_steps_survive_the_file(tmp_path: Path) -> None:
     assert json.loads((made.path / "history.json").read_text())["steps"][0]["effect"] is None
 
 
+def die(moves: Iterator[int], after: int) -> None:
+    """End the process at once, without any clean-up, after that many moves."""
+    if next(moves) == after:
+        os._exit(9)
+
+
 def _moves(monkeypatch: pytest.MonkeyPatch, when: Callable[[], None]) -> None:
     """Call ``when`` after every single move of a file or folder."""
     for owner, name in ((Path, "rename"), (os, "replace")):
@@ -155,7 +164,7 @@ def test_killed_after_any_move(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
         if child == 0:
             with monkeypatch.context() as patch:
                 moves = iter(range(1, 100))
-                _moves(patch, lambda moves=moves: os._exit(9) if next(moves) == dies_after else None)  # type: ignore[misc]
+                _moves(patch, functools.partial(die, moves, dies_after))
                 change(base, current, new)
             os._exit(0)
         _, status = os.waitpid(child, 0)
@@ -166,7 +175,9 @@ def test_killed_after_any_move(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
         found.append(os.waitstatus_to_exitcode(status))
         if found[-1] == 0:
             break
-    assert found[-1] == 0 and len(found) >= 4 and set(found[:-1]) == {9}
+    assert found[-1] == 0
+    assert len(found) >= 4
+    assert set(found[:-1]) == {9}
 
 
 def test_fails_before_the_commit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -178,9 +189,10 @@ def test_fails_before_the_commit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         def fails(*_: object, error: BaseException = error, **__: object) -> None:
             raise error
 
-        with monkeypatch.context() as patch, pytest.raises((UserError, KeyboardInterrupt)):
-            patch.setattr(md.shutil, "copytree", fails)
-            change(tmp_path, current, 2)
+        with monkeypatch.context() as patch:
+            patch.setattr(shutil, "copytree", fails)
+            with pytest.raises((UserError, KeyboardInterrupt)):
+                change(tmp_path, current, 2)
         assert {p: p.read_bytes() for p in sorted(current.path.rglob("*")) if p.is_file()} == before
         assert entries(current.path) == ["generated", "history.json", "model.toml"]
 
@@ -193,7 +205,7 @@ from test_model_dir import change, load_model_dir
 folder = Path(sys.argv[1])
 current = load_model_dir(folder / "model")
 print("ready", flush=True)
-for n in range(1, 100000):
+for n in range(int(current.instrument.radius), 100000):
     current = change(folder, current, 1 + n % 12)
 """
 
@@ -202,20 +214,26 @@ for n in range(1, 100000):
 def test_killed_at_random_instants(tmp_path: Path) -> None:
     here = Path(__file__).resolve().parent
     script = tmp_path / "writer.py"
-    script.write_text(WRITER.format(root=str(here.parents[1]), here=str(here)))
+    script.write_text(WRITER.format(root=str(ROOT), here=str(here)))
     made = make(tmp_path, 1)
     for n in range(1, 13):
         code_of(tmp_path, n)
     chance = random.Random(20240101)
-    seen = set()
+    seen, last = set(), made.digest
     for _ in range(20):
         with subprocess.Popen(
             [sys.executable, script, tmp_path], stdout=subprocess.PIPE, text=True
         ) as writer:
-            assert writer.stdout is not None and writer.stdout.readline() == "ready\n"
-            deadline = time.monotonic() + chance.uniform(0.0, 0.06)
-            while time.monotonic() < deadline:  # a reader beside the writer sees whole states only
-                assert int(load_model_dir(made.path).instrument.radius) in range(1, 14)
+            assert writer.stdout is not None
+            assert writer.stdout.readline() == "ready\n"
+            # A reader beside the writer sees whole states only; the writer dies at any instant.
+            changes, wanted, deadline = 0, chance.randrange(1, 4), time.monotonic() + 30
+            while changes < wanted and time.monotonic() < deadline:
+                found = load_model_dir(made.path)
+                changes += found.digest != last
+                last = found.digest
+                time.sleep(0.002)
+            time.sleep(chance.uniform(0.0, 0.02))
             writer.send_signal(signal.SIGKILL)
         seen.add(state_number(load_model_dir(made.path)))
     assert len(seen) > 3, "the writer never wrote"
@@ -241,9 +259,26 @@ def test_an_edit_by_hand_counts_as_a_change(tmp_path: Path) -> None:
 def test_the_lock_holds_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     current = make(tmp_path, 1)
     monkeypatch.setattr(md, "_PATIENCE", 0.05)
-    with filelock.FileLock(current.path / ".ragg.lock"), pytest.raises(UserError, match="another command"):
+    with locked(current.path, 0.0), pytest.raises(UserError, match="another command"):
         change(tmp_path, current, 2)
     assert state_number(change(tmp_path, current, 2)) == 2
+
+
+def test_the_lock_ends_with_its_process(tmp_path: Path) -> None:
+    code = (
+        "import sys, pathlib, ragg_runtime.lock as l\n"
+        "with l.locked(pathlib.Path(sys.argv[1]), 0): print(1, flush=True); input()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", code, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=ROOT
+    ) as holder:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == b"1\n"
+        with pytest.raises(TimeoutError), locked(tmp_path, 0.02):
+            pass
+        holder.kill()
+    with locked(tmp_path, 0.0):
+        assert entries(tmp_path) == []
 
 
 def test_bad_new_state_is_refused_before_anything_is_touched(tmp_path: Path) -> None:
