@@ -79,12 +79,12 @@ def linearise(
     model: Model, instrument: Instrument, observation: Observation, p: Array, with_candidates: bool
 ) -> Linearised:
     """Residual and columns of one flight about p, in volts, each column times its parameter's scale."""
-    r, kind = observation.record, observation.kind
+    r = observation.record
     V, by = design.derivatives(model.chain, r, p)
-    residual = observation.data - design.observe(kind, V, None)
+    residual = observation.data - design.observe(observation, V, None)
     base = np.stack(
         [
-            design.observe(kind, by[c.name, c.accelerometer], c.accelerometer) * c.scale
+            design.observe(observation, by[c.name, c.accelerometer], c.accelerometer) * c.scale
             for c, _ in design.base_columns(model, instrument)
         ]
     )
@@ -93,10 +93,14 @@ def linearise(
         q = np.concatenate([p, np.zeros(model.signatures.SIZE - len(p))])
         _, by = design.derivatives(model.signatures, r, q)
         candidates = np.stack(
-            [design.observe(kind, by[c.name, c.accelerometer], c.accelerometer) * c.scale for c in columns]
+            [
+                design.observe(observation, by[c.name, c.accelerometer], c.accelerometer) * c.scale
+                for c in columns
+            ]
         )
     eotvos = scale_factor(model.chain, p)
-    size = {"G_out": np.array([1.0]), "voltages": np.array([0.25, 0.25, -0.25, -0.25])}[kind]
+    voltages = observation.kind == "voltages"
+    size = np.array([0.25, 0.25, -0.25, -0.25]) if voltages else np.array([1.0])
     nuisance = design.gradient_nuisance(observation, size * 1e4 * eotvos)
     return Linearised(observation, residual, nuisance, base, candidates)
 
@@ -157,6 +161,15 @@ def estimate_noise(lin: Linearised) -> Noise:
                 expected=f"at least {SHORTEST}",
                 remedy="give a longer or cleaner recording",
             )
+        if lin.observation.kind == "channels":
+            # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
+            gain = design.noise_gain(r.rate)
+            kept = max(0.1, 1 - (rank + taken) / (gain * len(y)))
+            sigma = float(np.sqrt(np.mean((y - X.T @ solution) ** 2) / (gain * kept)))
+            flat = np.full(2, np.log(2 * sigma**2 / r.rate))
+            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat))
+            filters.append(np.array([1.0 / sigma]))
+            continue
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
         noise = estimate([e], r.rate)
         if not r.valid.all():

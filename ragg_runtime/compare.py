@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import calibrate, design
 from ragg_runtime.calibrate import Calibration, Noise
+from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import record, scale_factor, vector, voltages
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
@@ -109,17 +110,26 @@ class Fitted:
 
 def as_output(o: Observation, e: Array) -> Array:
     """G_out of what an observation holds: itself, or V_1 + V_2 - V_3 - V_4."""
-    return e[0] if o.kind == "G_out" else np.asarray((e[0] + e[1]) - (e[2] + e[3]))
+    return design.combined(e) if o.kind == "voltages" else e[0]
 
 
 def observe(flight: Flight, instrument: Instrument) -> Observation:
-    """The most telling output of a flight: the four voltages if recorded, else G_out."""
+    """The most telling output of a flight: the four voltages if recorded, else G_out, else the channels."""
     r = record(flight, instrument)
     volts = [f"V_{j}" for j in (1, 2, 3, 4)]
     if all(v in flight.outputs for v in volts):
         data, kind = np.stack([flight.outputs[v] for v in volts]), "voltages"
-    else:
+    elif "G_out" in flight.outputs:
         data, kind = flight.outputs["G_out"][None, :], "G_out"
+    else:
+        a = instrument.accelerometers
+        k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (instrument.radius + a["dR"])))
+        data = design.carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi)[None, :]
+        kind = "channels"
+        edge = len(low_pass(r.rate)) // 2  # there our demodulator has not seen enough
+        inside = np.zeros(len(r.time), dtype=bool)
+        inside[edge : len(r.time) - edge] = True
+        r = replace(r, valid=r.valid & inside)
     valid = r.valid & np.all(np.isfinite(data), axis=0)
     clipped = special.saturation(flight.outputs["G_out"], valid) if "G_out" in flight.outputs else None
     if clipped is not None:
@@ -172,8 +182,10 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
         Q = w.projection(f.n_base, given)
         y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
         o = w.observation
-        weights = np.ones(1) if o.kind == "G_out" else np.array([0.25, 0.25, -0.25, -0.25])
-        found.append(omnibus.search(Dictionary(o.record), o.record.valid, w.noise, weights, Q, y))
+        weights = np.array([0.25, 0.25, -0.25, -0.25]) if o.kind == "voltages" else np.ones(1)
+        view = partial(design.narrow, r=o.record) if o.kind == "channels" else None
+        dictionary = Dictionary(o.record)
+        found.append(omnibus.search(dictionary, o.record.valid, w.noise, weights, Q, y, view))
     return Remainder(tuple(found))
 
 
@@ -241,8 +253,6 @@ class Comparison:
 
 def harmonic_errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it."""
-    from ragg_runtime.demodulate import low_pass
-
     rows: list[dict[str, object]] = []
     total: dict[str, float] = {}
     for w, e in zip(f.works, residuals, strict=True):
@@ -333,7 +343,7 @@ def nominal_residuals(f: Fitted, instrument: Instrument) -> list[Array]:
     found = []
     for o in f.observations:
         v = voltages(f.model.chain, o.record, p)
-        predicted = ((v[0] + v[1]) - (v[2] + v[3]))[None] if o.kind == "G_out" else v
+        predicted = design.observe(o, v, None)
         found.append(as_output(o, np.where(o.record.valid, o.data - predicted, 0.0)))
     return found
 
@@ -342,7 +352,8 @@ def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
     for w in f.works:
-        variances.append(sum(m.rms**2 for m in w.noise.models))
+        share = design.noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
+        variances.append(share * sum(m.rms**2 for m in w.noise.models))
     return float(np.sqrt(np.mean(variances))) / f.k_ggi
 
 

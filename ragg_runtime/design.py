@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, linalg
+from scipy import interpolate, linalg, signal
 
+from ragg_runtime.demodulate import low_pass
 from ragg_runtime.evaluate import GRADIENTS, Record, unit_factor
 from ragg_runtime.instrument import PARAMETERS, Instrument
 from ragg_runtime.load import Chain, Effect, Model
@@ -62,7 +63,9 @@ class Column:
 class Observation:
     """What of a flight is fitted: m output series over N samples.
 
-    ``kind`` is ``G_out`` (m = 1, V), ``voltages`` (m = 4, V) or ``channels`` (inline and cross, s^-2).
+    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4) or ``channels``: inline and cross are all that was
+    recorded; then the data are the channels put back on their carriers (m = 1, see :func:`narrow`), and
+    every column passes through the same demodulator. All in V.
     """
 
     kind: str
@@ -138,19 +141,44 @@ def derivatives(chain: Chain, r: Record, p: Array) -> tuple[Array, dict[tuple[st
 _COMBINATION = np.array([1.0, 1.0, -1.0, -1.0])
 
 
-def observe(kind: str, v: Array, accelerometer: int | None) -> Array:
-    """What an observation of ``kind`` sees of voltages: (4, N), or (N,) of one accelerometer -> (m, N)."""
-    if kind == "voltages":
+def combined(v: Array, accelerometer: int | None = None) -> Array:
+    """G_out (N,) of voltages (4, N), or of one accelerometer's (N,) (Eq. 15)."""
+    return np.asarray(_COMBINATION @ v if accelerometer is None else _COMBINATION[accelerometer - 1] * v)
+
+
+def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
+    """Demodulated channels put back on their carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
+
+    ``k_ggi`` in V per unit of the channels.
+    """
+    cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+    return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
+
+
+def narrow(G: Array, r: Record) -> Array:
+    """G_out (..., N) as the demodulator lets it through: demodulated and put back on the carriers."""
+    taps = low_pass(r.rate).reshape((1,) * (G.ndim - 1) + (-1,))
+    cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+    in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
+    quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
+    return np.asarray(in_phase * sine + quadrature * cosine)
+
+
+def noise_gain(rate: float) -> float:
+    """Variance of white noise of unit variance after :func:`narrow`."""
+    return float(2 * np.sum(low_pass(rate) ** 2))
+
+
+def observe(o: Observation, v: Array, accelerometer: int | None) -> Array:
+    """What an observation sees of voltages: (4, N), or (N,) of one accelerometer -> (m, N)."""
+    if o.kind == "voltages":
         if accelerometer is None:
             return v
         full = np.zeros((4, v.shape[-1]))
         full[accelerometer - 1] = v
         return full
-    if kind == "G_out":
-        if accelerometer is None:
-            return np.asarray(_COMBINATION @ v)[None, :]
-        return np.asarray(_COMBINATION[accelerometer - 1] * v)[None, :]
-    raise ValueError(f"unknown kind of observation {kind!r}")
+    G = combined(v, accelerometer)
+    return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
 
 
 KNOT_SECONDS = 10.0

@@ -254,7 +254,7 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
         y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
         rows = lin.candidates[[n for n, _ in own], 0]
         instant = scan.instant
-        if scan.test.log_p < -7.0 and w.observation.kind == "G_out":
+        if scan.test.log_p < -7.0 and w.observation.kind != "voltages":
             width = float(w.observation.record.time[-1]) / BLOCKS
             instant = special.refine_step(w, Q, y, rows, instant, width)
         on = w.observation.record.time >= instant
@@ -282,6 +282,8 @@ def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
     """Tests of random effects: is the residual larger where the output is more sensitive to them?"""
     columns = design.candidate_columns(f.model, f.instrument)
     tests: dict[str, Test] = {}
+    if any(o.kind == "channels" for o in f.observations):
+        return tests  # neighbouring samples of a demodulated channel are not independent
     for e in f.model.candidates:
         own = [n for n, c in enumerate(columns) if c.effect == e.id]
         if e.kind != "random" or not own:

@@ -153,5 +153,5 @@ def whiten(columns: Floats, taps: Array, valid: NDArray[np.bool_]) -> Floats:
         masked = columns.copy()
         masked[:, ~valid] = 0.0
     y = fft.irfft(fft.rfft(masked, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
-    kept: Floats = y[:, :n] if valid.all() else y[:, :n][:, valid]
-    return kept
+    kept = y[:, :n] if valid.all() else y[:, :n][:, valid]
+    return kept.astype(columns.dtype, copy=False)

@@ -7,7 +7,7 @@ one by one (orthogonal matching pursuit) while the largest is significant.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,6 +69,7 @@ def search(
     weights: Array,
     Q: Array,
     residual: Array,
+    view: Callable[[Array], Array] | None = None,
     most: int = MOST_TERMS,
 ) -> Omnibus:
     """Score the dictionary against a whitened residual.
@@ -81,11 +82,15 @@ def search(
         (rows, k): what is projected out.
     residual
         (rows,): whitened, already projected.
+    view
+        What the recorder made of G_out before it was recorded (a demodulator), if anything.
     """
     series: list[tuple[Term, float]] = []
     pieces: list[NDArray[np.float32]] = []
     basis32 = Q.astype(np.float32)
     for terms, x in dictionary.chunks():
+        if view is not None:
+            x = view(x.astype(np.float64)).astype(np.float32)
         parts = []
         for w, taps in zip(weights, noise.filters, strict=True):
             parts.append(np.float32(w) * whiten(x, taps, valid))
