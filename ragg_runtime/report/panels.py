@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import compare
 from ragg_runtime.compare import FITTED_BLOCKS, Comparison, Fitted
+from ragg_runtime.demodulate import CUTOFF, WIDTH
 from ragg_runtime.evidence.work import BLOCKS
 from ragg_runtime.metrics import Error
 from ragg_runtime.report import draw, figures, series, words
@@ -20,6 +21,9 @@ Residuals = Sequence[Array]
 
 FLIGHTS = 4
 """Flights that are drawn one by one, the worst of all that were given."""
+
+DRAWN = CUTOFF + WIDTH / 2
+"""Highest frequency that a demodulated channel holds, Hz."""
 
 ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
 
@@ -76,7 +80,9 @@ def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> li
         several = f" — {w.observation.name}" if len(f.works) > 1 else ""
         for title, x, amplitude in (("inline", both[0], 4.0), ("cross", both[1], 2.0)):
             noise = series.demodulated_noise(w, f.k_ggi, f.instrument.spin_frequency, 2, amplitude)
-            t, y = series.broken(time, x)
+            # four samples a cycle of the low-pass's edge draw the whole of it
+            step = max(1, int(w.observation.record.rate / (4.0 * DRAWN)))
+            t, y = series.broken(time[::step], x[::step])
             found.append(ChannelPanel(title + several, t, y, noise))
     return found
 
@@ -85,9 +91,10 @@ def harmonic_bars(f: Fitted, residuals: Residuals) -> list[Bar]:
     """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in compare.harmonic_errors(f, residuals)}
     noise = series.harmonic_noise(f) if rows else {}
-    return [
-        Bar(words.harmonic(h), rows[h], noise[h], rows[h] > 1.2 * noise[h]) for h in noise if h in rows
-    ]
+    # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
+    seconds = sum(float(w.observation.record.time[-1]) for w in f.works)
+    limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
+    return [Bar(words.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows]
 
 
 def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, Any]]:
@@ -98,7 +105,7 @@ def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, An
             {
                 "label": f"{words.harmonic(t['harmonic'])} × {words.product(t['term'])}",
                 "coefficient": words.plus_minus(float(t["coefficient"]), float(t["std"])),
-                "unit": words.unit(str(t["unit"])),
+                "unit": words.unit_of_term(str(t["unit"])),
                 "z": words.number(abs(float(t["z"])), 3),
                 "share": words.percent(float(t["share"])),
                 "rms": float(np.sqrt(float(t["share"]))) * rms_Eo,
@@ -125,8 +132,6 @@ def noise_row(f: Fitted, floor: float) -> dict[str, Any]:
 
 
 def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> Error:
-    from ragg_runtime.demodulate import CUTOFF
-
     root = float(np.sqrt(CUTOFF))
     return Error(floor * k_ggi, floor, inline, cross, inline / root, cross / root)
 

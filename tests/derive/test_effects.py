@@ -245,7 +245,7 @@ def test_all_of_the_angles_are_the_model_that_keeps_them() -> None:
     rng = np.random.default_rng(3)
     names = ("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
     k = instrument(
-        **{n: v for n, v in zip(names, 1e-2 * rng.standard_normal(5), strict=True)}, K4=0.1, K6=0.2, K8=0.3
+        **dict(zip(names, 1e-2 * rng.standard_normal(5), strict=True)), K4=0.1, K6=0.2, K8=0.3
     )
     w = world()
     kept = output((), w, k, LIKE_REFERENCE)
@@ -273,7 +273,7 @@ def test_vibration_is_rectified_as_its_average_says() -> None:
     """Mean output over a shake of either sign along each principal axis of P: exact for squares."""
     rng = np.random.default_rng(4)
     k = instrument(
-        **{n: v for n, v in zip(("K2", "K4", "K5", "K6", "K7", "K8"), rng.standard_normal(6), strict=True)},
+        **dict(zip(("K2", "K4", "K5", "K6", "K7", "K8"), rng.standard_normal(6), strict=True)),
         vartheta_x=0.1, vartheta_y=-0.2, vartheta_z=0.3,
     )  # fmt: skip
     root = 0.3 * rng.standard_normal((3, 3))

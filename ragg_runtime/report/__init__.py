@@ -1,0 +1,13 @@
+"""Reports: one self-contained HTML document each, without scripts, links or files beside it.
+
+``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
+bytes. Numbers come from the results, words from ``words``, series for figures from ``series``.
+"""
+
+from __future__ import annotations
+
+from ragg_runtime.report.add_page import add_html
+from ragg_runtime.report.compare_page import compare_html
+from ragg_runtime.report.diagnose_page import diagnose_html
+
+__all__ = ["add_html", "compare_html", "diagnose_html"]

@@ -1,0 +1,148 @@
+"""The report of ``ragg compare``: how far the model is from the flight, and where it fails."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from ragg_runtime import compare
+from ragg_runtime.compare import Comparison
+from ragg_runtime.report import figures, page, panels, parameters, series, words
+from ragg_runtime.report.page import Origin
+
+
+def compare_html(
+    comparison: Comparison, *, title: str, command: str, sources: Sequence[tuple[str, str]]
+) -> str:
+    """The report as one HTML document.
+
+    Parameters
+    ----------
+    title
+        What is compared with what, such as the names of model directory and flight.
+    command
+        The command line that made it.
+    sources
+        (name, sha256) of the model file and the flights.
+    """
+    f = comparison.fitted
+    context: dict[str, Any] = {
+        "kind": "Model against flight",
+        "state": "good" if comparison.adequate else "bad",
+        "headline": headline(comparison),
+        "lead": lead(comparison),
+        "facts": panels.facts(f),
+        "errors": errors(comparison),
+        "sections": _sections(comparison),
+        "by_combination": parameters.by_combination(f),
+        "by_accelerometer": parameters.by_accelerometer(f),
+        "patterns": [name for name, _ in parameters.PATTERNS],
+        "visibility": parameters.visibility(f),
+        "digest": f.model.digest,
+    }
+    return page.render("compare.html.j2", Origin(title, command, sources), context)
+
+
+def headline(c: Comparison) -> str:
+    """Calibrated error against noise floor, adequate or not, in one sentence."""
+    error, noise = words.number(c.calibrated.rms_Eo), words.number(c.noise_floor)
+    if c.adequate:
+        return (
+            f"The model is adequate: calibrated, it leaves {error} Eo, which is the noise of this record"
+            f" ({noise} Eo)."
+        )
+    excess = c.calibrated.rms_Eo**2 - c.noise_floor**2
+    if excess <= (0.05 * c.noise_floor) ** 2:
+        beside = "hardly more than" if excess > 0.0 else "no more than"
+        return (
+            f"The model is not adequate: calibrated, it leaves {error} Eo, {beside} the noise"
+            f" ({noise} Eo), but part of it is systematic."
+        )
+    return (
+        f"The model is not adequate: calibrated, it leaves {error} Eo where the noise is {noise} Eo;"
+        f" {words.number(math.sqrt(excess), 2)} Eo of it are not noise."
+    )
+
+
+def lead(c: Comparison) -> list[str]:
+    """What follows the headline: the channels, and where the error is largest."""
+    f = c.fitted
+    inline, cross = series.channel_noise(f)
+    noise = panels.error_of_noise(c.noise_floor, inline, cross, f.k_ggi)
+    said = []
+    if math.isfinite(c.calibrated.inline_Eo):
+        said.append(
+            f"In the demodulated channels the residual is {words.number(c.calibrated.inline_Eo_per_rtHz)} Eo/√Hz"
+            f" inline and {words.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross;"
+            f" the noise alone would give {words.number(noise.inline_Eo_per_rtHz)} and"
+            f" {words.number(noise.cross_Eo_per_rtHz)}."
+        )
+    found = compare.terms_json(c.remainder, c.residual, f)
+    if found:
+        t = found[0]
+        z = abs(float(str(t["z"])))
+        said.append(
+            f"The clearest trace is {words.harmonic(str(t['harmonic']))} × {words.product(str(t['term']))}"
+            f" ({words.number(z)} standard deviations)."
+        )
+    blocks = c.by_time()
+    if blocks and float(str(blocks[0]["over_noise"])) > 1.15:
+        b = blocks[0]
+        digits = 0 if float(str(b["to_s"])) - float(str(b["from_s"])) > 10.0 else 1
+        where = f" of {words.clean(str(b['flight']))}" if len(f.works) > 1 else ""
+        said.append(
+            f"The worst stretch is from {words.fixed(float(str(b['from_s'])), digits)} to {words.fixed(float(str(b['to_s'])), digits)} s"
+            f"{where}, with {words.number(float(str(b['rms_Eo'])))} Eo."
+        )
+    if not c.adequate:
+        said.append("The command ragg diagnose looks for the physical effect that would account for it.")
+    return said
+
+
+def errors(c: Comparison) -> list[dict[str, Any]]:
+    """Rows of the table of errors."""
+    return [
+        panels.error_row("as model.toml says", c.nominal, "nominal values, nothing fitted"),
+        panels.error_row("calibrated", c.calibrated, "parameters fitted to this record"),
+        panels.error_row("held out", c.holdout, "fitted on half of the blocks of time, scored on the others"),
+        panels.noise_row(c.fitted, c.noise_floor),
+    ]
+
+
+def _sections(c: Comparison) -> list[dict[str, Any]]:
+    f = c.fitted
+    chosen = series.worst(f, c.residual, panels.FLIGHTS)
+    lines = [(figures.ONLY, c.residual)]
+    found = []
+    drawn = [
+        page.figure(
+            figures.in_time(panels.time_panels(f, lines, chosen), "time", "calibrated residual over time"),
+            "Calibrated residual before demodulation. Above: least to greatest value and rms in short stretches,"
+            " with the noise’s one sigma dashed. Below: rms in each of 24 blocks of time.",
+        )
+    ]
+    if len(chosen) < len(f.works):
+        drawn[0]["caption"] += f" The {len(chosen)} worst of {len(f.works)} flights are drawn."
+    found.append({"title": "In time", "text": [], "figures": drawn})
+    if spectra := panels.spectrum_panels(f, lines, chosen):
+        svg = figures.spectra(spectra, "spectrum", "spectrum of the calibrated residual")
+        caption = (
+            "Amplitude density of the residual (Welch) and the noise that the fit assumes. Dotted: multiples of"
+            " the spin rate. Lines or humps above the dashed curve are error, not noise."
+        )
+        found.append({"title": "Spectrum", "text": [], "figures": [page.figure(svg, caption)]})
+    rest = panels.where_it_fails(c, "where")
+    rows = panels.terms(compare.terms_json(c.remainder, c.residual, f), c.calibrated.rms_Eo)
+    text = [] if rows else ["No motion term stands out of the residual."]
+    found.append({"title": "Where it fails", "text": text, "figures": page.figures(rest), "terms": rows})
+    if shown := panels.channel_panels(f, c.residual, chosen):
+        svg = figures.channels(shown, "channels", "demodulated residual over time")
+        caption = "Demodulated residual: the error of the measured gradients. Dashed: the noise’s one sigma."
+        found.append({"title": "Demodulated channels", "text": [], "figures": [page.figure(svg, caption)]})
+    else:
+        said = (
+            "The record is too short for the demodulator’s low-pass: there are no inline and cross channels."
+        )
+        found.append({"title": "Demodulated channels", "text": [said], "figures": []})
+    return found

@@ -1,0 +1,262 @@
+"""The report of ``ragg diagnose``: which physical effect is missing, and how sure that is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ragg_runtime import compare
+from ragg_runtime.compare import Fitted
+from ragg_runtime.diagnose import Diagnosis, Ranked
+from ragg_runtime.evidence import search
+from ragg_runtime.report import effect_values, figures, page, panels, parameters, series, words
+from ragg_runtime.report.effect_values import Value, Values
+from ragg_runtime.report.figures import Bar
+from ragg_runtime.report.page import Origin
+from ragg_runtime.report.parameters import Row
+
+SHOWN_BARS = 12
+
+
+def diagnose_html(
+    diagnosis: Diagnosis, *, title: str, command: str, sources: Sequence[tuple[str, str]]
+) -> str:
+    """The report as one HTML document; parameters as of :func:`ragg_runtime.report.compare_html`."""
+    d = diagnosis
+    f = d.fitted
+    context: dict[str, Any] = {
+        "kind": "What is missing",
+        "state": {"adequate": "good", "missing-effect": "found"}.get(d.verdict, "bad"),
+        "headline": headline(d),
+        "lead": lead(d),
+        "facts": panels.facts(f),
+        "errors": errors(d),
+        "sections": _sections(d),
+        "ranking": ranking(d),
+        "evidence": evidence(d, "evidence"),
+        "groups": groups(d),
+        "unexplained": unexplained(d) if d.verdict == "unexplained" else None,
+        "physics": physics(d),
+        "effects": effect_rows(d, parameters.by_accelerometer),
+        "combined": effect_rows(d, parameters.by_combination),
+        "patterns": [name for name, _ in parameters.PATTERNS],
+        "not_testable": [(n.effect, n.why) for n in d.not_testable],
+        "sizes": sizes(d),
+        "digest": f.model.digest,
+    }
+    return page.render("diagnose.html.j2", Origin(title, command, sources), context)
+
+
+def headline(d: Diagnosis) -> str:
+    """The verdict in one sentence."""
+    before, after, noise = (words.number(x) for x in (d.before.rms_Eo, d.after.rms_Eo, d.noise_floor))
+    if d.verdict == "adequate":
+        return (
+            f"Nothing is missing that this record could show: the calibrated model leaves {before} Eo,"
+            f" and the noise is {noise} Eo."
+        )
+    if d.verdict == "missing-effect":
+        names = words.listed([words.clean(e) for e in d.found])
+        if d.after.rms_Eo >= d.before.rms_Eo * (1.0 - 1e-6):
+            return f"The model lacks {names}, which the data show; its error stays {before} Eo."
+        it = "it" if len(d.found) == 1 else "them"
+        return (
+            f"The model lacks {names}: with {it} the error falls from {before} to {after} Eo,"
+            f" and the noise is {noise} Eo."
+        )
+    return (
+        f"Something is missing that no known effect accounts for: {before} Eo remain where the noise is"
+        f" {noise} Eo, and the best of the known effects leave a significant remainder."
+    )
+
+
+def lead(d: Diagnosis) -> list[str]:
+    said = []
+    for r in d.ranking:
+        if r.effect in d.found:
+            v = effect_values.values(d.fitted, r)
+            if len(d.found) > 1 and d.final is not None:
+                v = Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
+            clear = sorted((x for x in v.values if abs(x.z) > 3.0), key=lambda x: -abs(x.z))[:3]
+            if clear:
+                sizes_ = words.listed([f"{_named(x)} = {x.text}" for x in clear])
+                said.append(f"{words.clean(r.effect)}: {sizes_}{_instead(v)}.")
+    for main, others in groups(d):
+        said.append(
+            f"This record cannot tell {main} from {words.listed(others, 'or')}: treat them as one finding."
+        )
+    if d.verdict == "unexplained" and d.ranking and claimed(d, d.ranking[0]):
+        best = d.ranking[0]
+        said.append(
+            f"Of the known effects, {words.clean(best.effect)} comes nearest ({words.number(d.after.rms_Eo)} Eo with"
+            " what was tried), but it is not claimed: what remains shows that the cause is another one."
+        )
+    if d.verdict == "adequate":
+        said.append(
+            "An effect smaller than the sizes listed at the end may still be there: this record would not show it."
+        )
+    return said
+
+
+def _named(v: Value) -> str:
+    both = f"{v.of} of {v.name}" if v.of[:1] in ("D", "Σ") else f"{v.name} of {v.of}"
+    return words.clean(both if v.of else v.name)
+
+
+def _instead(v: Values) -> str:
+    """Accelerometers that would do as well, in words."""
+    if not v.instead:
+        return ""
+    return f"; {words.listed([f'{_named(x)} = {x.text}' for x in v.instead], 'or')} would do as well"
+
+
+def claimed(d: Diagnosis, r: Ranked) -> bool:
+    """Whether an effect's own test is significant over the whole ranking."""
+    return bool(r.rank > 0 and r.log_p < threshold(d))
+
+
+def threshold(d: Diagnosis) -> float:
+    """Logarithm of the p-value below which one of all tested effects is significant."""
+    return float(np.log(search.FAMILY / max(1, len(d.ranking))))
+
+
+def errors(d: Diagnosis) -> list[dict[str, Any]]:
+    """Rows of the table of errors."""
+    rows = [
+        panels.error_row("model as it is", d.before, "calibrated"),
+        panels.error_row(
+            "held out", panels.holdout_before(d.fitted), "the same, fitted on half of the blocks of time"
+        ),
+    ]
+    if d.after != d.before:
+        what = words.listed([words.clean(e) for e in d.found]) or "the best known effects"
+        rows.append(panels.error_row(f"with {what}", d.after, "calibrated again"))
+        if d.final is not None:
+            rows.append(
+                panels.error_row("held out", panels.holdout_before(d.final), "the same, fitted on half")
+            )
+    rows.append(panels.noise_row(d.final or d.fitted, d.noise_floor))
+    return rows
+
+
+def ranking(d: Diagnosis) -> list[dict[str, Any]]:
+    """Rows of the ranking, best first."""
+    rows = []
+    for r in d.ranking:
+        effect = d.fitted.model.effect(r.effect)
+        rows.append(
+            {
+                "effect": r.effect,
+                "title": effect.title if effect else "",
+                "found": r.effect in d.found,
+                "significant": claimed(d, r),
+                "p": words.probability(r.log_p),
+                "log10_p": words.number(r.log_p / math.log(10.0)),
+                "delta_bic": words.number(r.delta_bic),
+                "after": words.number(r.after.rms_Eo),
+                "holdout": words.number(r.after_holdout.rms_Eo),
+                "inline": words.number(r.after.inline_Eo_per_rtHz),
+                "cross": words.number(r.after.cross_Eo_per_rtHz),
+                "fitted": effect_values.values(d.fitted, r) if claimed(d, r) or r.effect in d.found else None,
+                "twins": list(r.indistinguishable_from),
+            }
+        )
+    return rows
+
+
+def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
+    """Bar chart of the evidence of the best effects; ``None`` if nothing was tested."""
+    if not d.ranking:
+        return None
+    bars = []
+    for r in d.ranking[:SHOWN_BARS]:
+        value = -r.log_p / math.log(10.0)
+        bars.append(Bar(r.effect, value if math.isfinite(value) else math.inf, strong=r.effect in d.found))
+    level = -threshold(d) / math.log(10.0)
+    finite = [b.value for b in bars if math.isfinite(b.value)]
+    log = bool(finite) and max(finite) > 8.0 * level
+    unit = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
+    svg = figures.lying(bars, key, "evidence for each effect", unit, level, log)
+    caption = (
+        "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
+        " Right of the dashed line the whole catalogue would raise a false alarm in one record of a hundred."
+    )
+    if len(d.ranking) > SHOWN_BARS:
+        caption += f" {len(d.ranking) - SHOWN_BARS} further effects are in the table only."
+    return page.figure(svg, caption)
+
+
+def groups(d: Diagnosis) -> list[tuple[str, list[str]]]:
+    """(found effect, those that the record cannot tell from it)."""
+    return [
+        (words.clean(r.effect), [words.clean(e) for e in r.indistinguishable_from])
+        for r in d.ranking
+        if r.indistinguishable_from and r.effect in d.found
+    ]
+
+
+def effect_rows(d: Diagnosis, table: Callable[[Fitted], list[Row]]) -> list[Row]:
+    """Rows of a table of parameters that belong to the found effects, as fitted together."""
+    if d.final is None or not d.found:
+        return []
+    return [r for r in table(d.final) if r.symbol.name.split(".", 1)[0] in d.found]
+
+
+def physics(d: Diagnosis) -> list[dict[str, str]]:
+    """What the found effects are, from the catalogue."""
+    found = []
+    for e in d.found:
+        effect = d.fitted.model.effect(e)
+        if effect is not None:
+            found.append({"id": e, "title": effect.title, "physics": effect.physics, "source": effect.source})
+    return found
+
+
+def unexplained(d: Diagnosis) -> dict[str, Any]:
+    """Where the remainder lives, in no effect's name."""
+    f = d.final or d.fitted
+    rows = panels.terms(compare.terms_json(d.remainder, d.residual_after, f), d.after.rms_Eo)
+    return {
+        "share": words.percent(d.remainder_share),
+        "p": words.probability(d.remainder.log_p),
+        "terms": rows,
+        "figures": page.figures(panels.remainder_figures(f, d.residual_after, rows, "remainder")),
+    }
+
+
+def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
+    """(effect, size of each parameter at which this record would show it at three sigma)."""
+    found: dict[str, list[str]] = {}
+    for effect, text in d.sizes:
+        name, _, size = text.partition(" = ")
+        number, _, unit = size.partition(" ")
+        found.setdefault(effect, []).append(f"{name} = {words.with_unit(words.number(float(number)), unit)}")
+    return list(found.items())
+
+
+def _sections(d: Diagnosis) -> list[dict[str, Any]]:
+    f = d.final or d.fitted
+    chosen = series.worst(d.fitted, d.residual, panels.FLIGHTS)
+    changed = d.after != d.before
+    if changed:
+        lines = [(figures.BEFORE, d.residual), (figures.AFTER, d.residual_after)]
+    else:
+        lines = [(figures.ONLY, d.residual)]
+    drawn = []
+    if spectra := panels.spectrum_panels(f, lines, chosen):
+        what = "before and after" if changed else "of the model as it is"
+        svg = figures.spectra(spectra, "spectrum", f"spectrum of the residual {what}")
+        caption = (
+            f"Amplitude density of the residual {what}, and the noise. Dotted: multiples of the spin rate."
+        )
+        drawn.append(page.figure(svg, caption))
+    svg = figures.in_blocks(panels.time_panels(f, lines, chosen), "blocks", "error in blocks of time")
+    caption = "Error in 24 blocks of time before demodulation."
+    if len(chosen) < len(f.works):
+        caption += f" The {len(chosen)} worst of {len(f.works)} flights are drawn."
+    drawn.append(page.figure(svg, caption))
+    title = "The residual before and after" if changed else "The residual"
+    return [{"title": title, "text": [], "figures": drawn}]

@@ -1,0 +1,148 @@
+"""The look of a figure, and its SVG: inline, without fonts, links or dates, the same bytes for the same input."""
+
+from __future__ import annotations
+
+import html
+import io
+import re
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, cast
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
+
+from ragg_runtime.report import words
+
+INK = "#1a1a1a"
+QUIET = "#6b7075"
+RULE = "#d9dcdf"
+RESIDUAL = "#1f4e79"
+RESIDUAL_LIGHT = "#b9cde0"
+BEFORE = "#a3a8ad"
+NOISE = "#b4531f"
+"""Noise is always this orange-brown and dashed: it must be told in black and white, too."""
+
+WIDTH = 9.6
+"""Width of every figure, inches: at the page's width a point is a little more than a pixel."""
+
+_STYLE = {
+    "svg.fonttype": "none",  # text stays text: small, sharp, searchable
+    "text.parse_math": False,  # a name from a file may hold a dollar sign
+    "text.usetex": False,
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 8.0,
+    "axes.titlesize": 8.5,
+    "axes.titlelocation": "left",
+    "axes.titlecolor": INK,
+    "axes.labelsize": 8.0,
+    "axes.labelcolor": INK,
+    "axes.edgecolor": "#8a8f94",
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "axes.unicode_minus": True,
+    "axes.formatter.use_mathtext": False,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#eceeef",
+    "grid.linewidth": 0.6,
+    "xtick.color": "#8a8f94",
+    "ytick.color": "#8a8f94",
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.major.size": 3.0,
+    "ytick.major.size": 3.0,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.size": 1.5,
+    "ytick.minor.size": 1.5,
+    "xtick.minor.width": 0.4,
+    "ytick.minor.width": 0.4,
+    "lines.linewidth": 1.1,
+    "lines.solid_joinstyle": "round",
+    "legend.frameon": False,
+    "legend.fontsize": 8.0,
+    "legend.handlelength": 1.8,
+    "path.simplify": True,
+    "path.simplify_threshold": 0.2,
+    "figure.dpi": 72.0,
+    "savefig.dpi": 72.0,
+    "savefig.bbox": None,
+    "savefig.transparent": True,
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Matplotlib's defaults with the report's look, whatever the user's own settings; names in any script."""
+    with warnings.catch_warnings():
+        # a glyph that the measuring font lacks is still drawn, by the reader's browser
+        warnings.filterwarnings("ignore", message=r"Glyph .* missing from")
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(cast("Any", _STYLE))
+            yield
+
+
+def figure(height: float) -> Figure:
+    """A figure ``height`` inches high, in constrained layout."""
+    made = Figure(figsize=(WIDTH, height), layout="constrained")
+    FigureCanvasSVG(made)
+    return made
+
+
+def svg(made: Figure, name: str, label: str) -> str:
+    """The figure as an inline ``<svg>`` element; ids begin with ``name``, ``label`` is its alternative text."""
+    buffer = io.StringIO()
+    with matplotlib.rc_context({"svg.hashsalt": name}):
+        nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+        made.savefig(buffer, format="svg", metadata=nothing)
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    head, body = text.split(">", 1)
+    view = re.search(r'viewBox="[^"]*"', head)
+    assert view is not None
+    body = re.sub(r' id="', f' id="{name}-', body)
+    body = re.sub(r'href="#', f'href="#{name}-', body)
+    body = re.sub(r"url\(#", f"url(#{name}-", body)
+    # the reader's own sans-serif instead of a list of fonts in every label
+    body = re.sub(r"font: ((?:\d+ )?)([\d.]+)px [^;\"]*", _font, body)
+    body = re.sub(r"<!--.*?-->", "", body, flags=re.DOTALL)
+    body = re.sub(r"\n\s*", "\n", body)
+    return f'<svg {view[0]} role="img" aria-label="{html.escape(words.clean(label))}">{body}'
+
+
+def _font(found: re.Match[str]) -> str:
+    weight = found[1].strip()
+    return f"font-size: {found[2]}px" + (f"; font-weight: {weight}" if weight else "")
+
+
+def log_ticks(axes: Axes, which: str) -> None:
+    """Plain numbers on a logarithmic axis; 2 and 5 labelled as well where it spans little."""
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    low, high = axes.get_xlim() if which == "x" else axes.get_ylim()
+    decades = high / low
+    axis.set_major_locator(
+        LogLocator(
+            10.0, (1.0, 2.0, 5.0) if decades < (3000.0 if which == "x" else 300.0) else (1.0,), numticks=12
+        )
+    )
+    axis.set_minor_locator(
+        LogLocator(10.0, tuple(range(2, 10)), numticks=40) if decades < 1e6 else FixedLocator([])
+    )
+    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else words.number(v, 1)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def no_ticks(axes: Axes, which: str) -> None:
+    """Labels of categories need no tick marks and no grid."""
+    axes.tick_params(axis="x" if which == "x" else "y", length=0)
+    (axes.xaxis if which == "x" else axes.yaxis).grid(False)

@@ -1,0 +1,150 @@
+"""Fitted values of a ranked effect as the record really determines them.
+
+The ranking fits the smallest block of an effect that does the work. Where that is one accelerometer, another
+one may do as well: G_out shows K of A3 and minus K of A4 alike. Where it is all four, single values are seldom
+determined, but the paper's combinations of them are. Both are said here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime import design
+from ragg_runtime.compare import Fitted
+from ragg_runtime.design import Column
+from ragg_runtime.diagnose import Ranked
+from ragg_runtime.evidence import likelihood, search
+from ragg_runtime.report import words
+from ragg_runtime.report.parameters import PATTERNS, SEEN, UNSEEN, gains
+from ragg_runtime.report.posterior import Posterior, posterior
+
+Array = NDArray[np.float64]
+
+MOST = 6
+"""Values that a row of the ranking holds, the most significant ones."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """``name`` of accelerometer or combination ``of`` (empty: shared), with unit, and its significance."""
+
+    name: str
+    of: str
+    text: str
+    z: float
+
+
+@dataclass(frozen=True)
+class Values:
+    """What a row shows: values, how many more there are, and accelerometers that would do as well."""
+
+    values: tuple[Value, ...]
+    more: int
+    instead: tuple[Value, ...]
+
+
+def values(f: Fitted, r: Ranked) -> Values:
+    """The values of a ranked effect."""
+    columns = [
+        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect == r.effect
+    ]
+    wanted = {(p.name, p.accelerometer) for p in r.parameters}
+    own = [(n, c) for n, c in columns if (_name(c), c.accelerometer) in wanted]
+    extra = [
+        _plain(p.name, p.value, p.unit) for p in r.parameters if p.name not in {_name(c) for _, c in own}
+    ]
+    if not own:
+        return Values(tuple(extra), 0, ())
+    accelerometers = {c.accelerometer for _, c in own}
+    if len(accelerometers) == 1 and None not in accelerometers:
+        found = _single(f, own)
+        return Values((*found, *extra), 0, tuple(_instead(f, r.effect, columns, own)))
+    found = _combined(f, own, _fit(f, own))
+    ordered = sorted(found, key=lambda v: -abs(v.z))[:MOST]
+    kept = [v for v in found if v in ordered]
+    return Values((*kept, *extra), len(found) - len(kept), ())
+
+
+def _name(c: Column) -> str:
+    return c.name.split(".", 1)[1]
+
+
+def _plain(name: str, value: float, unit: str) -> Value:
+    return Value(name, "", words.with_unit(words.number(value, 4), unit), 0.0)
+
+
+def _fit(f: Fitted, own: Sequence[tuple[int, Column]]) -> Posterior:
+    """Values of an effect's columns, in scales, with their uncertainty."""
+    both = posterior(f, [n for n, _ in own])
+    return both.of(range(f.n_base, f.n_base + len(own)))
+
+
+def joint(f: Fitted, effect: str) -> list[Value]:
+    """The values of an effect that is in the model of ``f``, as calibrated."""
+    places = [k for k, c in enumerate(f.calibration.columns) if c.effect == effect]
+    own = [(k, f.calibration.columns[k]) for k in places]
+    scale = np.array([c.scale for _, c in own])
+    value = f.calibration.p[f.calibration.index[places]] / scale
+    return _combined(f, own, Posterior(value, posterior(f).of(places).covariance))
+
+
+def _single(f: Fitted, own: Sequence[tuple[int, Column]]) -> list[Value]:
+    fitted = _fit(f, own)
+    return [
+        _value(c, f"A{c.accelerometer}" if c.accelerometer else "", np.eye(len(own))[k], fitted)
+        for k, (_, c) in enumerate(own)
+    ]
+
+
+def _value(c: Column, of: str, weights: Array, fitted: Posterior) -> Value:
+    factor = c.scale / c.unit_factor
+    v, s = float(weights @ fitted.value), fitted.std(weights)
+    text = words.with_unit(words.plus_minus(v * factor, s * factor), c.unit)
+    return Value(_name(c), of, text, v / s if s > 0.0 else 0.0)
+
+
+def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -> list[Value]:
+    """Combinations that the record sees of parameters of all four; others one by one unless they are unseen."""
+    places: dict[str, list[int]] = {}
+    for k, (_, c) in enumerate(own):
+        places.setdefault(_name(c), []).append(k)
+    found = []
+    for positions in places.values():
+        column = own[positions[0]][1]
+        rows: list[tuple[str, Array, float]] = []
+        if len(positions) == 4:
+            for name, pattern in PATTERNS:
+                w = np.zeros(len(own))
+                w[positions] = np.array(pattern) * gains(f, column)
+                rows.append((name, w, SEEN))
+        else:
+            for k in positions:
+                a = own[k][1].accelerometer
+                rows.append(("" if a is None else f"A{a}", np.eye(len(own))[k], UNSEEN))
+        for of, w, limit in rows:
+            if fitted.std(w) < limit * float(np.linalg.norm(w)):
+                found.append(_value(column, of, w, fitted))
+    return found
+
+
+def _instead(
+    f: Fitted, effect: str, columns: Sequence[tuple[int, Column]], own: Sequence[tuple[int, Column]]
+) -> list[Value]:
+    """Other accelerometers that account for the same, within what separates rivals."""
+    field = f.field([effect])
+    mine = {c.accelerometer for _, c in own}
+    names = {_name(c) for _, c in own}
+
+    def chi2(block: Sequence[tuple[int, Column]]) -> float:
+        return likelihood.explained(field.P, [n for n, _ in block], field.floor)[0]
+
+    found = []
+    for a in (1, 2, 3, 4):
+        other = [(n, c) for n, c in columns if c.accelerometer == a and _name(c) in names]
+        if a not in mine and other and chi2(own) - chi2(other) < search.INDISTINGUISHABLE:
+            found += _single(f, other)
+    return found

@@ -1,0 +1,84 @@
+"""A page: templates with autoescape on, the style sheet inside, and how to make the report again."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata, resources
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from ragg_runtime.report import words
+
+LIBRARIES = ("numpy", "scipy", "sympy", "matplotlib", "jinja2")
+"""What a report's numbers and looks depend on."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a report comes from: its title, the command line, and (name, sha256) of every file it read."""
+
+    title: str
+    command: str
+    sources: Sequence[tuple[str, str]]
+
+
+@cache
+def _environment() -> Environment:
+    made = Environment(
+        loader=PackageLoader("ragg_runtime.report"),
+        autoescape=True,  # names of files, channels and effects come from strangers
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    made.filters["number"] = words.number
+    made.filters["unit"] = words.unit
+    return made
+
+
+def render(template: str, origin: Origin, context: Mapping[str, Any]) -> str:
+    """A whole HTML document, self-contained, in characters that UTF-8 can write."""
+    text = (
+        _environment()
+        .get_template(template)
+        .render(
+            title=origin.title,
+            command=origin.command,
+            sources=list(origin.sources),
+            versions=versions(),
+            style=Markup(_style()),
+            **context,
+        )
+    )
+    return words.clean(text)
+
+
+def figure(drawn: str, caption: str) -> dict[str, Any]:
+    """A figure for a template; ``drawn`` is SVG made here, and so not escaped again."""
+    return {"svg": Markup(drawn), "caption": caption}
+
+
+def figures(found: Sequence[Mapping[str, str]]) -> list[dict[str, Any]]:
+    return [figure(x["svg"], x["caption"]) for x in found]
+
+
+def versions() -> list[tuple[str, str]]:
+    """(name, version) of Python, this package and the libraries that a report depends on."""
+    found = [("Python", platform.python_version())]
+    own = metadata.packages_distributions().get("ragg_runtime", [])
+    for name in (*sorted(set(own)), *LIBRARIES):
+        try:
+            found.append((name, metadata.version(name)))
+        except metadata.PackageNotFoundError:
+            continue
+    return found
+
+
+def _style() -> str:
+    return resources.files("ragg_runtime.report").joinpath("templates", "style.css").read_text("utf-8")

@@ -1,0 +1,300 @@
+"""Calibrated parameters as tables, and in words what the record can and cannot tell about them.
+
+One accelerometer's own value seldom shows in G_out: combinations of the four do, the paper's
+error-propagation coefficients Sigma, D^12, D^34 and D^1234 (Eq. 18-19). So the covariance is read in that
+basis, in which the directions that a record does not see are simple: whole combinations, or small groups of
+which only a sum shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.compare import Fitted
+from ragg_runtime.design import Column
+from ragg_runtime.evaluate import named, vector
+from ragg_runtime.instrument import PARAMETER
+from ragg_runtime.report import words
+from ragg_runtime.report.posterior import posterior
+
+Array = NDArray[np.float64]
+
+UNSEEN = 0.9
+"""Posterior over prior standard deviation from which a value is the test sheet's, not the record's."""
+
+SEEN = 0.3
+"""The same below which a value is the record's own."""
+
+DETERMINED = 0.5
+"""The same for the principal directions of all parameters, which a record sees well or not at all."""
+
+SHARE = 0.03
+"""Squared share of an unseen direction below which a combination is taken not to be part of it."""
+
+PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
+    ("Σ", (1, 1, 1, 1)),
+    ("D1234", (1, 1, -1, -1)),
+    ("D12", (1, -1, 0, 0)),
+    ("D34", (0, 0, 1, -1)),
+)
+
+
+def gains(f: Fitted, column: Column) -> Array:
+    """(4,) weight of each accelerometer in G_out for this parameter, over their mean.
+
+    Bias and coefficients act through k_VI K1 of their accelerometer (Eq. 1). The paper's D^12_{K1 K0} holds K1
+    for that reason, and so must a combination here: accelerometers differ by 1e-4, which is much where a
+    difference is seen a million times better than the sum.
+    """
+    values = named(f.model.chain, f.calibration.p)
+    g = values["k_VI"] if column.name == "K1" else values["k_VI"] * values["K1"]
+    return np.asarray(g / np.mean(g))
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """How a parameter is written: pieces (text, whether a subscript), and the name in model.toml."""
+
+    pieces: tuple[tuple[str, bool], ...]
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One value: calibrated ± std, nominal, and whether the record sees it (``seen``, ``part``, ``unseen``)."""
+
+    value: str
+    nominal: str
+    state: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """A parameter: its symbol, unit and cells (four accelerometers or patterns, or one if shared)."""
+
+    symbol: Symbol
+    unit: str
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A term of a combination in words: factor (empty: 1), pattern and symbol."""
+
+    sign: str
+    factor: str
+    pattern: str
+    symbol: Symbol
+
+
+@dataclass(frozen=True)
+class Group:
+    """Combinations that the record cannot tell apart, and the sums of them that it does see."""
+
+    members: tuple[Piece, ...]
+    unseen: int
+    seen: tuple[tuple[Piece, ...], ...]
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """What the record determines: counts, combinations not seen at all, and groups seen only together."""
+
+    determined: int
+    total: int
+    unseen: tuple[tuple[str, tuple[Symbol, ...]], ...]
+    groups: tuple[Group, ...]
+    patterns: bool
+
+
+def symbol_of(f: Fitted, column: Column) -> Symbol:
+    """The written symbol of a calibrated parameter."""
+    if column.effect is None:
+        q = PARAMETER[column.name]
+        return Symbol(words.symbol(q.symbol), q.name, q.description)
+    name = column.name.split(".", 1)[1]
+    effect = f.model.effect(column.effect)
+    for p in effect.parameters if effect else ():
+        if p.name == name:
+            return Symbol(words.symbol(p.latex), column.name, p.meaning)
+    return Symbol(((words.clean(name), False),), column.name, "")
+
+
+def _names(f: Fitted) -> dict[str, list[int]]:
+    """Parameter name -> positions of its columns."""
+    found: dict[str, list[int]] = {}
+    for n, c in enumerate(f.calibration.columns):
+        found.setdefault(c.name, []).append(n)
+    return found
+
+
+def _state(ratio: float) -> str:
+    return "seen" if ratio < SEEN else "part" if ratio < UNSEEN else "unseen"
+
+
+def by_accelerometer(f: Fitted) -> list[Row]:
+    """Calibrated value ± std and nominal value of every parameter, in display units."""
+    c = f.calibration
+    nominal = vector(f.model, f.instrument)[c.index]
+    ratio = np.sqrt(np.diag(posterior(f).covariance))
+    rows = []
+    for positions in _names(f).values():
+        first = c.columns[positions[0]]
+        cells = []
+        for n in positions:
+            q = c.columns[n]
+            value, std = c.p[c.index[n]] / q.unit_factor, ratio[n] * q.scale / q.unit_factor
+            cells.append(
+                Cell(words.plus_minus(value, std), words.plain(nominal[n] / q.unit_factor), _state(ratio[n]))
+            )
+        rows.append(Row(symbol_of(f, first), words.unit(first.unit), tuple(cells)))
+    return rows
+
+
+def by_combination(f: Fitted) -> list[Row]:
+    """The same of the sums and differences of the four accelerometers (parameters of one value left out)."""
+    c = f.calibration
+    nominal = vector(f.model, f.instrument)[c.index]
+    fitted = posterior(f)
+    rows = []
+    for positions in _names(f).values():
+        if len(positions) != 4:
+            continue
+        first = c.columns[positions[0]]
+        scale = np.array([c.columns[n].scale for n in positions])
+        cells = []
+        for _, weights in PATTERNS:
+            u = np.array(weights) * gains(f, first)
+            a = np.zeros(len(c.columns))
+            a[positions] = u * scale
+            std = fitted.std(a) / first.unit_factor
+            ratio = fitted.std(a) / float(np.linalg.norm(a))
+            value = float(u @ c.p[c.index[positions]]) / first.unit_factor
+            before = float(u @ nominal[positions]) / first.unit_factor
+            cells.append(Cell(words.plus_minus(value, std), words.rounded(before, std), _state(ratio)))
+        rows.append(Row(symbol_of(f, first), words.unit(first.unit), tuple(cells)))
+    return rows
+
+
+@dataclass(frozen=True)
+class _Direction:
+    """A unit vector of the basis in which directions are named."""
+
+    pattern: str
+    column: Column
+    weight: float
+
+
+def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
+    """Named directions and their (k, n) unit vectors over the fitted parameters, in scales."""
+    columns = f.calibration.columns
+    kind = f.observations[0].kind
+    directions, rows = [], []
+    for positions in _names(f).values():
+        together = kind == "G_out" and len(positions) == 4
+        for k, n in enumerate(positions):
+            row = np.zeros(len(columns))
+            if together:
+                name, weights = PATTERNS[k]
+                u = np.array(weights, dtype=float)
+                row[positions] = u / np.linalg.norm(u)
+                directions.append(_Direction(name, columns[n], 1.0 / float(np.linalg.norm(u))))
+            else:
+                row[n] = 1.0
+                label = "" if columns[n].accelerometer is None else f"A{columns[n].accelerometer}"
+                directions.append(_Direction(label, columns[n], 1.0))
+            rows.append(row)
+    return directions, np.array(rows)
+
+
+def visibility(f: Fitted) -> Visibility:
+    """Which directions of the parameters the record determines, and which it leaves at their prior."""
+    directions, U = _basis(f)
+    variance, vectors = np.linalg.eigh(U @ posterior(f).covariance @ U.T)
+    null = vectors[:, variance >= DETERMINED**2]
+    P = null @ null.T
+    own = np.diag(P)
+    alone = [n for n in range(len(own)) if own[n] > 1.0 - SHARE]
+    shared = [n for n in range(len(own)) if SHARE < own[n] <= 1.0 - SHARE]
+    unseen: dict[str, list[Symbol]] = {}
+    for n in alone:
+        unseen.setdefault(directions[n].pattern, []).append(symbol_of(f, directions[n].column))
+    groups = [_group(f, directions, P, members) for members in _components(P, shared)]
+    return Visibility(
+        len(own) - null.shape[1],
+        len(own),
+        tuple((k, tuple(v)) for k, v in unseen.items()),
+        tuple(g for g in groups if g.unseen),
+        f.observations[0].kind == "G_out",
+    )
+
+
+def _components(P: Array, members: Sequence[int]) -> list[list[int]]:
+    """Members that share an unseen direction, directly or through others."""
+    left, found = list(members), []
+    while left:
+        group, queue = [], [left.pop(0)]
+        while queue:
+            n = queue.pop()
+            group.append(n)
+            near = [m for m in left if P[n, m] ** 2 > SHARE**2]
+            left = [m for m in left if m not in near]
+            queue += near
+        found.append(sorted(group))
+    return found
+
+
+def _group(f: Fitted, directions: Sequence[_Direction], P: Array, members: Sequence[int]) -> Group:
+    values, vectors = np.linalg.eigh(P[np.ix_(members, members)])
+    seen = vectors[:, values < 0.5]
+    formulas = tuple(_formula(f, [directions[n] for n in members], v) for v in _simple(seen))
+    pieces = tuple(Piece("", "", directions[n].pattern, symbol_of(f, directions[n].column)) for n in members)
+    return Group(pieces, len(members) - seen.shape[1], formulas)
+
+
+def _simple(seen: Array) -> list[Array]:
+    """A basis (rows) of the columns' span with as many zeros as Gauss-Jordan elimination gives."""
+    rows = seen.T.copy()
+    free = list(range(rows.shape[1]))
+    for r in range(len(rows)):
+        k = max(free, key=lambda c: abs(rows[r, c]))
+        free.remove(k)
+        rows[r] /= rows[r, k]
+        for other in range(len(rows)):
+            if other != r:
+                rows[other] -= rows[other, k] * rows[r]
+    return [np.where(np.abs(row) > SHARE, row, 0.0) for row in rows]
+
+
+def _formula(f: Fitted, directions: Sequence[_Direction], v: Array) -> tuple[Piece, ...]:
+    """A seen combination over the parameters in display units, its first term with factor one."""
+    pieces: list[Piece] = []
+    first: tuple[float, str] | None = None
+    for d, x in zip(directions, v, strict=True):
+        if x == 0.0:
+            continue
+        # the direction's coordinate is weight * pattern(p / scale)
+        factor = float(x) * d.weight / (d.column.scale / d.column.unit_factor)
+        if first is None:
+            first = (factor, d.column.unit)
+        ratio = factor / first[0]
+        text = ""
+        if abs(abs(ratio) - 1.0) > 0.05 or d.column.unit != first[1]:
+            text = words.number(abs(ratio), 2)
+            if d.column.unit != first[1]:
+                text += f" {_quotient(first[1], d.column.unit)}"
+        sign = words.MINUS if ratio < 0 else "+" if pieces else ""
+        pieces.append(Piece(sign, text, d.pattern, symbol_of(f, d.column)))
+    return tuple(pieces)
+
+
+def _quotient(a: str, b: str) -> str:
+    top, bottom = words.unit(a) or "1", words.unit(b)
+    if not bottom:
+        return top
+    return f"{top}/({bottom})" if "/" in bottom or "·" in bottom else f"{top}/{bottom}"

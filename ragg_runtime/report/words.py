@@ -1,0 +1,204 @@
+"""Numbers, units and names as a reader wants them: few digits, true minus signs, powers of ten, no markup."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+
+THIN = "\u202f"
+MINUS = "\u2212"
+ABSENT = "\u2013"
+
+_SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_FORBIDDEN = frozenset(("Cc", "Cs", "Co", "Cn"))
+_DIRECTION = frozenset("\u200e\u200f\u061c\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+
+
+def clean(text: str) -> str:
+    """``text`` without control characters, half surrogates and marks that reverse the line.
+
+    Names come from files of strangers: what cannot be shown honestly, or not written as UTF-8, is replaced.
+    """
+    return "".join(
+        "\ufffd" if (unicodedata.category(c) in _FORBIDDEN and c not in "\n\t") or c in _DIRECTION else c
+        for c in text
+    )
+
+
+def short(text: str, length: int = 40) -> str:
+    """One clean line of at most ``length`` characters, for labels inside a figure."""
+    line = " ".join(clean(text).split())
+    return line if len(line) <= length else line[: length - 1] + "…"
+
+
+def power(exponent: int) -> str:
+    """10 to an integer power."""
+    return "10" + str(exponent).translate(_SUPERSCRIPTS)
+
+
+def number(x: float | None, digits: int = 3) -> str:
+    """``digits`` significant digits; an en dash for NaN and None."""
+    if x is None or math.isnan(x):
+        return ABSENT
+    if math.isinf(x):
+        return "∞" if x > 0 else f"{MINUS}∞"
+    if x == 0.0:
+        return "0"
+    x = float(f"{x:.{digits - 1}e}")
+    exponent = math.floor(math.log10(abs(x)))
+    if -3 <= exponent < 6:
+        return fixed(x, max(0, digits - 1 - exponent))
+    return f"{fixed(x / 10.0**exponent, digits - 1)}{THIN}×{THIN}{power(exponent)}"
+
+
+def fixed(x: float, decimals: int) -> str:
+    """Fixed-point text with groups of three before the point from 10 000 on."""
+    text = f"{abs(x):.{decimals}f}"
+    if abs(x) >= 1e4:
+        whole, _, rest = text.partition(".")
+        text = f"{int(whole):,}".replace(",", THIN) + (f".{rest}" if rest else "")
+    return (MINUS if x < 0 and float(text.replace(THIN, "")) != 0.0 else "") + text
+
+
+def plus_minus(value: float, std: float) -> str:
+    """Value and uncertainty to two digits of the latter: 12.3 ± 4.5, or 12.345678(45) where many digits are known."""
+    if not (math.isfinite(value) and math.isfinite(std) and std > 0.0):
+        return number(value, 4)
+    v, s, decimals, scale = _digits(value, std)
+    if decimals >= 6:
+        text = f"{fixed(v, decimals)}({s * 10.0**decimals:.0f})"
+    else:
+        text = f"{fixed(v, decimals)}{THIN}±{THIN}{fixed(s, decimals)}"
+        text = f"({text})" if scale else text
+    return f"{text}{THIN}×{THIN}{power(scale)}" if scale else text
+
+
+def rounded(value: float, std: float) -> str:
+    """``value`` alone, with the digits that :func:`plus_minus` gives it."""
+    if not (math.isfinite(value) and math.isfinite(std) and std > 0.0) or value == 0.0:
+        return number(value, 4)
+    v, _, decimals, scale = _digits(value, std)
+    text = fixed(v, decimals)
+    return f"{text}{THIN}×{THIN}{power(scale)}" if scale else text
+
+
+def _digits(value: float, std: float) -> tuple[float, float, int, int]:
+    """Value and uncertainty over a common power of ten, decimals to print, and that power (0: none needed)."""
+    exponent = math.floor(math.log10(max(abs(value), std)))
+    scale = 0 if -3 <= exponent < 6 else exponent
+    v, s = value / 10.0**scale, float(f"{std / 10.0**scale:.1e}")
+    return v, s, min(max(0, 1 - math.floor(math.log10(s))), 15), scale
+
+
+def probability(log_p: float) -> str:
+    """A p-value from its natural logarithm, also where it underflows; ``certain`` for none at all."""
+    log10 = log_p / math.log(10.0)
+    if math.isinf(log10):
+        return "certain"
+    if log10 > -3.0:
+        return number(10.0**log10, 2)
+    exponent = math.floor(log10)
+    if exponent < -99:
+        return power(round(log10))
+    return f"{fixed(10.0 ** (log10 - exponent), 0)}{THIN}×{THIN}{power(exponent)}"
+
+
+def plain(x: float, digits: int = 6) -> str:
+    """At most ``digits`` significant digits, without trailing zeros."""
+    if not math.isfinite(x):
+        return number(x)
+    text = f"{x:.{digits}g}"
+    if "e" in text:
+        mantissa, exponent = text.split("e")
+        return f"{mantissa.replace('-', MINUS)}{THIN}×{THIN}{power(int(exponent))}"
+    return text.replace("-", MINUS)
+
+
+def percent(share: float) -> str:
+    return f"{number(100.0 * share, 2)}{THIN}%"
+
+
+def unit(text: str) -> str:
+    """A unit as printed: µ, superscripts, centred dots; nothing for dimension one."""
+    if text in ("1", ""):
+        return ""
+    text = re.sub(r"\bu(?=(g|m|s|V|rad)\b)", "µ", clean(text))
+    text = re.sub(r"(?:\^|\*\*)(-?\d+)", lambda m: m[1].translate(_SUPERSCRIPTS), text)
+    return text.replace("*", "·")
+
+
+def unit_of_term(text: str) -> str:
+    """A unit such as ``V/(m/s^2*m/s^2*K)`` with equal factors gathered: V/((m/s²)²·K)."""
+    found = re.fullmatch(r"V/\((.*)\)", text)
+    if found is None:
+        return unit(text)
+    factors = found[1].split("*")
+    parts = []
+    for f in dict.fromkeys(factors):
+        count, shown = factors.count(f), unit(f)
+        if "/" in shown and len(factors) > 1:
+            shown = f"({shown})"
+        parts.append(shown + (str(count).translate(_SUPERSCRIPTS) if count > 1 else ""))
+    text = "·".join(parts)
+    return f"V/{text}" if len(parts) == 1 and ("/" not in parts[0] or parts[0][0] == "(") else f"V/({text})"
+
+
+def with_unit(text: str, unit_: str) -> str:
+    shown = unit(unit_)
+    return f"{text}{THIN}{shown}" if shown else text
+
+
+def harmonic(name: str) -> str:
+    """``cos 2`` as cos 2Ωt."""
+    kind, _, k = name.partition(" ")
+    return "constant" if not k else f"{kind} {'' if k == '1' else k}Ωt"
+
+
+def product(name: str) -> str:
+    """``a_x*omegadot_y`` as a_x · dω_y/dt; ``1`` as it is."""
+    return " · ".join(_channel(c) for c in clean(name).split("*"))
+
+
+def _channel(name: str) -> str:
+    found = re.fullmatch(r"(d_)?(a|omega|omegadot)_([xyz])", name)
+    if found is None:
+        return name
+    stem = {"a": "a", "omega": "ω", "omegadot": "dω"}[found[2]]
+    text = f"{stem}_{found[3]}" + ("/dt" if found[2] == "omegadot" else "")
+    return f"d{text}/dt" if found[1] else text
+
+
+def listed(names: list[str], conjunction: str = "and") -> str:
+    """``a, b and c``."""
+    if len(names) < 2:
+        return "".join(names)
+    return f"{', '.join(names[:-1])} {conjunction} {names[-1]}"
+
+
+def seconds(x: float) -> str:
+    """A duration in the unit that suits it."""
+    if x < 120.0:
+        return f"{number(x)}{THIN}s"
+    return f"{number(x / 60.0)}{THIN}min" if x < 7200.0 else f"{number(x / 3600.0)}{THIN}h"
+
+
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "Gamma": "Γ", "delta": "δ", "Delta": "Δ", "kappa": "κ",
+    "lambda": "λ", "phi": "φ", "varphi": "φ", "psi": "ψ", "sigma": "σ", "Sigma": "Σ", "tau": "τ",
+    "theta": "θ", "vartheta": "ϑ", "omega": "ω", "Omega": "Ω", "epsilon": "ε", "varepsilon": "ε",
+    "partial": "∂",
+}  # fmt: skip
+
+
+def symbol(latex: str) -> tuple[tuple[str, bool], ...]:
+    r"""A simple LaTeX symbol such as ``\partial_t K_{0}`` in pieces: (text, whether it is a subscript)."""
+    text = re.sub(r"\\(?:mathrm|text|mathit|rm)\b", "", clean(latex))
+    text = re.sub(r"\\([A-Za-z]+)", lambda m: _GREEK.get(m[1], m[1]), text)
+    pieces = []
+    for found in re.finditer(r"_\s*\{([^}]*)\}|_\s*([^\s_{}])|([^_]+)", text):
+        lowered = found[1] or found[2]
+        plain = (lowered or found[3]).translate(str.maketrans("", "", "{}\\ $^"))
+        if plain:
+            pieces.append((plain, lowered is not None))
+    return tuple(pieces)
