@@ -19,6 +19,7 @@ from ragg_runtime.evidence.omnibus import Omnibus
 from ragg_runtime.evidence.search import Field
 from ragg_runtime.evidence.work import BLOCKS, Work
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.metrics import Error, channels, error, pooled
@@ -298,16 +299,18 @@ def terms_json(rem: Remainder, residuals: Sequence[Array], f: Fitted) -> list[di
 
 
 _UNITS = {"a": "m/s^2", "omega": "rad/s", "omegadot": "rad/s^2", "d_a": "m/s^3", "time": "s"}
-_NAMED = {"temperature": "K", "roll": "rad", "pitch": "rad", "pressure": "Pa"}
 
 
 def term_unit(channels_: Sequence[str]) -> str:
     """Unit of a term's coefficient: V over the units of its channels."""
-    units = []
-    for c in channels_:
-        stem = c.rsplit("_", 1)[0] if c[-2:] in ("_x", "_y", "_z") else c
-        units.append(_UNITS.get(stem) or _NAMED.get(c) or "SI")
+    units = [channel_unit(c) for c in channels_]
     return "V" if not units else f"V/({'*'.join(units)})"
+
+
+def channel_unit(name: str) -> str:
+    """SI unit of a channel."""
+    stem = name.rsplit("_", 1)[0] if name[-2:] in ("_x", "_y", "_z") else name
+    return _UNITS.get(stem) or SI_UNITS.get(name, "1")
 
 
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:

@@ -121,6 +121,16 @@ class Diagnosis:
     sizes: tuple[tuple[str, str], ...]
     final: Fitted | None = None
 
+    def expression(self) -> str | None:
+        """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
+        found = [t for s in self.remainder.searches for t in s.terms]
+        if not found:
+            return None
+        term = max(found, key=lambda t: abs(t.z)).term
+        product = "*".join(("K_x", *term.channels, *_carrier_text(term.harmonic)))
+        unit = "/".join(("m/s^2", *(f"({compare.channel_unit(c)})" for c in term.channels)))
+        return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+
     def as_json(self) -> dict[str, object]:
         target = self.final or self.fitted
         return {
@@ -132,11 +142,29 @@ class Diagnosis:
                 "share": self.remainder_share,
                 "log10_p": float(self.remainder.log_p / np.log(10.0)),
                 "terms": compare.terms_json(self.remainder, self.residual_after, target),
+                "expression": self.expression(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": {"rms_Eo": self.noise_floor},
             "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
         }
+
+
+def _carrier_text(harmonic: str) -> tuple[str, ...]:
+    """A harmonic of the disc angle as polynomials in cos_phi and sin_phi."""
+    if harmonic == "const":
+        return ()
+    kind, k = harmonic.split()
+    return {
+        ("cos", "1"): ("cos_phi",),
+        ("sin", "1"): ("sin_phi",),
+        ("cos", "2"): ("(cos_phi**2 - sin_phi**2)",),
+        ("sin", "2"): ("2", "sin_phi", "cos_phi"),
+        ("cos", "3"): ("(4*cos_phi**3 - 3*cos_phi)",),
+        ("sin", "3"): ("(3*sin_phi - 4*sin_phi**3)",),
+        ("cos", "4"): ("(8*cos_phi**4 - 8*cos_phi**2 + 1)",),
+        ("sin", "4"): ("4", "sin_phi", "cos_phi", "(cos_phi**2 - sin_phi**2)"),
+    }[kind, k]
 
 
 def diagnose(

@@ -112,6 +112,11 @@ def diagnosed(d: Diagnosis, model_dir: Path) -> str:
                 f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
                 f" {t['z']:+.1f} sigma"
             )
+        if d.expression():
+            lines += [
+                "\n  to keep it as an effect of your own, put this into `effects` of model.toml:",
+                f"  {d.expression()}",
+            ]
     if d.not_testable:
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]

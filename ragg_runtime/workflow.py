@@ -130,12 +130,13 @@ def diagnose(m: Loaded, flights: Sequence[Flight]) -> Diagnosis:
 def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
-    The directory is changed whole or not at all.
+    An effect that model.toml lists without values (one of your own, say) is calibrated likewise. The directory is changed whole or not at all.
     """
     instrument = m.instrument
     known = extend.known(instrument)
     symbolic = known.get(effect, at(m.directory.path))
-    if effect in {e.id for e in m.model.effects}:
+    present = next((s for s in instrument.effects if s.id == effect), None)
+    if present is not None and present.values:
         raise UserError(
             "the effect is in the model already",
             where=str(m.directory.path),
@@ -152,12 +153,14 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
                 expected="a column of that name with its unit",
                 remedy="record it, or choose another effect",
             )
-    before = compare(m, flights) if flights else None
+    others = replace(instrument, effects=tuple(s for s in instrument.effects if s.id != effect))
+    before = _compare.compare(extend.model_of(others), others, flights) if flights else None
     values: dict[str, RawQuantity] = {}
     if symbolic.kind == "step" and flights:
         values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
-    setting = EffectSetting(effect, MappingProxyType(values))
-    extended = replace(instrument, effects=(*instrument.effects, setting))
+    expression = present.expression if present is not None else None
+    setting = EffectSetting(effect, MappingProxyType(values), expression)
+    extended = replace(instrument, effects=(*others.effects, setting))
     model = extend.model_of(extended)
     after: Comparison | None = None
     parameters: tuple[ParameterValue, ...] = ()
@@ -167,11 +170,12 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         parameters, combinations = calibrated(after, effect)
         values |= settings(parameters)
         with_values = replace(
-            instrument, effects=(*instrument.effects, EffectSetting(effect, MappingProxyType(values)))
+            extended,
+            effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         nominal = _compare.nominal_residuals(after.fitted, with_values)
         after = replace(after, nominal=after.fitted.error(nominal), residual_nominal=tuple(nominal))
-    text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values)))
+    text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",
         _now(),
