@@ -1,0 +1,157 @@
+"""The instrument at 50 digits, written down from Eq. 1-15 in vectors: no symbol, no printing, no expansion.
+
+The order of counting is the paper's: mounting rotations to first order in each angle and multiplied out,
+misalignment to first order (Eq. 2), second-order terms without angles (below Eq. 5b).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+from numpy.typing import NDArray
+
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
+
+Array = NDArray[np.float64]
+
+CONTEXT: Any = mpmath.mp.clone()
+CONTEXT.dps = 50
+real = CONTEXT.mpf
+
+PER_ACCELEROMETER = (
+    "dR", "beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z",
+    "K0", "K1", "K2", "K4", "K5", "K6", "K7", "K8", "k_VI",
+)  # fmt: skip
+PLACES = (0, 2, 1, 3)
+SIGNS = (1, 1, -1, -1)
+
+
+def exact(values: Array) -> list[Any]:
+    """Float64 numbers as they are, without rounding."""
+    return [real(float(v)) for v in values]
+
+
+def _plus(*vectors: Sequence[Any]) -> list[Any]:
+    return [sum(parts, real(0)) for parts in zip(*vectors, strict=True)]
+
+
+def _times(s: Any, v: Sequence[Any]) -> list[Any]:
+    return [s * x for x in v]
+
+
+def _dot(u: Sequence[Any], v: Sequence[Any]) -> Any:
+    return sum((x * y for x, y in zip(u, v, strict=True)), real(0))
+
+
+def _cross(u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+
+def voltages(t: Any, x: Sequence[Any], p: Sequence[Any]) -> list[Any]:
+    """V_1 ... V_4 at one instant; ``x`` the 15 motion channels, ``p`` the 62 parameters."""
+    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
+    xx, xy, xz, yy, yz, zz = x[9:]
+    Gamma = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    phi = 2 * CONTEXT.pi * p[1] * t
+
+    def specific_force(r: Sequence[Any]) -> list[Any]:
+        gravity = [-_dot(row, r) for row in Gamma]
+        return _plus(a, _cross(omegadot, r), _cross(omega, _cross(omega, r)), gravity)
+
+    found = []
+    for j in range(4):
+        k = {name: p[2 + 4 * n + j] for n, name in enumerate(PER_ACCELEROMETER)}
+        psi = phi + PLACES[j] * CONTEXT.pi / 2
+        e_r = [CONTEXT.cos(psi), CONTEXT.sin(psi), real(0)]
+        e_t = [-CONTEXT.sin(psi), CONTEXT.cos(psi), real(0)]
+        e_z = [real(0), real(0), real(1)]
+        turned_r = _plus(e_r, _times(k["beta_z"], e_t))
+        turned_t = _plus(e_t, _times(-k["beta_z"], e_r))
+        R = p[0] + k["dR"]
+        f = specific_force(_times(R, _plus(turned_r, _times(k["beta_x"], e_z))))
+        x_j = _dot(f, turned_t)
+        y_j = _dot(f, _plus(turned_r, _times(-k["beta_x"], e_z)))
+        z_j = -_dot(f, _plus(e_z, _times(k["beta_x"], turned_r)))
+        i = x_j + y_j * k["vartheta_z"] - z_j * k["vartheta_y"]
+        # second-order terms: nominal place and triad, at the actual radius
+        q = specific_force(_times(R, e_r))
+        q_i, q_o, q_p = _dot(q, e_t), _dot(q, e_r), -q[2]
+        i += k["K0"] + k["K2"] * q_i**2 + k["K5"] * q_o**2 + k["K7"] * q_p**2
+        i += k["K4"] * q_i * q_p + k["K6"] * q_i * q_o + k["K8"] * q_o * q_p
+        found.append(k["k_VI"] * k["K1"] * i)
+    return found
+
+
+def output(t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:
+    """G_out (Eq. 15) at one instant."""
+    return sum((s * v for s, v in zip(SIGNS, voltages(t, x, p), strict=True)), real(0))
+
+
+def motion_numbers(x: Sequence[Any]) -> Mapping[str, Any]:
+    """T_1 ... T_6, S_1, S_2, S_4 from the matrix M = [omegadot]x + [omega]x[omega]x - Gamma (Eq. 9, 16)."""
+    omega, omegadot = x[3:6], x[6:9]
+    xx, xy, xz, yy, yz, zz = x[9:]
+    Gamma = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    unit = [[real(int(n == k)) for n in range(3)] for k in range(3)]
+    columns = [
+        _plus(_cross(omegadot, e), _cross(omega, _cross(omega, e)), [-row[k] for row in Gamma])
+        for k, e in enumerate(unit)
+    ]
+    M = [[columns[k][i] for k in range(3)] for i in range(3)]
+    return {
+        "a_x": x[0], "a_y": x[1], "a_z": x[2],
+        "T_1": (M[1][1] - M[0][0]) / 2, "T_2": (M[0][1] + M[1][0]) / 2,
+        "T_3": -M[2][1], "T_4": -M[2][0],
+        "T_5": -(M[0][0] + M[1][1]) / 2, "T_6": (M[1][0] - M[0][1]) / 2,
+        "S_1": -M[0][2], "S_2": -M[1][2], "S_4": -M[2][2],
+    }  # fmt: skip
+
+
+_WEIGHTS = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
+
+
+def amplitudes(c: Collected, x: Sequence[Any], p: Sequence[Any]) -> dict[str, Any]:
+    """The amplitudes of a collected model, its exact rational polynomials put into numbers."""
+    numbers = motion_numbers(x)
+    motion = [numbers[n] for n in MOTION_NUMBERS]
+    own = []
+    for j in range(4):
+        k = {name: p[2 + 4 * n + j] for n, name in enumerate(PER_ACCELEROMETER)}
+        k |= {"k1": k["k_VI"] * k["K1"], "R": p[0] + k["dR"]}
+        own.append([k[n] for n in COEFFICIENT_PARAMETERS])
+
+    def power(base: Sequence[Any], exponents: Sequence[int]) -> Any:
+        product = real(1)
+        for b, n in zip(base, exponents, strict=True):
+            if n:
+                product *= b**n
+        return product
+
+    def coefficient(t: Any) -> Any:
+        total = real(0)
+        for weight, k in zip(_WEIGHTS[t.combination], own, strict=True):
+            if weight:
+                for monomial, factor in t.coefficient.terms():
+                    total += (
+                        weight * real(int(factor.numerator)) / int(factor.denominator) * power(k, monomial)
+                    )
+        return total
+
+    return {
+        name: sum((coefficient(t) * power(motion, t.motion) for t in terms), real(0))
+        for name, terms in c.amplitudes.items()
+    }
+
+
+def from_amplitudes(A: Mapping[str, Any], t: Any, spin_frequency: Any) -> Any:
+    """G_out of the amplitudes (Eq. 17)."""
+    phi = 2 * CONTEXT.pi * spin_frequency * t
+    total = real(0)
+    for name, value in A.items():
+        n = int(name[2:].rstrip("cs"))
+        wave = CONTEXT.sin if name.endswith("s") else CONTEXT.cos
+        total += value * wave(n * phi)
+    return total

@@ -1,0 +1,212 @@
+"""The generated C: clean under two compilers and the sanitizers, and equal to the NumPy code."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import subprocess
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+import generated
+from derive.effect import Effect
+from derive.effects import catalogue
+from derive.pipeline import derive_model
+from generated import analytical, chain, signatures, simplified
+from ragg_runtime.units import units
+from tests.generated import compiled, draws
+from tests.generated.draws import Array
+
+USE = Path(__file__).with_name("use.c")
+MODELS = ("analytical", "chain", "signatures", "simplified")
+SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1")
+FIRST_INSTANT = 1e5
+
+
+def have(compiler: str) -> str:
+    if compiler != "gcc" and shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is not installed")
+    return compiler
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> dict[str, compiled.Library]:
+    return compiled.committed(tmp_path_factory.mktemp("c"))
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+@pytest.mark.parametrize("sanitized", [False, True], ids=["plain", "sanitized"])
+def test_program_of_a_user(compiler: str, sanitized: bool, tmp_path: Path) -> None:
+    """A program in C that uses all four models, every warning an error; its numbers are those of NumPy."""
+    program = tmp_path / "use"
+    sources = [str(USE), *(str(compiled.SOURCES / f"{n}.c") for n in MODELS)]
+    options = SANITIZERS if sanitized else ("-O2",)
+    compiled.compile_with(
+        have(compiler),
+        [*compiled.STRICT, *options, f"-I{compiled.SOURCES}", *sources, "-lm", "-o", str(program)],
+    )
+    done = subprocess.run([str(program)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    t, G, G_simplified, G_chain, by_K1, A_0, signature = np.loadtxt(done.stdout.splitlines()).T
+
+    p, inputs = table_v(), table_vi(t)
+    np.testing.assert_array_equal(t, FIRST_INSTANT + 0.3 * np.arange(16))
+    size = np.max(np.abs(G))
+    np.testing.assert_allclose(G, analytical.output(t, inputs, p), rtol=0, atol=1e-12 * size)
+    np.testing.assert_allclose(G_simplified, simplified.output(t, inputs, p), rtol=0, atol=1e-12 * size)
+    np.testing.assert_allclose(G_chain, G, rtol=0, atol=1e-11 * size)  # two forms of one model
+    assert 0 < np.max(np.abs(G_simplified - G)) < 1e-5 * size  # the simplified one is near, not equal
+    K1 = 2 + 4 * [n for n, size in analytical.PARAMETERS if size == 4].index("K1")
+    np.testing.assert_allclose(by_K1, analytical.jacobian(t, inputs, p)[K1], rtol=1e-11)
+    np.testing.assert_allclose(A_0, analytical.amplitudes(inputs, p)[0], rtol=1e-11)
+    wide = np.vstack([inputs, np.zeros((len(signatures.INPUTS) - len(inputs), len(t)))])
+    long = np.concatenate([p, np.zeros(signatures.SIZE - len(p))])
+    phi = analytical.disc_angle(t, 0.25)
+    row = signatures.derivatives(0, t, np.cos(phi), np.sin(phi), wide, signatures.values_of(0, long))[0]
+    np.testing.assert_allclose(signature, row, rtol=1e-11, atol=1e-12 * np.max(np.abs(row)))
+
+
+def table_v() -> Array:
+    """Table V as use.c writes it, (62,)."""
+    arcsec, g = 4.84813681109536e-6, 9.8
+    rows = {
+        "dR": (1e-6, 0, 30, 35, 25), "beta_x": (arcsec, 21, 14, 17, 19), "beta_z": (arcsec, 18, 8, 10, 20),
+        "vartheta_x": (arcsec, 0, 0, 0, 0), "vartheta_y": (arcsec, 21, 10, 7, 19),
+        "vartheta_z": (arcsec, 30, 19, 20, 9), "K0": (1e-6 * g, 10, 2, 5, 8),
+        "K1": (1e-3 / g, 10, 11, 11.5, 12), "K2": (1e-6 / g, 5, 1, 8, 7), "K4": (1e-6 / g, 6, 12, 5, 16),
+        "K5": (1e-6 / g, 4, 11, 9, 13), "K6": (1e-6 / g, 3, 12, 8, 10), "K7": (1e-6 / g, 5, 15, 7, 17),
+        "K8": (1e-6 / g, 0, 7, 11, 20), "k_VI": (1e9, 1, 1, 1, 1),
+    }  # fmt: skip
+    values = [0.1, 0.25]
+    for name, size in analytical.PARAMETERS:
+        if size == 4:
+            unit, *four = rows[name]
+            values += [unit * v for v in four]
+    return np.array(values)
+
+
+def table_vi(t: Array) -> Array:
+    """Table VI as use.c writes it, (15, N)."""
+    g, rate, spin = 9.8, 4.84813681109536e-6, 2 * np.pi * 0.25
+    mean = np.array([0.08 * g, 0.06 * g, 0.1 * g, 1000 * rate, 1500 * rate, 2000 * rate])
+    wave = np.array([0.005 * g, 0.006 * g, 0.05 * g, 700 * rate, 900 * rate, 800 * rate])
+    moving = mean[:, None] + np.outer(wave, np.sin(spin * t))
+    turning = np.outer(wave[3:] * spin, np.cos(spin * t))
+    gradient = np.outer(1e-9 * 100 * np.arange(9, 15), np.ones_like(t))
+    return np.vstack([moving, turning, gradient])
+
+
+@pytest.mark.parametrize("compiler", ["g++", "clang++"])
+def test_headers_serve_cpp(compiler: str, tmp_path: Path) -> None:
+    source = tmp_path / "headers.cpp"
+    calls = "".join(f'#include "{n}.h"\n' for n in MODELS) + "int main() { return RAGG_CHAIN_ROWS == 0; }\n"
+    source.write_text(calls)
+    strict = ["-std=c++17", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only"]
+    if shutil.which(compiler) is None:
+        pytest.skip(f"{compiler} is not installed")
+    compiled.compile_with(compiler, [*strict, f"-I{compiled.SOURCES}", str(source)])
+
+
+def test_headers_name_what_the_manifest_lists() -> None:
+    entries = json.loads((Path(str(generated.__file__)).parent / "manifest.json").read_text())["models"]
+    for name, entry in entries.items():
+        header = (compiled.SOURCES / f"{name}.h").read_text()
+        assert 'extern "C"' in header
+        assert f"_INPUTS {len(entry['inputs'])}\n" in header
+        assert f"_PARAMETERS {sum(q['size'] for q in entry['parameters'])}\n" in header
+        assert all(f"{q['name']} ({q['size']})" in header for q in entry["parameters"])
+
+
+@pytest.mark.parametrize("start", [0.0, 1e6])
+def test_harmonic_models_equal_numpy(start: float, library: Mapping[str, compiled.Library]) -> None:
+    draw = np.random.default_rng(20)
+    t, inputs, p = start + draw.uniform(0, 100, 50), draws.motion(draw, 50), draws.instrument(draw)
+    for module in (analytical, simplified):
+        c = library[module.__name__.split(".")[-1]]
+        A = module.amplitudes(inputs, p)
+        sizes = np.max(np.abs(A), axis=1, keepdims=True)
+        assert np.all(np.abs(c.amplitudes(inputs, p, len(A)) - A) <= 1e-13 * sizes)
+        G = module.output(t, inputs, p)
+        np.testing.assert_allclose(c.output(t, inputs, p), G, rtol=0, atol=1e-14 * np.max(np.abs(sizes)))
+        J = module.jacobian(t, inputs, p)
+        rows = np.max(np.abs(J), axis=1, keepdims=True)
+        assert np.all(np.abs(c.jacobian(t, inputs, p) - J) <= 1e-12 * rows)
+
+
+def same_chain(module: ModuleType, c: compiled.Library, t: Array, inputs: Array, p: Array) -> None:
+    """Voltages, output and derivatives of a chain: C against NumPy, to a few roundings."""
+    phi = analytical.disc_angle(t, float(p[1]))
+    turning = np.cos(phi), np.sin(phi)
+    V = module.voltages(t, *turning, inputs, p)
+    assert np.all(np.isfinite(V))
+    size = np.max(np.abs(V))
+    np.testing.assert_allclose(c.voltages(t, inputs, p), V, rtol=0, atol=1e-14 * size)
+    np.testing.assert_allclose(
+        c.output(t, inputs, p), module.output(t, *turning, inputs, p), rtol=0, atol=4e-14 * size
+    )
+    for j in range(4):
+        D = module.derivatives(j, t, *turning, inputs, module.values_of(j, p))
+        found = c.derivatives(j, t, inputs, p, len(D))
+        rows = np.max(np.abs(D), axis=1, keepdims=True)
+        names = [
+            n
+            for (n, _), bad in zip(module.ROWS, np.any(np.abs(found - D) > 1e-11 * rows, axis=1), strict=True)
+            if bad
+        ]
+        assert not names, names
+
+
+def inputs_of(module: ModuleType, draw: np.random.Generator, n: int) -> Array:
+    """Motion of Table VI, rates of it, and auxiliary channels of order one."""
+    further = draw.uniform(-1, 1, (len(module.INPUTS) - 15, n))
+    return np.vstack([draws.motion(draw, n), further])
+
+
+def plausible(effects: tuple[Effect, ...], draw: np.random.Generator, half_way: float) -> Array:
+    """Values of plausible size of the parameters that effects bring; a step begins half-way."""
+    known = units(draws.G0)
+    values: list[float] = []
+    for e in effects:
+        for q in e.parameters:
+            si = float(known.to_si(1.0, q.unit, known.base_unit(q.unit)))
+            for sign in draw.choice((-1.0, 1.0), 1 if q.shared else 4):
+                values.append(
+                    half_way
+                    if not math.isfinite(q.neutral) or q.name == "t_step"
+                    else sign * si * q.plausible
+                )
+    return np.array(values)
+
+
+@pytest.mark.parametrize("start", [0.0, 1e6])
+def test_chain_and_signatures_equal_numpy(start: float, library: Mapping[str, compiled.Library]) -> None:
+    draw = np.random.default_rng(21)
+    t = start + np.sort(draw.uniform(0, 100, 40))
+    for name, module in (("chain", chain), ("signatures", signatures)):
+        p = np.concatenate([draws.instrument(draw), np.zeros(module.SIZE - 62)])
+        same_chain(module, library[name], t, inputs_of(module, draw, len(t)), p)
+
+
+def test_every_effect_equals_numpy(tmp_path: Path) -> None:
+    """The chain extended by each effect of the catalogue at a plausible size."""
+    effects = {e.id: e for e in catalogue() if e.kind in ("deterministic", "step")}
+    texts = {i: derive_model([e], ()) for i, e in effects.items()}
+    base = (Path(str(generated.__file__)).parent / "c" / "chain.c").read_text()
+    assert [i for i, files in texts.items() if files["c/chain.c"] == base] == []  # every effect acts
+    draw = np.random.default_rng(22)
+    t = np.linspace(0.0, 100.0, 41)
+    for identifier, c in compiled.chains(tmp_path, texts).items():
+        module = ModuleType(identifier)
+        exec(compile(texts[identifier]["chain.py"], f"<{identifier}>", "exec"), module.__dict__)
+        p = np.concatenate([draws.instrument(draw), plausible((effects[identifier],), draw, 51.0)])
+        assert len(p) == module.SIZE
+        try:
+            same_chain(module, c, t, inputs_of(module, draw, len(t)), p)
+        except AssertionError as error:
+            raise AssertionError(f"{identifier}: {error}") from None

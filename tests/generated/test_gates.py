@@ -1,0 +1,179 @@
+"""The two gates: committed bytes against the derivation, and the physics at 50 digits against the instrument.
+
+The second holds whatever the tools do to the text: a release of SymPy that only orders terms anew fails the
+first gate (derive again) and casts no doubt on the physics.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import generated
+from derive import tree
+from derive.propagation import collect, motion_numbers
+from derive.symbols import MOTION, symbol
+from generated import analytical, chain
+from tests.generated import compiled, draws
+from tests.generated import fifty_digits as fifty
+
+COMMITTED = Path(str(generated.__file__)).parent
+ROOT = COMMITTED.parent
+
+
+def ragg(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "ragg_runtime", *arguments]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+
+def copy_of_generated(folder: Path) -> Path:
+    shutil.copytree(COMMITTED, folder / "generated", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def test_committed_code_is_what_the_derivation_yields() -> None:
+    done = ragg("derive", "--check")
+    assert done.returncode == 0, done.stderr
+
+
+def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path: Path) -> None:
+    root = copy_of_generated(tmp_path)
+    changed = root / "generated" / "simplified.py"
+    changed.write_text(changed.read_text().replace("D1234(K0*k1)", "D1234(-K0*k1)"))
+    (root / "generated" / "c" / "chain.h").unlink()
+    (root / "generated" / "by_hand.py").write_text("x = 1\n")
+
+    done = ragg("derive", "--check", "--out", str(root))
+    assert done.returncode == 2
+    said = done.stderr
+    assert "Traceback" not in said
+    assert "missing: c/chain.h" in said
+    assert "not derived: by_hand.py" in said
+    lines = [line.strip() for line in said.splitlines()]
+    assert any(line.startswith("-") and "D1234(-K0*k1)" in line for line in lines)
+    assert any(line.startswith("+") and "D1234(K0*k1)" in line for line in lines)
+    assert "make derive" in said
+
+    mended = ragg("derive", "--out", str(root))
+    assert mended.returncode == 0
+    assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.stdout.split()}
+    committed = {
+        n: (COMMITTED / n).read_text() for n in json.loads((COMMITTED / "manifest.json").read_text())["files"]
+    }
+    assert not tree.difference(committed, root / "generated")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [("a\nb\n", "a\nb", "final newline"), ("a\nb\n", "a\r\nb\r\n", ""), ("a\nb\n", "a\nc\n", "-c")],
+)
+def test_every_byte_counts(tmp_path: Path, old: str, new: str, message: str) -> None:
+    (tmp_path / "x.py").write_bytes(new.encode())
+    found = tree.difference({"x.py": old}, tmp_path)
+    assert found
+    assert message in found
+    tree.write({"x.py": old}, tmp_path)
+    assert not tree.difference({"x.py": old}, tmp_path)
+
+
+def test_the_hash_seed_of_python_changes_no_byte() -> None:
+    """SymPy keeps arguments in sets; nothing of their order may reach a file."""
+    script = (
+        "import hashlib; from derive.pipeline import derive_base\n"
+        "print(hashlib.sha256(repr(list(derive_base().items())).encode()).hexdigest())"
+    )
+    running = [
+        subprocess.Popen(
+            [sys.executable, "-c", script],
+            cwd=ROOT,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        for seed in ("0", "1", "31337")
+    ]
+    digests = {p.communicate()[0].strip() for p in running}
+    names = json.loads((COMMITTED / "manifest.json").read_text())["files"]
+    committed = [(n, (COMMITTED / n).read_text()) for n in names]
+    assert digests == {hashlib.sha256(repr(committed).encode()).hexdigest()}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_derived_amplitudes_are_the_instrument_at_50_digits(seed: int) -> None:
+    """Eq. 17-19 as derived, exact rationals, against Eq. 1-15 in vectors: equal to 45 digits."""
+    draw = np.random.default_rng(seed)
+    # of order one, so that every term, up to the fourth order in the angles, counts
+    p = np.concatenate([[0.7, 0.25], draw.uniform(-1, 1, 60)])
+    x = fifty.exact(draw.uniform(-1, 1, 15))
+    q, t = fifty.exact(p), fifty.exact(draw.uniform(0, 4, 1))[0]
+    true = fifty.output(t, x, q)
+    derived = fifty.from_amplitudes(fifty.amplitudes(collect(), x, q), t, q[1])
+    assert abs(derived - true) < fifty.real(10) ** -45 * max(1, abs(true))
+
+
+def test_motion_numbers_are_those_of_the_gradient() -> None:
+    """Eq. 16 as derived against the columns of M, taken from cross products."""
+    values = np.random.default_rng(7).uniform(-1, 1, 15)
+    true = fifty.motion_numbers(fifty.exact(values))
+    at = {symbol(c.name): float(v) for c, v in zip(MOTION, values, strict=True)}
+    for name, e in motion_numbers().items():
+        if name in true:
+            assert float(e.subs(at)) == pytest.approx(float(true[name]), rel=1e-13, abs=1e-15)
+
+
+def test_generated_code_is_the_instrument_at_50_digits(tmp_path: Path) -> None:
+    """The committed NumPy and C, analytical model and chain, at parameters of order one: every term counts."""
+    library = compiled.committed(tmp_path)
+    for seed in range(5):
+        draw = np.random.default_rng(100 + seed)
+        p = np.concatenate([[0.7, 0.25], draw.uniform(-1, 1, 60)])
+        inputs, t = draw.uniform(-1, 1, (15, 7)), draw.uniform(0, 4, 7)
+        angle = analytical.disc_angle(t, 0.25)
+        q = fifty.exact(p)
+        V = np.array(
+            [
+                [float(v) for v in fifty.voltages(s, fifty.exact(inputs[:, n]), q)]
+                for n, s in enumerate(fifty.exact(t))
+            ]
+        ).T
+        G = V[0] + V[1] - V[2] - V[3]
+        size = 1e-13 * np.max(np.abs(V))
+        found = {
+            "analytical.py": analytical.output(t, inputs, p),
+            "analytical.c": library["analytical"].output(t, inputs, p),
+            "chain.py": chain.output(t, np.cos(angle), np.sin(angle), inputs, p),
+            "chain.c": library["chain"].output(t, inputs, p),
+        }
+        for name, output in found.items():
+            np.testing.assert_allclose(output, G, rtol=0, atol=10 * size, err_msg=name)
+        np.testing.assert_allclose(library["chain"].voltages(t, inputs, p), V, rtol=0, atol=size)
+        voltages = chain.voltages(t, np.cos(angle), np.sin(angle), inputs, p)
+        np.testing.assert_allclose(voltages, V, rtol=0, atol=size)
+
+
+def test_the_gate_sees_a_wrong_sign() -> None:
+    """One sign changed in the committed text moves the output far beyond what the gate lets pass."""
+    text = (COMMITTED / "analytical.py").read_text()
+    wrong = text.replace("D1234(K8*R*k1) * (T_5*a_z)", "D1234(-K8*R*k1) * (T_5*a_z)", 1)
+    assert wrong != text
+    names: dict[str, object] = {}
+    exec(compile(wrong, "wrong", "exec"), names)
+    draw = np.random.default_rng(100)
+    p = np.concatenate([[0.7, 0.25], draw.uniform(-1, 1, 60)])
+    inputs, t = draw.uniform(-1, 1, (15, 3)), draw.uniform(0, 4, 3)
+    moved = np.abs(names["output"](t, inputs, p) - analytical.output(t, inputs, p))  # type: ignore[operator]
+    assert np.max(moved) > 1e-6
+
+
+def test_draws_have_the_sizes_of_the_tables() -> None:
+    p = draws.instrument(np.random.default_rng(0))
+    assert len(p) == analytical.SIZE
+    assert draws.signal(p) == pytest.approx(4 * 11e-3 / 9.8 * 1e9 * 0.1, rel=0.1)

@@ -1,0 +1,129 @@
+"""Round-off of the generated code against the same instrument at 50 digits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derive.propagation import Collected, collect
+from derive.simplify import simplified as simplified_model
+from generated import analytical, simplified
+from tests.generated import compiled, draws
+from tests.generated import fifty_digits as fifty
+from tests.generated.draws import Array
+
+SECONDS = (0.0, 1e6)
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> dict[str, compiled.Library]:
+    return compiled.committed(tmp_path_factory.mktemp("c"))
+
+
+def cases(start: float, seed: int, count: int = 25) -> list[tuple[Array, Array, Array]]:
+    """(t, inputs, p): instants of one turn of the disc from ``start``."""
+    draw = np.random.default_rng(seed)
+    return [
+        (start + draw.uniform(0, 4, 6), draws.motion(draw, 6), draws.instrument(draw)) for _ in range(count)
+    ]
+
+
+def error_eotvos(found: Array, true: list[object], p: Array) -> float:
+    """Largest difference from the 50-digit value, in Eo of gradient signal."""
+    difference = [float(fifty.real(float(g)) - v) for g, v in zip(found, true, strict=True)]
+    return float(np.max(np.abs(difference))) / draws.signal(p) / draws.EOTVOS
+
+
+def true_output(t: Array, inputs: Array, p: Array, model: Collected | None) -> list[object]:
+    """At 50 digits: the instrument itself, or a collected model."""
+    q = fifty.exact(p)
+    found = []
+    for n, instant in enumerate(fifty.exact(t)):
+        x = fifty.exact(inputs[:, n])
+        if model is None:
+            found.append(fifty.output(instant, x, q))
+        else:
+            found.append(fifty.from_amplitudes(fifty.amplitudes(model, x, q), instant, q[1]))
+    return found
+
+
+@pytest.mark.parametrize("start", SECONDS)
+def test_analytical_output_within_a_millionth_of_an_eotvos(
+    start: float, library: dict[str, compiled.Library]
+) -> None:
+    worst = {"numpy": 0.0, "c": 0.0}
+    for t, inputs, p in cases(start, seed=1):
+        true = true_output(t, inputs, p, None)
+        for name, output in (("numpy", analytical.output), ("c", library["analytical"].output)):
+            worst[name] = max(worst[name], error_eotvos(output(t, inputs, p), true, p))
+    assert max(worst.values()) < 1e-6, worst
+
+
+@pytest.mark.parametrize("start", SECONDS)
+def test_simplified_output_within_a_millionth_of_an_eotvos(
+    start: float, library: dict[str, compiled.Library]
+) -> None:
+    worst = {"numpy": 0.0, "c": 0.0}
+    model = simplified_model()
+    for t, inputs, p in cases(start, seed=2):
+        true = true_output(t, inputs, p, model)
+        for name, output in (("numpy", simplified.output), ("c", library["simplified"].output)):
+            worst[name] = max(worst[name], error_eotvos(output(t, inputs, p), true, p))
+    assert max(worst.values()) < 1e-6, worst
+
+
+def test_disc_angle_loses_nothing_with_time() -> None:
+    """At a frequency that is no binary fraction the product f t is rounded by 1e-10 turn after 1e6 s."""
+    t = 1e6 + np.random.default_rng(3).uniform(0, 4, 200)
+    f = 0.2503
+    lost = 0.0
+    for instant, angle in zip(t, analytical.disc_angle(t, f), strict=True):
+        turns = fifty.real(f) * fifty.real(float(instant))
+        true = 2 * fifty.CONTEXT.pi * (turns - fifty.CONTEXT.nint(turns))
+        lost = max(lost, abs(float(fifty.real(float(angle)) - true)))
+    assert lost < 1e-15
+    assert np.max(np.abs(analytical.disc_angle(t, f))) <= np.pi
+
+
+@pytest.mark.parametrize("start", SECONDS)
+def test_jacobian_is_the_derivative_of_the_instrument(
+    start: float, library: dict[str, compiled.Library]
+) -> None:
+    """Against central differences at 50 digits, which are exact to 1e-30."""
+    t, inputs, p = cases(start, seed=4, count=1)[0]
+    q = fifty.exact(p)
+    true = np.empty((len(p), len(t)))
+    for n, instant in enumerate(fifty.exact(t)):
+        x = fifty.exact(inputs[:, n])
+        for k in range(len(p)):
+            step = fifty.real(10) ** -18 * (abs(q[k]) if q[k] else 1)
+            up, down = (fifty.output(instant, x, [*q[:k], q[k] + s, *q[k + 1 :]]) for s in (step, -step))
+            true[k, n] = float((up - down) / (2 * step))
+    scale = np.max(np.abs(true), axis=1, keepdims=True)
+    names = [n for n, size in analytical.PARAMETERS for _ in range(size)]
+    zero = [n for n, s in zip(names, scale[:, 0], strict=True) if s == 0]
+    assert zero == ["vartheta_x"] * 4  # it turns about the input axis' normal: no first-order effect (Eq. 5a)
+    scale[scale == 0] = 1.0
+    for jacobian in (analytical.jacobian, library["analytical"].jacobian):
+        wrong = np.max(np.abs(jacobian(t, inputs, p) - true) / scale, axis=1)
+        assert np.max(wrong) < 1e-11, {n: w for n, w in zip(names, wrong, strict=True) if w >= 1e-11}
+
+
+def test_simplified_jacobian_is_the_derivative_of_its_output(library: dict[str, compiled.Library]) -> None:
+    t, inputs, p = cases(1.0, seed=5, count=1)[0]
+    model, q = simplified_model(), fifty.exact(p)
+    rows = [0, 1, *range(2, len(p), 4)]  # the first accelerometer and what all share
+    instant, x = fifty.exact(t)[0], fifty.exact(inputs[:, 0])
+    found = simplified.jacobian(t, inputs, p), library["simplified"].jacobian(t, inputs, p)
+    scale = np.max(np.abs(found[0]), axis=1)
+    for k in rows:
+        step = fifty.real(10) ** -18 * (abs(q[k]) if q[k] else 1)
+        up, down = (
+            fifty.from_amplitudes(fifty.amplitudes(model, x, changed), instant, changed[1])
+            for changed in ([*q[:k], q[k] + s, *q[k + 1 :]] for s in (step, -step))
+        )
+        true = float((up - down) / (2 * step))
+        for J in found:
+            assert abs(J[k, 0] - true) <= 1e-11 * scale[k]
