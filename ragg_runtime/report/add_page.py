@@ -8,8 +8,18 @@ from typing import Any
 from ragg_runtime import compare
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis
-from ragg_runtime.report import budget, diagnose_page, figures, page, panels, parameters, series, words
-from ragg_runtime.report.figures import Step
+from ragg_runtime.report import (
+    barcharts,
+    budget,
+    diagnose_page,
+    figures,
+    page,
+    panels,
+    parameters,
+    series,
+    words,
+)
+from ragg_runtime.report.barcharts import Step
 from ragg_runtime.report.page import Origin
 
 STEPS = 14
@@ -130,7 +140,7 @@ def _loop(history: Sequence[Mapping[str, Any]], after: Comparison) -> dict[str, 
     steps = _steps(history)
     if not steps:
         return None
-    svg = figures.loop(steps, after.noise_floor, "loop", "error after every step")
+    svg = barcharts.loop(steps, after.noise_floor, "loop", "error after every step")
     caption = (
         "Calibrated error before demodulation after every step, and the noise floor of the present flights."
     )
@@ -169,7 +179,7 @@ def _sections(before: Comparison, after: Comparison) -> list[dict[str, Any]]:
 
 def _budget(after: Comparison) -> dict[str, Any]:
     rows = budget.contributions(after.fitted)
-    svg = figures.budget(rows, after.noise_floor, "budget", "what each group of parameters contributes")
+    svg = barcharts.budget(rows, after.noise_floor, "budget", "what each group of parameters contributes")
     caption = (
         "What each group of calibrated parameters contributes to the output: the change when it is put to zero"
         " and all else stays. Bars: rms before demodulation; marks: standard deviation in the channels. Dark:"

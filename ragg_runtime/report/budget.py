@@ -10,7 +10,7 @@ from ragg_runtime.evaluate import output, unit_factor
 from ragg_runtime.instrument import PARAMETERS
 from ragg_runtime.metrics import error
 from ragg_runtime.report import words
-from ragg_runtime.report.figures import Contribution
+from ragg_runtime.report.barcharts import Contribution
 
 Array = NDArray[np.float64]
 

@@ -12,9 +12,9 @@ from ragg_runtime import compare
 from ragg_runtime.compare import Fitted
 from ragg_runtime.diagnose import Diagnosis, Ranked
 from ragg_runtime.evidence import search
-from ragg_runtime.report import effect_values, figures, page, panels, parameters, series, words
+from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters, series, words
+from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.effect_values import Value, Values
-from ragg_runtime.report.figures import Bar
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.parameters import Row
 
@@ -179,7 +179,7 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     finite = [b.value for b in bars if math.isfinite(b.value)]
     log = bool(finite) and max(finite) > 8.0 * level
     unit = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
-    svg = figures.lying(bars, key, "evidence for each effect", unit, level, log)
+    svg = barcharts.lying(bars, key, "evidence for each effect", unit, level, log)
     caption = (
         "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
         " Right of the dashed line the whole catalogue would raise a false alarm in one record of a hundred."

@@ -146,3 +146,8 @@ def no_ticks(axes: Axes, which: str) -> None:
     """Labels of categories need no tick marks and no grid."""
     axes.tick_params(axis="x" if which == "x" else "y", length=0)
     (axes.xaxis if which == "x" else axes.yaxis).grid(False)
+
+
+def legend(ax: Axes, columns: int) -> None:
+    """A legend in one line above the axes, at the right."""
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, borderaxespad=0.2)

@@ -13,8 +13,9 @@ from ragg_runtime.compare import FITTED_BLOCKS, Comparison, Fitted
 from ragg_runtime.demodulate import CUTOFF, WIDTH
 from ragg_runtime.evidence.work import BLOCKS
 from ragg_runtime.metrics import Error
-from ragg_runtime.report import draw, figures, series, words
-from ragg_runtime.report.figures import Bar, ChannelPanel, Line, SpectrumPanel, TimePanel
+from ragg_runtime.report import barcharts, draw, series, words
+from ragg_runtime.report.barcharts import Bar
+from ragg_runtime.report.figures import ChannelPanel, Line, SpectrumPanel, TimePanel
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
@@ -24,6 +25,13 @@ FLIGHTS = 4
 
 DRAWN = CUTOFF + WIDTH / 2
 """Highest frequency that a demodulated channel holds, Hz."""
+
+OUTPUTS = {
+    "G_out": "G_out",
+    "voltages": "V_1 … V_4, each by itself",
+    "channels": "inline and cross, put back on their carriers",
+}
+"""What of a flight was fitted, by the kind of observation."""
 
 ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
 
@@ -39,13 +47,8 @@ def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequ
             edges, rms = series.blocks(w, residuals[n], f.k_ggi)
             rows.append((line, rms))
         e = series.envelope(r.time, lines[-1][1][n] / f.k_ggi, r.valid)
-        found.append(TimePanel(w.observation.name, e, edges, rows, noise_rms(f, n)))
+        found.append(TimePanel(w.observation.name, e, edges, rows, series.noise_rms(w, f.k_ggi)))
     return found
-
-
-def noise_rms(f: Fitted, n: int) -> float:
-    """rms of the estimated noise of flight ``n``, Eo."""
-    return float(np.sqrt(sum(m.rms**2 for m in f.works[n].noise.models))) / f.k_ggi
 
 
 def spectrum_panels(
@@ -63,7 +66,7 @@ def spectrum_panels(
                 drawn.append((line, s))
         if drawn:
             grid = drawn[0][1].frequency
-            noise = series.Spectrum(grid, series.noise_density(w, f.k_ggi, grid))
+            noise = series.Spectrum(grid, series.noise_density(w, f.k_ggi, f.instrument.spin_frequency, grid))
             found.append(SpectrumPanel(w.observation.name, drawn, noise, f.instrument.spin_frequency))
     return found
 
@@ -149,7 +152,7 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
     samples = sum(len(r.time) for r in records)
     valid = sum(int(np.sum(r.valid)) for r in records)
     duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
-    kind = {"G_out": "G_out", "voltages": "V_1 … V_4, each by itself"}.get(f.observations[0].kind, "")
+    kind = OUTPUTS.get(f.observations[0].kind, f.observations[0].kind)
     used = f"{words.fixed(samples, 0)} at {words.number(records[0].rate, 4)} Hz"
     if valid < samples:
         used += f", {words.fixed(samples - valid, 0)} of them not usable"
@@ -187,13 +190,13 @@ def remainder_figures(
             " 0.2 Hz as the demodulator does. Dashed: what the noise alone gives. Harmonics 2 are the ones that"
             " the demodulator reads as gradient. Bars in grey do not stand out of the noise."
         )
-        found.append({"svg": figures.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
+        found.append({"svg": barcharts.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
     if rows:
         label = "error by motion term"
         caption = "Motion terms that stand out of the residual, by their own size before demodulation."
         shown = term_bars(rows)
         found.append(
-            {"svg": figures.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
+            {"svg": barcharts.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
         )
     return found
 

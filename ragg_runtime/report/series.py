@@ -11,6 +11,7 @@ from scipy import signal
 
 from ragg_runtime.compare import Fitted
 from ragg_runtime.demodulate import low_pass
+from ragg_runtime.design import noise_gain
 from ragg_runtime.evidence.work import BLOCKS, Work
 from ragg_runtime.terms import harmonics
 from ragg_runtime.whiten import stretches
@@ -86,9 +87,25 @@ def _binned(f: Array, psd: Array, points: int) -> Spectrum:
     return Spectrum(mean[:, 0], np.sqrt(mean[:, 1]))
 
 
-def noise_density(w: Work, k_ggi: float, f: Array) -> Array:
-    """Density of the estimated noise of G_out, Eo/sqrt(Hz)."""
-    return np.asarray(np.sqrt(sum(m.psd(f) for m in w.noise.models)) / k_ggi)
+def noise_density(w: Work, k_ggi: float, spin: float, f: Array) -> Array:
+    """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
+    return np.asarray(np.sqrt(_noise_psd(w, spin, f)) / k_ggi)
+
+
+def _noise_psd(w: Work, spin: float, f: Array) -> Array:
+    """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
+    psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
+    if w.observation.kind != "channels":
+        return np.asarray(psd)
+    rate = w.observation.record.rate
+    _, H = signal.freqz(low_pass(rate), worN=np.minimum(np.abs(f - 2 * spin), rate / 2), fs=rate)
+    return np.asarray(psd * np.abs(H) ** 2)
+
+
+def noise_rms(w: Work, k_ggi: float) -> float:
+    """rms of the estimated noise of what was observed as G_out, Eo."""
+    share = noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
+    return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 
 def demodulated_noise(w: Work, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
@@ -101,7 +118,7 @@ def demodulated_noise(w: Work, k_ggi: float, spin: float, multiple: int, amplitu
     H2 = np.abs(H) ** 2
     carrier = multiple * spin
     sides = [np.maximum(np.abs(f + s * carrier), f[1]) for s in (1.0, -1.0)]
-    S = sum(np.sum([m.psd(g) for m in w.noise.models], axis=0) for g in sides)
+    S = sum(_noise_psd(w, spin, g) for g in sides)
     gain = 0.25 * amplitude**2 if multiple else 0.5
     return float(np.sqrt(gain * np.sum(H2 * S) * (f[1] - f[0]))) / k_ggi
 
@@ -165,5 +182,5 @@ def worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     ratio = []
     for w, e in zip(f.works, residuals, strict=True):
         v = w.observation.record.valid
-        ratio.append(float(np.sqrt(np.mean(e[v] ** 2) / sum(m.rms**2 for m in w.noise.models))))
+        ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / noise_rms(w, 1.0))
     return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])
