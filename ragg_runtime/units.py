@@ -105,7 +105,8 @@ class Units:
                 expected=si_unit,
                 remedy="write rad/s, deg/s, deg/h or rpm",
             )
-        result: Value = self._registry.convert(value, source, target)
+        with np.errstate(over="ignore"):  # callers look whether what comes out is finite
+            result: Value = self._registry.convert(value, source, target)
         return result * factor if factor != 1.0 else result
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:

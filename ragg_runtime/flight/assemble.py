@@ -44,6 +44,7 @@ class Layout:
     columns: tuple[Column, ...]
     si_units: dict[str, str]
     known: Units
+    need_output: bool
 
     def flight(
         self, rows: Batch, *, name: str, digest: str, first_row: int = 1, step: float | None = None
@@ -54,6 +55,8 @@ class Layout:
         notes = list(grid.notes)
         if step is None:
             _drop_empty(si, notes, self.path)
+            if self.need_output:
+                _check_output(self.path, list(si))
         placed = {c: _placed(v, grid) for c, v in si.items()}
         outputs = {c: placed.pop(c) for c in OUTPUTS if c in placed}
         valid = _valid(placed | outputs, grid, notes)
@@ -75,6 +78,11 @@ class Layout:
             units=self.si_units,
         )
 
+    def step(self, rows: Batch) -> float:
+        """Sampling interval of these rows, s."""
+        time = next(c for c in self.columns if c.name == "time")
+        return uniform(self._converted(time, rows["time"]), self.path).step
+
     def _converted(self, column: Column, values: Array) -> Array:
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
@@ -91,21 +99,26 @@ def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: boo
     _need(path, names, _NEEDED, "the motion needs")
     if any(n in names for n in ANGULAR_ACCELERATION):
         _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
-    recorded = "G_out" in names or all(n in names for n in VOLTAGES) or all(n in names for n in DEMODULATED)
-    if need_output and not recorded:
-        raise UserError(
-            "the instrument's output is missing",
-            where=path,
-            found="the columns " + ", ".join(names),
-            expected="G_out, or V_1 V_2 V_3 V_4, or inline and cross",
-            remedy=next(filter(None, (did_you_mean(n, OUTPUTS) for n in names if n not in SI_UNITS)), None),
-        )
+    if need_output:
+        _check_output(path, names)
     si_units = {}
     for c in columns:
         where = at(path, f"column {c.name!r}")
         si_units[c.name] = SI_UNITS[c.name] if c.name in SI_UNITS else known.base_unit(c.unit, where)
         known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
-    return Layout(path, tuple(columns), si_units, known)
+    return Layout(path, tuple(columns), si_units, known, need_output)
+
+
+def _check_output(path: Path, names: Sequence[str]) -> None:
+    if any(all(n in names for n in group) for group in (("G_out",), VOLTAGES, DEMODULATED)):
+        return
+    raise UserError(
+        "the instrument's output is missing",
+        where=path,
+        found="the columns " + ", ".join(names),
+        expected="G_out, or V_1 V_2 V_3 V_4, or inline and cross",
+        remedy=next(filter(None, (did_you_mean(n, OUTPUTS) for n in names if n not in SI_UNITS)), None),
+    )
 
 
 def _need(path: Path, names: list[str], needed: Sequence[str], what: str) -> None:
@@ -159,11 +172,15 @@ def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
         kept = int(np.sum(bridged & present))
         if kept:
-            notes.append(f"{name}: {kept} samples without a value are interpolated")
+            notes.append(f"{name}: without a value at {_samples(kept)}, interpolated")
         if count > kept:
-            notes.append(f"{name}: {count - kept} samples without a value are not used")
+            notes.append(f"{name}: without a value at {_samples(count - kept)}, not used")
         valid &= ~missing | bridged
     return valid
+
+
+def _samples(count: int) -> str:
+    return "1 sample" if count == 1 else f"{count} samples"
 
 
 def _filled(values: Array, name: str) -> Array:

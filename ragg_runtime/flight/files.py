@@ -74,7 +74,7 @@ def iter_flight_chunks(
     while part is not None:
         after = next(parts, None)
         if step is None:
-            step = plan.flight(part, name=name, digest=digest).rate ** -1
+            step = plan.step(part)
         size = len(part["time"])
         pieces = [part]
         lead = 0

@@ -1,0 +1,365 @@
+"""What a flight file says in SI, what is derived from it, and what is refused."""
+
+from __future__ import annotations
+
+import gzip
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.flight import Flight, read_flight
+
+G0 = 9.8
+RATE = 16.0
+N = 200
+MOTION_UNITS = {
+    "time": "s",
+    "a_x": "g",
+    "a_y": "mg",
+    "a_z": "m/s^2",
+    "omega_x": "deg/h",
+    "omega_y": "rad/s",
+    "omega_z": "deg/s",
+}
+
+
+def columns(n: int = N) -> dict[str, np.ndarray]:
+    """Motion and output of a smooth flight, in the units of MOTION_UNITS and V."""
+    rng = np.random.default_rng(1)
+    t = np.arange(n) / RATE
+    wave = {
+        name: np.sin(rng.uniform(0.5, 3) * t + rng.uniform(0, 6)) for name in MOTION_UNITS if name != "time"
+    }
+    return {"time": t, **wave, "G_out": np.cos(3.1 * t)}
+
+
+def csv_text(table: Mapping[str, np.ndarray], units: Mapping[str, str] = MOTION_UNITS) -> str:
+    header = ",".join(f"{name} [{units.get(name, 'V')}]" for name in table)
+    rows = (
+        ",".join("" if np.isnan(x) else repr(float(x)) for x in row)
+        for row in zip(*table.values(), strict=True)
+    )
+    return "\n".join([header, *rows]) + "\n"
+
+
+@pytest.fixture
+def load(tmp_path: Path) -> Callable[..., Flight]:
+    def load(
+        table: Mapping[str, np.ndarray] | str, units: Mapping[str, str] | None = None, **options: bool
+    ) -> Flight:
+        path = tmp_path / "record.csv"
+        path.write_text(
+            table if isinstance(table, str) else csv_text(table, MOTION_UNITS | dict(units or {}))
+        )
+        return read_flight(path, G0, **options)
+
+    return load
+
+
+Load = Callable[..., Flight]
+
+
+def test_units_and_fields(load: Load, tmp_path: Path) -> None:
+    table = columns()
+    found = load(table)
+    assert found.channels["a_x"] == pytest.approx(table["a_x"] * G0)
+    assert found.channels["a_y"] == pytest.approx(table["a_y"] * G0 * 1e-3)
+    assert np.array_equal(found.channels["a_z"], table["a_z"])
+    assert found.channels["omega_x"] == pytest.approx(np.deg2rad(table["omega_x"]) / 3600)
+    assert found.channels["omega_z"] == pytest.approx(np.deg2rad(table["omega_z"]))
+    assert np.array_equal(found.outputs["G_out"], table["G_out"])
+    assert np.array_equal(found.time, table["time"])
+    assert (found.name, found.path, len(found.digest)) == ("record", tmp_path / "record.csv", 64)
+    assert found.rate == pytest.approx(RATE)
+    assert found.duration == pytest.approx(N / RATE)
+    assert found.valid.all()
+    assert not found.time.flags.writeable
+
+
+def test_auxiliary_channels_of_any_name_come_in_si(load: Load) -> None:
+    table = columns() | {
+        "temperature": np.full(N, 20.0),
+        "roll": np.full(N, 180.0),
+        "fuel": np.full(N, 3.0),
+        "B_x": np.full(N, 5e4),
+        "valve": np.ones(N),
+    }
+    found = load(table, {"temperature": "degC", "roll": "deg", "fuel": "t", "B_x": "nT", "valve": "1"})
+    expected = {"temperature": 293.15, "roll": np.pi, "fuel": 3000.0, "B_x": 5e-5, "valve": 1.0}
+    for name, value in expected.items():
+        assert found.channels[name] == pytest.approx(np.full(N, value))
+    assert (found.units["temperature"], found.units["fuel"], found.units["valve"]) == ("K", "kg", "1")
+
+
+def test_demodulated_channels_are_gradients(load: Load) -> None:
+    table = columns()
+    del table["G_out"]
+    table |= {"inline": np.full(N, 100.0), "cross": np.full(N, -3.0)}
+    found = load(table, {"inline": "Eo", "cross": "Eo"})
+    assert found.outputs["inline"] == pytest.approx(np.full(N, 1e-7))
+    assert list(found.outputs) == ["inline", "cross"]
+
+
+def test_G_out_of_the_voltages(load: Load) -> None:
+    table = columns()
+    del table["G_out"]
+    v = np.random.default_rng(2).normal(size=(4, N))
+    table |= {f"V_{j + 1}": v[j] for j in range(4)}
+    found = load(table, {"V_1": "mV"})
+    assert found.outputs["G_out"] == pytest.approx(v[0] * 1e-3 + v[1] - v[2] - v[3])
+    assert any("G_out is derived" in note for note in found.notes)
+    wrong = load(table | {"G_out": v[0] * 1e-3 - v[1] + v[2] - v[3]}, {"V_1": "mV"})
+    assert any("signs of the voltages" in note for note in wrong.notes)
+
+
+def test_angular_acceleration_is_derived(load: Load) -> None:
+    table = columns()
+    table["omega_y"] = np.sin(2 * table["time"])
+    found = load(table)
+    assert found.channels["omegadot_y"] == pytest.approx(2 * np.cos(2 * table["time"]), abs=3e-4)
+    assert any("omegadot" in note for note in found.notes)
+    given = load(
+        table | {f"omegadot_{k}": np.full(N, 7.0) for k in "xyz"},
+        dict.fromkeys(("omegadot_x", "omegadot_y", "omegadot_z"), "deg/s^2"),
+    )
+    assert given.channels["omegadot_y"] == pytest.approx(np.full(N, np.deg2rad(7)))
+    assert not given.notes
+
+
+def test_a_gradient_that_violates_laplace_is_noted(load: Load) -> None:
+    gradient = {
+        "Gamma_xx": 300.0,
+        "Gamma_xy": 1,
+        "Gamma_xz": 2,
+        "Gamma_yy": 200,
+        "Gamma_yz": 3,
+        "Gamma_zz": -500,
+    }
+    eo = dict.fromkeys(gradient, "Eo")
+    table = columns() | {f"omegadot_{k}": np.zeros(N) for k in "xyz"}
+    eo |= {f"omegadot_{k}": "rad/s^2" for k in "xyz"}
+    assert load(table | {n: np.full(N, v) for n, v in gradient.items()}, eo).notes == ()
+    gradient["Gamma_zz"] = 500
+    assert "1e+03 Eo" in load(table | {n: np.full(N, v) for n, v in gradient.items()}, eo).notes[0]
+
+
+def test_gaps_are_filled_in_and_marked(load: Load) -> None:
+    table = columns()
+    keep = np.ones(N, dtype=bool)
+    keep[50:60] = False
+    keep[120] = False
+    found = load({n: v[keep] for n, v in table.items()})
+    assert len(found) == N
+    assert np.array_equal(found.valid, keep)
+    assert found.time == pytest.approx(table["time"])
+    assert found.rate == pytest.approx(RATE)
+    assert np.array_equal(found.channels["a_z"][keep], table["a_z"][keep])
+    assert all(np.isfinite(v).all() for v in found.channels.values())
+    assert np.array_equal(np.isnan(found.outputs["G_out"]), ~keep)
+    assert any("2 gaps: 11 of 200 samples" in note for note in found.notes)
+    # One sample is hardly missed; the derivative knows nothing of the other side of a gap.
+    whole = load(table)
+    inside = np.r_[0:44, 66:114, 127:N]
+    for name in ("omegadot_x", "omegadot_y", "omegadot_z"):
+        size = np.std(whole.channels[name])
+        assert found.channels[name][inside] == pytest.approx(
+            whole.channels[name][inside], abs=1e-3 * float(size)
+        )
+
+
+def test_empty_cells_are_marked(load: Load) -> None:
+    table = columns() | {"temperature": np.full(N, 290.0)}
+    table["a_x"][7] = np.nan
+    table["G_out"][[9, 10]] = np.nan
+    table["temperature"][np.arange(N) % 16 != 0] = np.nan  # sampled once a second
+    table["temperature"][100:180] = np.nan
+    found = load(table, {"temperature": "K"})
+    lost = np.zeros(N, dtype=bool)
+    lost[[7, 9, 10]] = True
+    lost[97:192] = True  # five seconds and more without a temperature
+    lost[193:] = True  # and no later one to interpolate to
+    assert np.array_equal(found.valid, ~lost)
+    assert found.channels["temperature"] == pytest.approx(np.full(N, 290.0))
+    assert np.isfinite(found.channels["a_x"]).all()
+    assert any(note == "a_x: without a value at 1 sample, not used" for note in found.notes)
+    assert any(note.startswith("temperature") and "interpolated" in note for note in found.notes)
+
+
+def test_infinity_is_no_value(load: Load) -> None:
+    table = columns()
+    table["a_x"][3] = np.inf
+    found = load(table)
+    assert np.flatnonzero(~found.valid).tolist() == [3]
+
+
+def test_an_empty_column_is_left_out(load: Load) -> None:
+    found = load(columns() | {"temperature": np.full(N, np.nan)}, {"temperature": "K"})
+    assert "temperature" not in found.channels
+    assert found.valid.all()
+    assert any("temperature" in note for note in found.notes)
+    with pytest.raises(UserError, match="a_x"):
+        load(columns() | {"a_x": np.full(N, np.nan)})
+
+
+def test_jitter(load: Load) -> None:
+    table = columns()
+    exact = load(table).notes
+    rng = np.random.default_rng(3)
+    table["time"] = table["time"] + rng.uniform(-1e-4, 1e-4, N) / RATE
+    assert load(table).notes == exact
+    table["time"] = np.round(np.arange(N) / RATE, 3)
+    found = load(table)
+    assert any("jitters" in note for note in found.notes)
+    assert found.rate == pytest.approx(RATE, rel=1e-4)
+    assert found.valid.all()
+    table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE
+    with pytest.raises(UserError, match="not uniformly sampled"):
+        load(table)
+
+
+def test_an_origin_far_away(load: Load) -> None:
+    """Seconds since 1970: the clock's last digit is 2e-7 s, not jitter worth a word."""
+    table = columns() | {f"omegadot_{k}": np.zeros(N) for k in "xyz"}
+    table["time"] = table["time"] + 1.7e9
+    found = load(table, {f"omegadot_{k}": "rad/s^2" for k in "xyz"})
+    assert found.notes == ()
+    assert found.rate == pytest.approx(RATE, rel=1e-7)
+
+
+def edited(**changes: np.ndarray) -> dict[str, np.ndarray]:
+    return columns() | changes
+
+
+def without(*names: str) -> dict[str, np.ndarray]:
+    return {n: v for n, v in columns().items() if n not in names}
+
+
+def swapped(a: int, b: int) -> np.ndarray:
+    t = np.arange(N) / RATE
+    t[a], t[b] = t[b], t[a]
+    return t
+
+
+TEXT = csv_text(columns(5))
+T = np.arange(N) / RATE
+
+
+@pytest.mark.parametrize(
+    ("table", "facts"),
+    [
+        (without("time"), ("time is missing", "a_x")),
+        (without("a_y"), ("a_y is missing", "omega_x")),
+        (without("a_x", "omega_z"), ("a_x, omega_z are missing",)),
+        (without("G_out"), ("output is missing", "G_out", "inline")),
+        (without("G_out") | {"V_1": T, "V_2": T, "V_4": T}, ("output is missing", "V_4")),
+        (edited(omegadot_x=T), ("omegadot_y, omegadot_z",)),
+        (TEXT.replace("a_x [g]", "ax [g]"), ("a_x is missing", "'ax' meant for a_x")),
+        (TEXT.replace("a_x [g]", "a_x"), ("'a_x'", "no unit", "a_x [g]")),
+        (TEXT.replace("a_x [g]", "a_x []"), ("'a_x'", "no unit")),
+        (TEXT.replace("a_x [g]", "[g]"), ("column 2", "no readable name")),
+        (TEXT.replace("a_x [g]", "a_x [gg]"), ("'a_x'", "not a unit", "gg")),
+        (TEXT.replace("a_x [g]", "a_x [V]"), ("'a_x'", "dimension", "m/s^2")),
+        (TEXT.replace("omega_y [rad/s]", "omega_y [Hz]"), ("'omega_y'", "frequency", "rad/s")),
+        (TEXT.replace("time [s]", "time [V]"), ("'time'", "dimension")),
+        (TEXT.replace("a_y [mg]", "a_x [mg]"), ("'a_x'", "twice")),
+        (TEXT.replace("\n0.125,", "\nhigh noon,"), ("line 4", "'time'", "'high noon'")),
+        (TEXT.replace("\n0.125,", "\n0.125,0,"), ("line 4", "9", "8")),
+        (TEXT[: TEXT.rindex(",")], ("line 6", "7", "8")),
+        (TEXT.replace("\n0.125,", "\n,"), ("'time'", "missing", "row 3")),
+        (TEXT.splitlines()[0] + "\n", ("too few samples", "0 rows")),
+        ("\n".join(TEXT.splitlines()[:2]), ("too few samples", "1 rows")),
+        ("", ("empty",)),
+        ("\n\n", ("no header",)),
+        (edited(time=np.full(N, 3.0)), ("stands still", "3 s")),
+        (edited(time=T[::-1]), ("backwards",)),
+        (edited(time=swapped(10, 11)), ("runs back", "row 11", "row 12", "0.6875 s")),
+        (edited(time=np.repeat(T[: N // 2], 2)), ("twice", "row 1", "99 more")),
+        (edited(time=np.where(T < 6, T, T + 1e6)), ("nine samples in ten", "split")),
+        (edited(G_out=np.full(N, np.nan), time=T), ("output is missing",)),
+    ],
+)
+def test_what_is_refused(
+    load: Load, tmp_path: Path, table: dict[str, np.ndarray] | str, facts: tuple[str, ...]
+) -> None:
+    with pytest.raises(UserError) as caught:
+        load(table, {"V_1": "V", "omegadot_x": "rad/s^2"})
+    for fact in (str(tmp_path / "record.csv"), *facts):
+        assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
+
+
+def test_motion_alone_if_wanted(load: Load) -> None:
+    assert load(without("G_out"), need_output=False).outputs == {}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("\n", "\r\n"), (",", ";"), (",", "\t"), (",", " , "), ("time [s]", '"time [s]"'), ("\n", "\n\n")],
+)
+def test_dialects(load: Load, old: str, new: str) -> None:
+    plain = load(TEXT)
+    other = load(TEXT.replace(old, new))
+    assert np.array_equal(other.channels["omega_z"], plain.channels["omega_z"])
+    assert other.units == plain.units
+    commented = load("# by the recorder\n\n" + TEXT)
+    assert np.array_equal(commented.outputs["G_out"], plain.outputs["G_out"])
+
+
+def test_a_mark_of_windows_and_a_micro_sign(load: Load) -> None:
+    found = load("\ufeff" + TEXT.replace("a_y [mg]", "a_y [µg]"))
+    assert found.channels["a_y"] == pytest.approx(columns(5)["a_y"] * 9.8e-6)
+
+
+def test_files_that_are_something_else(tmp_path: Path) -> None:
+    for name, content, fact in (
+        ("x.csv", b"PAR1....", "parquet"),
+        ("x.csv", b"\x89HDF\r\n\x1a\n", "netcdf"),
+        ("x.csv", b"PK\x03\x04", "Excel"),
+        ("x.nc", TEXT.encode(), "netcdf"),
+        ("x.nc", b"CDF\x01", "classic NetCDF"),
+        ("x.parquet", TEXT.encode(), "parquet"),
+        ("x.parquet", b"PAR1" + b"0" * 40, "damaged"),
+        ("x.nc", b"\x89HDF\r\n\x1a\n" + b"0" * 40, "damaged"),
+        ("x.csv", b"", "empty"),
+        ("x.csv", TEXT.replace("g]", "µ]", 1).encode("latin-1"), "utf-8"),
+        ("x.xlsx", b"PK", ".parquet"),
+        ("flight", b"PK", "no ending"),
+        ("x.csv.gz", gzip.compress(TEXT.encode())[:150], "x.csv.gz"),
+    ):
+        path = tmp_path / name
+        path.write_bytes(content)
+        with pytest.raises(UserError) as caught:
+            read_flight(path, G0)
+        assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
+    with pytest.raises(UserError, match="does not exist"):
+        read_flight(tmp_path / "none.csv", G0)
+    (tmp_path / "folder.csv").mkdir()
+    with pytest.raises(UserError, match="directory"):
+        read_flight(tmp_path / "folder.csv", G0)
+
+
+def test_compressed_by_content_not_by_name(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(gzip.compress(TEXT.encode()))
+    (tmp_path / "b.csv.gz").write_text(TEXT)
+    first, second = (read_flight(tmp_path / n, G0) for n in ("a.csv", "b.csv.gz"))
+    assert np.array_equal(first.time, second.time)
+    assert (first.name, second.name) == ("a", "b")
+
+
+def test_flights_in_memory() -> None:
+    t = np.arange(10) / RATE
+    made = Flight(time=t, channels={"a_x": t}, outputs={}, name="x", path=None, digest="", notes=())
+    assert made.valid.all()
+    assert made.valid.shape == (10,)
+    assert made.units == {"time": "s", "a_x": "m/s^2"}
+    other = made.with_outputs({"G_out": t * 2})
+    assert other.outputs["G_out"][3] == t[3] * 2
+    assert made.outputs == {}
+    assert len(other.part(slice(2, 5))) == 3
+    t[0] = 0.0  # the caller's array stays the caller's
+    with pytest.raises(ValueError, match="read-only"):
+        made.channels["a_x"][0] = 1.0
+    with pytest.raises(UserError, match="length"):
+        Flight(time=t, channels={"a_x": t[:-1]}, outputs={})

@@ -1,0 +1,274 @@
+"""Every format gives back what was written, to the last bit; in parts as well as in one piece."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import xarray
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.flight import Flight, files, iter_flight_chunks, read_flight, write_flight
+
+G0 = 9.8
+SUFFIXES = (".csv", ".csv.gz", ".parquet", ".nc")
+
+
+def flight(n: int = 500, seed: int = 1, lost: tuple[int, ...] = ()) -> Flight:
+    rng = np.random.default_rng(seed)
+    names = [f"{v}_{k}" for v in ("a", "omega", "omegadot") for k in "xyz"] + ["temperature", "fuel"]
+    channels = {name: rng.normal(size=n) * 10.0 ** rng.integers(-9, 9) for name in names}
+    valid = np.ones(n, dtype=bool)
+    valid[list(lost)] = False
+    outputs = {"G_out": np.where(valid, rng.normal(size=n), np.nan), "inline": rng.normal(size=n) * 1e-9}
+    return Flight(
+        time=1e5 + np.arange(n) / 16,
+        channels=channels,
+        outputs=outputs,
+        valid=valid,
+        units={"fuel": "kg"},
+    )
+
+
+def same(a: Flight, b: Flight) -> None:
+    assert np.array_equal(a.time, b.time)
+    assert np.array_equal(a.valid, b.valid)
+    assert dict(a.units) == dict(b.units)
+    for left, right in ((a.channels, b.channels), (a.outputs, b.outputs)):
+        assert list(left) == list(right)
+        for name, values in left.items():
+            assert np.array_equal(values[a.valid], right[name][a.valid]), name
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_exact_round_trip(tmp_path: Path, suffix: str) -> None:
+    made = flight(lost=(0, 7, 8, 499))
+    path = tmp_path / f"x{suffix}"
+    write_flight(made, path)
+    found = read_flight(path, G0)
+    same(made, found)
+    assert found.name == "x"
+    assert sorted(p.name for p in tmp_path.iterdir()) == [path.name]
+
+
+@settings(deadline=None, max_examples=15)
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=4, max_size=20))
+def test_csv_keeps_every_bit_of_any_number(
+    tmp_path_factory: pytest.TempPathFactory, values: list[float]
+) -> None:
+    path = tmp_path_factory.mktemp("bits") / "x.csv"
+    n = len(values)
+    motion = {f"{v}_{k}": np.array(values) for v in ("a", "omega", "omegadot") for k in "xyz"}
+    write_flight(Flight(time=np.arange(n) / 3.0, channels=motion, outputs={"G_out": np.array(values)}), path)
+    found = read_flight(path, G0)
+    assert found.outputs["G_out"].tobytes() == np.array(values).tobytes()
+    assert np.array_equal(found.time, np.arange(n) / 3.0)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_units_of_choice(tmp_path: Path, suffix: str) -> None:
+    made = flight()
+    path = tmp_path / f"x{suffix}"
+    chosen = {
+        "a_x": "mg",
+        "omega_y": "deg/h",
+        "inline": "Eo",
+        "temperature": "degC",
+        "fuel": "t",
+        "time": "ms",
+    }
+    write_flight(made, path, chosen, g0=G0)
+    found = read_flight(path, G0)
+    for name in ("a_x", "omega_y", "temperature", "fuel"):
+        scale = 300.0 if name == "temperature" else 0.0
+        assert found.channels[name] == pytest.approx(made.channels[name], rel=1e-14, abs=1e-12 * scale)
+    assert found.outputs["inline"] == pytest.approx(made.outputs["inline"], rel=1e-14)
+    other = read_flight(path, 2 * G0)
+    assert other.channels["a_x"] == pytest.approx(2 * found.channels["a_x"])
+    with pytest.raises(ValueError, match="g0"):
+        write_flight(made, path, {"a_x": "mg"})
+    with pytest.raises(UserError, match="dimension"):
+        write_flight(made, path, {"a_x": "V"})
+
+
+def test_units_stand_where_other_tools_look(tmp_path: Path) -> None:
+    made = flight()
+    for suffix in SUFFIXES:
+        write_flight(made, tmp_path / f"x{suffix}")
+    assert (tmp_path / "x.csv").read_text().splitlines()[0].startswith("time [s],a_x [m/s^2],")
+    assert pq.read_schema(tmp_path / "x.parquet").field("omega_x").metadata[b"units"] == b"rad/s"
+    with xarray.open_dataset(tmp_path / "x.nc", engine="h5netcdf") as data:
+        assert data["omega_x"].attrs["units"] == "rad/s"
+        assert data["omega_x"].dims == ("time",)
+        assert np.array_equal(data["a_z"].values, made.channels["a_z"])
+
+
+def test_equal_flights_give_equal_files(tmp_path: Path) -> None:
+    for suffix in (".csv", ".csv.gz", ".parquet"):
+        for name in "ab":
+            write_flight(flight(), tmp_path / f"{name}{suffix}")
+        assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
+        first, second = (read_flight(tmp_path / f"{name}{suffix}", G0).digest for name in "ab")
+        assert first == second
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_a_failed_writer_leaves_the_old_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str
+) -> None:
+    path = tmp_path / f"x{suffix}"
+    path.write_bytes(b"old")
+
+    def full(target: Path, *_: object) -> None:
+        target.write_bytes(b"half")
+        raise OSError(28, "No space left on device")
+
+    for writer in ("write_csv", "write_parquet", "write_netcdf"):
+        monkeypatch.setattr(files, writer, full)
+    with pytest.raises(UserError, match="No space left"):
+        write_flight(flight(), path)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == [path.name]
+
+
+def test_where_nothing_can_be_written(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="does not exist"):
+        write_flight(flight(), tmp_path / "none" / "x.csv")
+    with pytest.raises(UserError, match="ending"):
+        write_flight(flight(), tmp_path / "x.xls")
+
+
+def test_the_file_gets_ordinary_rights(tmp_path: Path) -> None:
+    write_flight(flight(), tmp_path / "x.csv")
+    plain = tmp_path / "plain"
+    plain.touch()
+    assert (tmp_path / "x.csv").stat().st_mode == plain.stat().st_mode
+    os.chmod(tmp_path / "x.csv", 0o640)
+    write_flight(flight(), tmp_path / "x.csv")
+    assert (tmp_path / "x.csv").stat().st_mode & 0o777 == 0o640
+
+
+def raw(tmp_path: Path, suffix: str, n: int, lost: slice, jitter: float = 0.0) -> Path:
+    """A file without omegadot, with rows missing and some cells empty."""
+    made = flight(n, seed=3)
+    t = made.time - made.time[0]
+    smooth = {f"omega_{k}": np.sin((1 + i) * t) for i, k in enumerate("xyz")}
+    channels = {c: v for c, v in (dict(made.channels) | smooth).items() if not c.startswith("omegadot")}
+    valid = np.ones(n, dtype=bool)
+    valid[[33, n // 2]] = False
+    keep = np.ones(n, dtype=bool)
+    keep[lost] = False
+    part = Flight(
+        time=(made.time + jitter * np.random.default_rng(4).uniform(-1, 1, n) / 16)[keep],
+        channels={c: v[keep] for c, v in channels.items()},
+        outputs={"G_out": made.outputs["G_out"][keep]},
+        valid=valid[keep],
+        units={"fuel": "kg"},
+    )
+    path = tmp_path / f"x{suffix}"
+    write_flight(part, path)
+    return path
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize("rows", [30, 64, 100, 999, 5000])
+def test_parts_laid_end_to_end_are_the_flight(tmp_path: Path, suffix: str, rows: int) -> None:
+    path = raw(tmp_path, suffix, 1000, slice(95, 110))
+    whole = read_flight(path, G0)
+    parts = list(iter_flight_chunks(path, G0, rows))
+    assert len(whole) == 1000
+    assert np.array_equal(np.concatenate([p.time for p in parts]), whole.time)
+    assert np.array_equal(np.concatenate([p.valid for p in parts]), whole.valid)
+    for name, values in whole.channels.items():
+        joined = np.concatenate([p.channels[name] for p in parts])
+        assert joined == pytest.approx(values, rel=1e-9, abs=1e-9 * float(np.std(values))), name
+    joined = np.concatenate([p.outputs["G_out"] for p in parts])
+    assert np.array_equal(joined, whole.outputs["G_out"], equal_nan=True)
+    assert {p.digest for p in parts} == {whole.digest}
+    assert all(len(p) >= min(rows, 25) for p in parts)
+
+
+@pytest.mark.parametrize("gap", [slice(95, 110), slice(64, 66), slice(128, 160)])
+def test_gaps_between_parts(tmp_path: Path, gap: slice) -> None:
+    path = raw(tmp_path, ".parquet", 400, gap, jitter=0.01)
+    whole = read_flight(path, G0)
+    parts = list(iter_flight_chunks(path, G0, 64))
+    assert np.concatenate([p.time for p in parts]) == pytest.approx(whole.time, abs=1e-9)
+    assert np.array_equal(np.concatenate([p.valid for p in parts]), whole.valid)
+    assert np.flatnonzero(~whole.valid).tolist() == sorted({33, 200, *range(400)[gap]})
+
+
+def test_parts_complain_like_the_whole(tmp_path: Path) -> None:
+    path = raw(tmp_path, ".csv", 400, slice(0, 0))
+    lines = path.read_text().splitlines()
+    lines[301], lines[302] = lines[302], lines[301]
+    path.write_text("\n".join(lines) + "\n")
+    messages = []
+    for read in (lambda: read_flight(path, G0), lambda: list(iter_flight_chunks(path, G0, 50))):
+        with pytest.raises(UserError, match="runs back") as caught:
+            read()
+        messages.append(str(caught.value))
+    assert messages[0] == messages[1]
+    with pytest.raises(UserError, match="two rows"):
+        next(iter_flight_chunks(path, G0, 1))
+
+
+def table(**changes: pa.Array) -> pa.Table:
+    made = flight(50)
+    arrays = {"time": pa.array(made.time), **{n: pa.array(v) for n, v in made.channels.items()}}
+    arrays |= {"G_out": pa.array(made.outputs["G_out"])} | changes
+    fields = [pa.field(n, a.type, metadata={"units": made.units.get(n, "V")}) for n, a in arrays.items()]
+    return pa.Table.from_arrays(list(arrays.values()), schema=pa.schema(fields))
+
+
+def test_parquet_of_other_tools(tmp_path: Path) -> None:
+    path = tmp_path / "x.parquet"
+    counts = np.arange(50, dtype=np.int32)
+    nulls = pa.array([None if k == 4 else float(k) for k in range(50)])
+    pq.write_table(table(G_out=pa.array(counts), a_x=nulls, a_y=pa.array(counts.astype(np.float32))), path)
+    found = read_flight(path, G0)
+    assert np.array_equal(found.outputs["G_out"], counts)
+    assert np.flatnonzero(~found.valid).tolist() == [4]
+    for column, what in (
+        (pa.array(["x"] * 50), "numbers"),
+        (pa.array([None] * 50, pa.timestamp("ns")), "numbers"),
+    ):
+        pq.write_table(table(a_x=column), path)
+        with pytest.raises(UserError, match=what):
+            read_flight(path, G0)
+    pq.write_table(
+        table().replace_schema_metadata().cast(pa.schema([(n, pa.float64()) for n in table().column_names])),
+        path,
+    )
+    with pytest.raises(UserError, match="no unit"):
+        read_flight(path, G0)
+
+
+def test_netcdf_of_other_tools(tmp_path: Path) -> None:
+    path = tmp_path / "x.nc"
+    made = flight(50)
+    variables = {n: ("t", v, {"units": made.units[n]}) for n, v in {**made.channels, **made.outputs}.items()}
+    variables["time"] = ("t", made.time - made.time[0], {"units": "seconds since 2024-01-01 00:00:00"})
+    xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
+    found = read_flight(path, G0)
+    assert found.time == pytest.approx(made.time - made.time[0])
+    assert found.rate == pytest.approx(16)
+    for bad, what in (
+        ({"a_x": (("t", "k"), np.zeros((50, 2)), {"units": "g"})}, "along time"),
+        ({"a_x": ("t", np.zeros(50), {})}, "no unit"),
+        ({"a_x": ("t", np.array(["x"] * 50), {"units": "g"})}, "numbers"),
+        ({"time": ((), 3.0, {"units": "s"})}, "along time"),
+    ):
+        xarray.Dataset(variables | bad).to_netcdf(path, engine="h5netcdf")
+        with pytest.raises(UserError, match=what):
+            read_flight(path, G0)
+    del variables["time"]
+    xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
+    with pytest.raises(UserError, match="'time' is missing"):
+        read_flight(path, G0)

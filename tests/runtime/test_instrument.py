@@ -1,0 +1,272 @@
+"""model.toml: what it means in SI, what is refused, and edits that keep the user's text."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tomlkit
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.instrument import (
+    PARAMETERS,
+    EffectSetting,
+    Instrument,
+    parse_instrument,
+    read_instrument,
+)
+from ragg_runtime.model_toml import add_effect, model_text, remove_effect, set_parameters, write_instrument
+from ragg_runtime.units import RawQuantity
+
+TEXT = """# The maker's test sheet.
+effects = []  # none yet
+
+[disc]
+radius = "0.1 m"
+spin_frequency = "0.25 Hz"
+g0 = "9.8 m/s^2"
+
+[accelerometers]
+dR = { value = [0, 30, 35, 25], unit = "um" }  # with the ruler
+beta_x = { value = 18, unit = "arcsec" }
+K0 = "10 ug"
+K1 = { value = [10, 10.001, 10.0015, 10.002], unit = "mA/g" }
+# after the repair:
+K2 = { value = [5, 1, 8, 7], unit = "ug/g^2" }
+k_VI = "1e9 ohm"
+"""
+
+
+def with_line(old: str, new: str) -> str:
+    assert TEXT.count(old) == 1
+    return TEXT.replace(old, new)
+
+
+def with_effects(effects: str) -> str:
+    return with_line("effects = []  # none yet", f"effects = {effects}")
+
+
+def test_values_in_si() -> None:
+    found = parse_instrument(TEXT)
+    k = found.accelerometers
+    assert (found.radius, found.spin_frequency, found.g0) == (0.1, 0.25, 9.8)
+    assert k["dR"] == pytest.approx([0, 30e-6, 35e-6, 25e-6])
+    assert k["beta_x"] == pytest.approx([18 / 3600 * math.pi / 180] * 4)
+    assert k["K0"] == pytest.approx([98e-6] * 4)
+    assert k["K1"] == pytest.approx(np.array([10, 10.001, 10.0015, 10.002]) * 1e-3 / 9.8)
+    assert k["K2"] == pytest.approx(np.array([5, 1, 8, 7]) * 1e-6 / 9.8)
+    assert k["k_VI"] == pytest.approx([1e9] * 4)
+    assert list(k) == [p.name for p in PARAMETERS]
+    assert all(not np.any(k[n]) for n in k if n not in TEXT)
+    assert all(v.shape == (4,) and not v.flags.writeable for v in k.values())
+
+
+def test_g_follows_g0_of_the_file() -> None:
+    here, there = parse_instrument(TEXT), parse_instrument(with_line("9.8 m/s^2", "4.9 m/s^2"))
+    for name, power in (("K0", 1), ("K1", -1), ("K2", -1), ("dR", 0)):
+        assert there.accelerometers[name] == pytest.approx(here.accelerometers[name] * 0.5**power)
+
+
+def test_scale_factor_of_the_shared_nominal() -> None:
+    """Four equal accelerometers: 4 k_VI K1 R."""
+    found = parse_instrument(with_line("[0, 30, 35, 25]", "0")).replace(K1=1e-3, k_VI=2e9)
+    assert found.scale_factor == pytest.approx(4 * 2e9 * 1e-3 * 0.1)
+
+
+def test_spin_in_turns_a_minute() -> None:
+    assert parse_instrument(with_line("0.25 Hz", "15 rpm")).spin_frequency == pytest.approx(0.25)
+    assert parse_instrument(with_line("0.25 Hz", "90 deg/s")).spin_frequency == pytest.approx(0.25)
+
+
+def test_effects() -> None:
+    found = parse_instrument(
+        with_effects(
+            '["lag", { id = "cubic-input", K_iii = { value = [2, 0, 0, 0], unit = "ug/g^3" } }, '
+            '{ id = "mine", stage = "transducer", add = "c*f_i^5", '
+            'params = { c = "ug/g^5" }, c = "3 ug/g^5" }]'
+        )
+    )
+    lag, cubic, mine = found.effects
+    assert lag == EffectSetting("lag")
+    assert lag.si("tau", "s", found.g0) is None
+    assert cubic.si("K_iii", "1/(m/s^2)^2", found.g0) == pytest.approx([2e-6 / 9.8**2, 0, 0, 0])
+    assert found.effect("cubic-input") is cubic
+    assert found.effect("arm-sag") is None
+    assert mine.expression is not None
+    assert (mine.expression["stage"], mine.expression["add"]) == ("transducer", "c*f_i^5")
+    assert mine.expression["params"]["c"]["unit"] == "ug/g^5"
+    assert mine.si("c", "1/(m/s^2)^4", found.g0) == pytest.approx([3e-6 / 9.8**4] * 4)
+
+
+def test_shared_parameters_have_one_value() -> None:
+    setting = EffectSetting("time-offset", {"delta_t": RawQuantity(2.0, "ms")})
+    assert setting.si("delta_t", "s", 9.8, shared=True) == pytest.approx([0.002])
+    setting = EffectSetting("time-offset", {"delta_t": RawQuantity((1.0, 2.0, 3.0, 4.0), "ms")})
+    with pytest.raises(UserError, match="shared"):
+        setting.si("delta_t", "s", 9.8, shared=True)
+    with pytest.raises(UserError, match="dimension"):
+        setting.si("delta_t", "m", 9.8)
+
+
+def test_own_effects_lie_beside_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "model.toml"
+    path.write_text('effects_folder = "my_effects"\n' + TEXT)
+    with pytest.raises(UserError, match="my_effects"):
+        read_instrument(path)
+    (tmp_path / "my_effects").mkdir()
+    assert read_instrument(path).effects_folder == tmp_path / "my_effects"
+
+
+@pytest.mark.parametrize(
+    ("text", "facts"),
+    [
+        (with_line("radius =", "raduis ="), ("[disc]", "'raduis'", "did you mean 'radius'?")),
+        (with_line("K2 =", "K3 ="), ("[accelerometers]", "'K3'", "K2")),
+        (with_line("[disc]", "[disk]"), ("'disk'", "did you mean 'disc'?")),
+        (with_line('"0.1 m"', '"0.1 s"'), ("[disc] radius", "dimension", "'s'", "[length]")),
+        (with_line('"0.1 m"', '"0.1"'), ("[disc] radius", "unit is missing")),
+        (with_line('"0.1 m"', "0.1"), ("[disc] radius", "unit is missing")),
+        (with_line('"0.1 m"', '"-0.1 m"'), ("[disc] radius", "positive", "-0.1 m")),
+        (with_line('"0.1 m"', '"0 m"'), ("[disc] radius", "positive")),
+        (with_line('"0.1 m"', '{ value = [1, 2, 3, 4], unit = "m" }'), ("[disc] radius", "one number")),
+        (with_line('"0.25 Hz"', '"-0.25 Hz"'), ("[disc] spin_frequency", "positive")),
+        (with_line('g0 = "9.8 m/s^2"', 'g0 = "1 g"'), ("[disc] g0", "defines")),
+        (with_line('g0 = "9.8 m/s^2"', ""), ("[disc]", "g0 is missing")),
+        (with_line('radius = "0.1 m"', ""), ("[disc]", "radius is missing")),
+        (with_line("[0, 30, 35, 25]", "[0, 30, 35]"), ("[accelerometers] dR", "3 values", "4")),
+        (with_line("[0, 30, 35, 25]", "[0, 30, 35, nan]"), ("[accelerometers] dR", "not finite")),
+        (with_line("[0, 30, 35, 25]", "[0, 30, 35, inf]"), ("[accelerometers] dR", "not finite")),
+        (with_line("[0, 30, 35, 25]", '"zero"'), ("[accelerometers] dR", "not a number")),
+        (with_line("[0, 30, 35, 25]", "[0, 30, 35, -2e5]"), ("[accelerometers] dR", "radius + dR")),
+        (with_line('"um"', '"umm"'), ("[accelerometers] dR", "not a unit", "umm")),
+        (with_line('unit = "ug/g^2"', 'unit = "ug"'), ("[accelerometers] K2", "dimension", "1/(m/s^2)")),
+        (with_line('k_VI = "1e9 ohm"', ""), ("[accelerometers]", "k_VI", "is missing")),
+        (with_line('k_VI = "1e9 ohm"', 'k_VI = "0 ohm"'), ("[accelerometers] k_VI", "zero")),
+        (with_line('"10 ug"', '"1e308 mg"').replace("9.8", "9.8e9"), ("[accelerometers] K0", "not finite")),
+        (with_line('"0.1 m"', '"0.1 m'), ("not a TOML file", "line 5")),
+        (with_effects('["lag", "arm-sag", "lag"]'), ("effects", "'lag'", "twice")),
+        (with_effects('["lag", { id = "lag" }]'), ("effects", "'lag'", "twice")),
+        (with_effects('"lag"'), ("effects", "list")),
+        (with_effects("[3]"), ("effects, entry 1", "not an effect")),
+        (with_effects("[{ tau = 3 }]"), ("effects, entry 1", "not an effect")),
+        (with_effects('["arm-sag", { id = "lag", tau = 3 }]'), ("effects, entry 2 (lag): tau", "unit")),
+        (with_effects('[{ id = "x", stage = "transducer" }]'), ("entry 1 (x)", "add")),
+        (
+            with_effects('[{ id = "x", stage = "output", add = "c", params = { c = "V" }, d = "1 V" }]'),
+            ("entry 1 (x)", "'d'"),
+        ),
+        (with_effects("[]\nradius = 3"), ("'radius'",)),
+        (TEXT.replace("[accelerometers]", "[accelerometers.inner]"), ("[accelerometers]", "'inner'")),
+        ("disc = 3\n", ("disc must be a table",)),
+        ("", ("[disc] is missing",)),
+    ],
+)
+def test_what_is_refused(tmp_path: Path, text: str, facts: tuple[str, ...]) -> None:
+    path = tmp_path / "sheet.toml"
+    path.write_text(text)
+    with pytest.raises(UserError) as caught:
+        read_instrument(path)
+    for fact in (str(path), *facts):
+        assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
+
+
+def test_files_that_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="does not exist"):
+        read_instrument(tmp_path / "none.toml")
+    with pytest.raises(UserError, match="directory"):
+        read_instrument(tmp_path)
+    (tmp_path / "latin.toml").write_bytes(TEXT.replace("ug", "µg").encode("latin-1"))
+    with pytest.raises(UserError, match="not UTF-8"):
+        read_instrument(tmp_path / "latin.toml")
+    (tmp_path / "windows.toml").write_bytes(b"\xef\xbb\xbf" + TEXT.replace("\n", "\r\n").encode())
+    assert read_instrument(tmp_path / "windows.toml").radius == 0.1
+
+
+def test_build_and_replace_check_names_and_shapes() -> None:
+    made = Instrument.build(0.1, 0.25, 9.8, {"K1": 1e-3, "k_VI": 1e9})
+    assert made.replace(K0=[1, 2, 3, 4]).accelerometers["K0"].tolist() == [1, 2, 3, 4]
+    assert not made.accelerometers["K0"].any()
+    with pytest.raises(UserError, match="K9"):
+        made.replace(K9=1.0)
+    with pytest.raises(UserError, match="K1"):
+        Instrument.build(0.1, 0.25, 9.8, {"k_VI": 1e9})
+
+
+def test_plausible_sizes() -> None:
+    sizes = {p.name: p.plausible_si(np.full(4, 2.0), 9.8) for p in PARAMETERS}
+    assert sizes["dR"] == pytest.approx([50e-6] * 4)
+    assert sizes["beta_x"] == pytest.approx([5e-4] * 4, rel=0.05)
+    assert sizes["K0"] == pytest.approx([50e-6 * 9.8] * 4)
+    assert sizes["K4"] == pytest.approx([20e-6 / 9.8] * 4)
+    assert sizes["K1"] == pytest.approx([2e-3] * 4)
+
+
+def test_edits_keep_everything_else() -> None:
+    text = set_parameters(
+        TEXT, {"dR": RawQuantity((1.0, 2.5, 3.0, 4.0), "um"), "K5": RawQuantity(7.0, "ug/g^2")}
+    )
+    found = parse_instrument(text)
+    assert found.accelerometers["dR"] == pytest.approx([1e-6, 2.5e-6, 3e-6, 4e-6])
+    assert found.accelerometers["K5"] == pytest.approx([7e-6 / 9.8] * 4)
+    kept = [line for line in TEXT.splitlines() if not line.startswith("dR")]
+    assert [line for line in text.splitlines() if line in kept] == kept
+    assert "# with the ruler" in next(line for line in text.splitlines() if line.startswith("dR"))
+    with pytest.raises(UserError, match="did you mean 'K5'"):
+        set_parameters(TEXT, {"k5": RawQuantity(7.0, "ug/g^2")})
+
+
+def test_effects_come_and_go_without_a_trace() -> None:
+    text = add_effect(TEXT, EffectSetting("lag"))
+    text = add_effect(
+        text, EffectSetting("cubic-input", {"K_iii": RawQuantity((2.0, 0.0, 0.0, 0.0), "ug/g^3")})
+    )
+    text = add_effect(text, EffectSetting("lag", {"tau": RawQuantity(1.5, "ms")}))
+    assert parse_instrument(text).effects == (
+        EffectSetting("lag", {"tau": RawQuantity(1.5, "ms")}),
+        EffectSetting("cubic-input", {"K_iii": RawQuantity((2.0, 0.0, 0.0, 0.0), "ug/g^3")}),
+    )
+    text = add_effect(text, EffectSetting("lag", {"tau": RawQuantity(2.0, "ms")}))
+    assert [e.id for e in parse_instrument(text).effects] == ["lag", "cubic-input"]
+    assert remove_effect(remove_effect(text, "lag"), "cubic-input") == TEXT
+    with pytest.raises(UserError, match="not in the model"):
+        remove_effect(TEXT, "lag")
+
+
+@pytest.mark.parametrize(
+    "head", ["", "effects = [\n  'arm-sag',  # why\n]\n", "# only a comment\n", 'effects = ["arm-sag"]\n']
+)
+@pytest.mark.parametrize("tail", ["", "\n[[effects]]\nid = 'odd-quadratic'\n"])
+def test_effects_are_added_to_any_form_of_the_list(head: str, tail: str) -> None:
+    if "effects" in head and tail:
+        return
+    text = head + TEXT.replace("effects = []  # none yet\n", "") + tail
+    before = [e.id for e in parse_instrument(text).effects]
+    added = add_effect(text, EffectSetting("lag", {"tau": RawQuantity(1.0, "ms")}))
+    assert [e.id for e in parse_instrument(added).effects] == [*before, "lag"]
+    assert all(comment in added for comment in ("# with the ruler", "# after the repair:"))
+    assert [e.id for e in parse_instrument(remove_effect(added, "lag")).effects] == before
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.floats(0.1, 100), st.lists(st.floats(-1e3, 1e3), min_size=4, max_size=4), st.floats(1e-4, 1e-2))
+def test_written_instruments_read_back(g0: float, values: list[float], k1: float) -> None:
+    made = Instrument.build(
+        0.1, 0.25, g0, {"K0": np.array(values) * 1e-6, "dR": np.array(values) * 1e-6, "K1": k1, "k_VI": 1e9}
+    )
+    found = parse_instrument(model_text(made))
+    for name, vector in made.accelerometers.items():
+        assert found.accelerometers[name] == pytest.approx(vector, rel=4e-16, abs=0.0)
+
+
+def test_written_numbers_are_those_of_the_sheet(tmp_path: Path) -> None:
+    """30 um stays 30, not 30.000000000000004."""
+    path = tmp_path / "model.toml"
+    write_instrument(parse_instrument(TEXT), path)
+    written = tomlkit.parse(path.read_text())["accelerometers"]
+    assert written["dR"]["value"] == [0, 30, 35, 25]
+    assert written["K1"]["value"] == [10, 10.001, 10.0015, 10.002]
+    assert [p.name for p in tmp_path.iterdir()] == ["model.toml"]
