@@ -101,7 +101,9 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
     for amplitude, terms in collected.amplitudes.items():
         grouped: dict[tuple[int, ...], list[Coefficient]] = {}
         for t in terms:
-            grouped.setdefault(t.motion, []).append(Coefficient(t.combination, _readable(t.coefficient)))
+            grouped.setdefault(t.motion, []).extend(
+                Coefficient(t.combination, _readable(part)) for part in _nominal_apart(t.coefficient)
+            )
         amplitudes.append(
             (amplitude, tuple(AmplitudeTerm(tuple(c), _monomial(m)) for m, c in grouped.items()))
         )
@@ -128,6 +130,16 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
 
 def _monomial(powers: Sequence[int]) -> sp.Expr:
     return sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, powers, strict=True)))
+
+
+def _nominal_apart(p: PolyElement) -> tuple[PolyElement, ...]:
+    """A coefficient as its nominal part k1^m R^n, if it has one, and the rest.
+
+    D^12[k1 (1 + small)] would round 1 + small, and its product with k1, before nearly equal numbers are
+    subtracted; D^12[k1] + D^12[k1 small] does not. It halves the round-off of the whole model.
+    """
+    nominal = p.ring.from_dict({m: c for m, c in p.terms() if not any(m[2:])})
+    return tuple(part for part in (nominal, p - nominal) if part)
 
 
 def _readable(p: PolyElement) -> sp.Expr:

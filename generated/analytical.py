@@ -131,7 +131,7 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         D1234(K0*k1)
         + D1234(k1*(-beta_x*vartheta_z + vartheta_y)) * a_z
         + D1234((R*k1)*(-beta_x*beta_z**2.0*vartheta_y - beta_x*vartheta_y - beta_z**2.0*vartheta_z - vartheta_z)) * T_5
-        + D1234((R*k1)*(beta_z**2.0 + 1)) * T_6
+        + (D1234(R*k1) + D1234(R*beta_z**2.0*k1)) * T_6
         + D1234((R*beta_x*k1)*(beta_x*vartheta_z - vartheta_y)) * S_4
         + D1234((0.5*k1)*(K2 + K5)) * a_x**2.0
         + D1234(-0.5*K4*R*k1) * (T_3*a_x)
@@ -151,8 +151,8 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         + D1234(K2*R**2.0*k1) * T_6**2.0
     )
     A[1] = (  # A_1c
-        (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1))) * a_x
-        + (D12(k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1)) + D34(k1*(-beta_x*vartheta_y + beta_z - vartheta_z))) * a_y
+        (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1) + D34((beta_z*k1)*(beta_x*vartheta_y + vartheta_z))) * a_x
+        + (D12(k1) + D12((beta_z*k1)*(beta_x*vartheta_y + vartheta_z)) + D34(k1*(-beta_x*vartheta_y + beta_z - vartheta_z))) * a_y
         + (D12((R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y)) + D34((R*k1)*(-beta_x*vartheta_z + vartheta_y))) * T_3
         + (D12((R*k1)*(beta_x*vartheta_z - vartheta_y)) + D34((R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y))) * T_4
         + (D12((R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z)) + D34((R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1))) * S_1
@@ -179,8 +179,8 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         + D12(K4*R**2.0*k1) * (T_4*T_6)
     )
     A[2] = (  # A_1s
-        (D12(k1*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1)) + D34(k1*(beta_x*vartheta_y - beta_z + vartheta_z))) * a_x
-        + (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1))) * a_y
+        (D12(-k1) + D12((beta_z*k1)*(-beta_x*vartheta_y - vartheta_z)) + D34(k1*(beta_x*vartheta_y - beta_z + vartheta_z))) * a_x
+        + (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1) + D34((beta_z*k1)*(beta_x*vartheta_y + vartheta_z))) * a_y
         + (D12((R*k1)*(beta_x*vartheta_z - vartheta_y)) + D34((R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y))) * T_3
         + (D12((R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y)) + D34((R*k1)*(beta_x*vartheta_z - vartheta_y))) * T_4
         + (D12((R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1)) + D34((R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z))) * S_1
@@ -208,7 +208,7 @@ def amplitudes(inputs: Array, p: Array) -> Array:
     )
     A[3] = (  # A_2c
         Sigma((R*k1)*(beta_x*beta_z**2.0*vartheta_y - beta_x*vartheta_y + beta_z**2.0*vartheta_z + 2.0*beta_z - vartheta_z)) * T_1
-        + Sigma((R*k1)*(2.0*beta_x*beta_z*vartheta_y - beta_z**2.0 + 2.0*beta_z*vartheta_z + 1)) * T_2
+        + (Sigma(R*k1) + Sigma((R*beta_z*k1)*(2.0*beta_x*vartheta_y - beta_z + 2.0*vartheta_z))) * T_2
         + Sigma((0.5*k1)*(-K2 + K5)) * a_x**2.0
         + Sigma(K6*k1) * (a_x*a_y)
         + Sigma(0.5*K4*R*k1) * (T_3*a_x)
@@ -226,7 +226,7 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         + Sigma(0.5*K7*R**2.0*k1) * T_4**2.0
     )
     A[4] = (  # A_2s
-        Sigma((R*k1)*(2.0*beta_x*beta_z*vartheta_y - beta_z**2.0 + 2.0*beta_z*vartheta_z + 1)) * T_1
+        (Sigma(R*k1) + Sigma((R*beta_z*k1)*(2.0*beta_x*vartheta_y - beta_z + 2.0*vartheta_z))) * T_1
         + Sigma((R*k1)*(-beta_x*beta_z**2.0*vartheta_y + beta_x*vartheta_y - beta_z**2.0*vartheta_z - 2.0*beta_z + vartheta_z)) * T_2
         + Sigma(-0.5*K6*k1) * a_x**2.0
         + Sigma(k1*(-K2 + K5)) * (a_x*a_y)

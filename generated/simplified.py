@@ -136,8 +136,8 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         + D1234(K7*k1) * a_z**2.0
     )
     A[1] = (  # A_1c
-        (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1*(beta_z*vartheta_z + 1))) * a_x
-        + (D12(k1*(beta_z*vartheta_z + 1)) + D34(k1*(-beta_x*vartheta_y + beta_z - vartheta_z))) * a_y
+        (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1) + D34(beta_z*k1*vartheta_z)) * a_x
+        + (D12(k1) + D12(beta_z*k1*vartheta_z) + D34(k1*(-beta_x*vartheta_y + beta_z - vartheta_z))) * a_y
         + D34(R*k1*vartheta_y) * T_3
         + D12(-R*k1*vartheta_y) * T_4
         + D34(-R*beta_x*k1) * S_1
@@ -146,8 +146,8 @@ def amplitudes(inputs: Array, p: Array) -> Array:
         + (D12(-K4*k1) + D34(K8*k1)) * (a_y*a_z)
     )
     A[2] = (  # A_1s
-        (D12(k1*(-beta_z*vartheta_z - 1)) + D34(k1*(beta_x*vartheta_y - beta_z + vartheta_z))) * a_x
-        + (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1*(beta_z*vartheta_z + 1))) * a_y
+        (D12(-k1) + D12(-beta_z*k1*vartheta_z) + D34(k1*(beta_x*vartheta_y - beta_z + vartheta_z))) * a_x
+        + (D12(k1*(beta_x*vartheta_y - beta_z + vartheta_z)) + D34(k1) + D34(beta_z*k1*vartheta_z)) * a_y
         + D12(-R*k1*vartheta_y) * T_3
         + D34(-R*k1*vartheta_y) * T_4
         + D12(R*beta_x*k1) * S_1

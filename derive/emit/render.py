@@ -109,7 +109,11 @@ def _latex_term(t: AmplitudeTerm) -> str:
 
 
 def _latex_coefficient(coefficients: tuple[Coefficient, ...]) -> list[str]:
-    by = {k.combination: to_latex(k.expression) for k in coefficients}
+    by: dict[str, str] = {}
+    for k in coefficients:  # D^12 and the like are linear: the parts of one coefficient are joined
+        text = to_latex(k.expression)
+        joint = "" if k.combination not in by else " " if text.startswith("-") else " + "
+        by[k.combination] = by.get(k.combination, "") + joint + text
     if set(by) == {"D12", "D34"}:
         return [rf"D^{{12,34}}_{{{by['D12']},\, {by['D34']}}}"]
     names = {"D12": "D^{12}", "D34": "D^{34}", "D1234": "D^{1234}", "Sigma": r"\sum\nolimits"}

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { AMPLITUDES = 9, FOLDED = 176, BASIS = 118, SLOPES = 14 };
+enum { AMPLITUDES = 9, FOLDED = 183, BASIS = 118, SLOPES = 14 };
 
 /* Disc angle, rad, within half a turn of 0; the turns are dropped exactly, whatever the time. */
 static double disc_angle(double t, double spin_frequency) {
@@ -20,7 +20,7 @@ static double Sigma(const double x[4]) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 /* Error-propagation coefficients: all that the instrument's parameters contribute. */
 static void fold(const double *p, double c[FOLDED]) {
-    double e[75][4];
+    double e[78][4];
     for (size_t j = 0; j < 4; ++j) {
         const double radius = p[0];
         const double dR = p[2 + j];
@@ -44,255 +44,265 @@ static void fold(const double *p, double c[FOLDED]) {
         e[0][j] = K0*k1;
         e[1][j] = k1*(-beta_x*vartheta_z + vartheta_y);
         e[2][j] = (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - vartheta_z);
-        e[3][j] = (R*k1)*((beta_z*beta_z) + 1.0);
-        e[4][j] = (R*beta_x*k1)*(beta_x*vartheta_z - vartheta_y);
-        e[5][j] = (0.5*k1)*(K2 + K5);
-        e[6][j] = -0.5*K4*R*k1;
-        e[7][j] = 0.5*K8*R*k1;
-        e[8][j] = 0.5*K4*R*k1;
-        e[9][j] = K7*k1;
-        e[10][j] = K8*R*k1;
-        e[11][j] = -K4*R*k1;
-        e[12][j] = (0.5*(R*R)*k1)*(K2 + K5);
-        e[13][j] = 0.5*K7*(R*R)*k1;
-        e[14][j] = K5*(R*R)*k1;
-        e[15][j] = -K6*(R*R)*k1;
-        e[16][j] = K2*(R*R)*k1;
-        e[17][j] = k1*(beta_x*vartheta_y - beta_z + vartheta_z);
-        e[18][j] = k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0);
-        e[19][j] = k1*(-beta_x*vartheta_y + beta_z - vartheta_z);
-        e[20][j] = (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y);
-        e[21][j] = (R*k1)*(-beta_x*vartheta_z + vartheta_y);
-        e[22][j] = (R*k1)*(beta_x*vartheta_z - vartheta_y);
-        e[23][j] = (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z);
-        e[24][j] = (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0);
-        e[25][j] = (R*beta_x*k1)*(beta_x*vartheta_y - beta_z + vartheta_z);
-        e[26][j] = -K8*k1;
-        e[27][j] = -K4*k1;
-        e[28][j] = (R*k1)*(-K2 - K5);
-        e[29][j] = -2.0*K5*R*k1;
-        e[30][j] = -K6*R*k1;
-        e[31][j] = K6*R*k1;
-        e[32][j] = 2.0*K2*R*k1;
-        e[33][j] = K8*k1;
-        e[34][j] = (R*k1)*(K2 + K5);
-        e[35][j] = 2.0*K5*R*k1;
-        e[36][j] = 2.0*K7*R*k1;
-        e[37][j] = -2.0*K7*R*k1;
-        e[38][j] = 0.5*K4*(R*R)*k1;
-        e[39][j] = -0.5*K8*(R*R)*k1;
-        e[40][j] = -0.5*K4*(R*R)*k1;
-        e[41][j] = 0.5*K8*(R*R)*k1;
-        e[42][j] = K8*(R*R)*k1;
-        e[43][j] = -K4*(R*R)*k1;
-        e[44][j] = -K8*(R*R)*k1;
-        e[45][j] = K4*(R*R)*k1;
-        e[46][j] = k1*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0);
-        e[47][j] = (R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y);
-        e[48][j] = (R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0);
-        e[49][j] = K4*k1;
-        e[50][j] = -2.0*K2*R*k1;
-        e[51][j] = (R*k1)*(beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y + (beta_z*beta_z)*vartheta_z + 2.0*beta_z - vartheta_z);
-        e[52][j] = (R*k1)*(2.0*beta_x*beta_z*vartheta_y - (beta_z*beta_z) + 2.0*beta_z*vartheta_z + 1.0);
-        e[53][j] = (0.5*k1)*(-K2 + K5);
-        e[54][j] = K6*k1;
-        e[55][j] = (0.5*k1)*(K2 - K5);
-        e[56][j] = -0.5*K8*R*k1;
-        e[57][j] = 2.0*K5*(R*R)*k1;
-        e[58][j] = 2.0*K2*(R*R)*k1;
-        e[59][j] = -0.5*K7*(R*R)*k1;
-        e[60][j] = (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y + beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - 2.0*beta_z + vartheta_z);
-        e[61][j] = -0.5*K6*k1;
-        e[62][j] = k1*(-K2 + K5);
-        e[63][j] = 0.5*K6*k1;
-        e[64][j] = -K8*R*k1;
-        e[65][j] = -2.0*K5*(R*R)*k1;
-        e[66][j] = K6*(R*R)*k1;
-        e[67][j] = K7*(R*R)*k1;
-        e[68][j] = (R*k1)*(K2 - K5);
-        e[69][j] = (R*k1)*(-K2 + K5);
-        e[70][j] = (0.5*(R*R)*k1)*(-K2 + K5);
-        e[71][j] = (0.5*(R*R)*k1)*(K2 - K5);
-        e[72][j] = -0.5*K6*(R*R)*k1;
-        e[73][j] = ((R*R)*k1)*(K2 - K5);
-        e[74][j] = 0.5*K6*(R*R)*k1;
+        e[3][j] = R*k1;
+        e[4][j] = R*(beta_z*beta_z)*k1;
+        e[5][j] = (R*beta_x*k1)*(beta_x*vartheta_z - vartheta_y);
+        e[6][j] = (0.5*k1)*(K2 + K5);
+        e[7][j] = -0.5*K4*R*k1;
+        e[8][j] = 0.5*K8*R*k1;
+        e[9][j] = 0.5*K4*R*k1;
+        e[10][j] = K7*k1;
+        e[11][j] = K8*R*k1;
+        e[12][j] = -K4*R*k1;
+        e[13][j] = (0.5*(R*R)*k1)*(K2 + K5);
+        e[14][j] = 0.5*K7*(R*R)*k1;
+        e[15][j] = K5*(R*R)*k1;
+        e[16][j] = -K6*(R*R)*k1;
+        e[17][j] = K2*(R*R)*k1;
+        e[18][j] = k1*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[19][j] = k1;
+        e[20][j] = (beta_z*k1)*(beta_x*vartheta_y + vartheta_z);
+        e[21][j] = k1*(-beta_x*vartheta_y + beta_z - vartheta_z);
+        e[22][j] = (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y);
+        e[23][j] = (R*k1)*(-beta_x*vartheta_z + vartheta_y);
+        e[24][j] = (R*k1)*(beta_x*vartheta_z - vartheta_y);
+        e[25][j] = (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z);
+        e[26][j] = (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0);
+        e[27][j] = (R*beta_x*k1)*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[28][j] = -K8*k1;
+        e[29][j] = -K4*k1;
+        e[30][j] = (R*k1)*(-K2 - K5);
+        e[31][j] = -2.0*K5*R*k1;
+        e[32][j] = -K6*R*k1;
+        e[33][j] = K6*R*k1;
+        e[34][j] = 2.0*K2*R*k1;
+        e[35][j] = K8*k1;
+        e[36][j] = (R*k1)*(K2 + K5);
+        e[37][j] = 2.0*K5*R*k1;
+        e[38][j] = 2.0*K7*R*k1;
+        e[39][j] = -2.0*K7*R*k1;
+        e[40][j] = 0.5*K4*(R*R)*k1;
+        e[41][j] = -0.5*K8*(R*R)*k1;
+        e[42][j] = -0.5*K4*(R*R)*k1;
+        e[43][j] = 0.5*K8*(R*R)*k1;
+        e[44][j] = K8*(R*R)*k1;
+        e[45][j] = -K4*(R*R)*k1;
+        e[46][j] = -K8*(R*R)*k1;
+        e[47][j] = K4*(R*R)*k1;
+        e[48][j] = -k1;
+        e[49][j] = (beta_z*k1)*(-beta_x*vartheta_y - vartheta_z);
+        e[50][j] = (R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y);
+        e[51][j] = (R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0);
+        e[52][j] = K4*k1;
+        e[53][j] = -2.0*K2*R*k1;
+        e[54][j] = (R*k1)*(beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y + (beta_z*beta_z)*vartheta_z + 2.0*beta_z - vartheta_z);
+        e[55][j] = (R*beta_z*k1)*(2.0*beta_x*vartheta_y - beta_z + 2.0*vartheta_z);
+        e[56][j] = (0.5*k1)*(-K2 + K5);
+        e[57][j] = K6*k1;
+        e[58][j] = (0.5*k1)*(K2 - K5);
+        e[59][j] = -0.5*K8*R*k1;
+        e[60][j] = 2.0*K5*(R*R)*k1;
+        e[61][j] = 2.0*K2*(R*R)*k1;
+        e[62][j] = -0.5*K7*(R*R)*k1;
+        e[63][j] = (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y + beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - 2.0*beta_z + vartheta_z);
+        e[64][j] = -0.5*K6*k1;
+        e[65][j] = k1*(-K2 + K5);
+        e[66][j] = 0.5*K6*k1;
+        e[67][j] = -K8*R*k1;
+        e[68][j] = -2.0*K5*(R*R)*k1;
+        e[69][j] = K6*(R*R)*k1;
+        e[70][j] = K7*(R*R)*k1;
+        e[71][j] = (R*k1)*(K2 - K5);
+        e[72][j] = (R*k1)*(-K2 + K5);
+        e[73][j] = (0.5*(R*R)*k1)*(-K2 + K5);
+        e[74][j] = (0.5*(R*R)*k1)*(K2 - K5);
+        e[75][j] = -0.5*K6*(R*R)*k1;
+        e[76][j] = ((R*R)*k1)*(K2 - K5);
+        e[77][j] = 0.5*K6*(R*R)*k1;
     }
     c[0] = D1234(e[0]); /* K0*k1 */
     c[1] = D1234(e[1]); /* k1*(-beta_x*vartheta_z + vartheta_y) */
     c[2] = D1234(e[2]); /* (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - vartheta_z) */
-    c[3] = D1234(e[3]); /* (R*k1)*((beta_z*beta_z) + 1.0) */
-    c[4] = D1234(e[4]); /* (R*beta_x*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[5] = D1234(e[5]); /* (0.5*k1)*(K2 + K5) */
-    c[6] = D1234(e[6]); /* -0.5*K4*R*k1 */
-    c[7] = D1234(e[7]); /* 0.5*K8*R*k1 */
-    c[8] = D1234(e[5]); /* (0.5*k1)*(K2 + K5) */
-    c[9] = D1234(e[7]); /* 0.5*K8*R*k1 */
-    c[10] = D1234(e[8]); /* 0.5*K4*R*k1 */
-    c[11] = D1234(e[9]); /* K7*k1 */
-    c[12] = D1234(e[10]); /* K8*R*k1 */
-    c[13] = D1234(e[11]); /* -K4*R*k1 */
-    c[14] = D1234(e[12]); /* (0.5*(R*R)*k1)*(K2 + K5) */
-    c[15] = D1234(e[12]); /* (0.5*(R*R)*k1)*(K2 + K5) */
-    c[16] = D1234(e[13]); /* 0.5*K7*(R*R)*k1 */
-    c[17] = D1234(e[13]); /* 0.5*K7*(R*R)*k1 */
-    c[18] = D1234(e[14]); /* K5*(R*R)*k1 */
-    c[19] = D1234(e[15]); /* -K6*(R*R)*k1 */
-    c[20] = D1234(e[16]); /* K2*(R*R)*k1 */
-    c[21] = D12(e[17]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[22] = D34(e[18]); /* k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0) */
-    c[23] = D12(e[18]); /* k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0) */
-    c[24] = D34(e[19]); /* k1*(-beta_x*vartheta_y + beta_z - vartheta_z) */
-    c[25] = D12(e[20]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[26] = D34(e[21]); /* (R*k1)*(-beta_x*vartheta_z + vartheta_y) */
-    c[27] = D12(e[22]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[28] = D34(e[20]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[29] = D12(e[23]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
-    c[30] = D34(e[24]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
-    c[31] = D12(e[24]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
-    c[32] = D34(e[25]); /* (R*beta_x*k1)*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[33] = D12(e[26]); /* -K8*k1 */
-    c[34] = D34(e[27]); /* -K4*k1 */
-    c[35] = D12(e[28]); /* (R*k1)*(-K2 - K5) */
-    c[36] = D34(e[28]); /* (R*k1)*(-K2 - K5) */
-    c[37] = D12(e[29]); /* -2.0*K5*R*k1 */
-    c[38] = D34(e[30]); /* -K6*R*k1 */
-    c[39] = D12(e[31]); /* K6*R*k1 */
-    c[40] = D34(e[32]); /* 2.0*K2*R*k1 */
-    c[41] = D12(e[27]); /* -K4*k1 */
-    c[42] = D34(e[33]); /* K8*k1 */
-    c[43] = D34(e[28]); /* (R*k1)*(-K2 - K5) */
-    c[44] = D12(e[34]); /* (R*k1)*(K2 + K5) */
-    c[45] = D12(e[30]); /* -K6*R*k1 */
-    c[46] = D34(e[35]); /* 2.0*K5*R*k1 */
-    c[47] = D12(e[32]); /* 2.0*K2*R*k1 */
-    c[48] = D34(e[30]); /* -K6*R*k1 */
-    c[49] = D34(e[36]); /* 2.0*K7*R*k1 */
-    c[50] = D12(e[37]); /* -2.0*K7*R*k1 */
-    c[51] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[52] = D34(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[53] = D12(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[54] = D34(e[40]); /* -0.5*K4*(R*R)*k1 */
-    c[55] = D12(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[56] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[57] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[58] = D34(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[59] = D34(e[42]); /* K8*(R*R)*k1 */
-    c[60] = D34(e[43]); /* -K4*(R*R)*k1 */
-    c[61] = D12(e[44]); /* -K8*(R*R)*k1 */
-    c[62] = D12(e[45]); /* K4*(R*R)*k1 */
-    c[63] = D12(e[46]); /* k1*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
-    c[64] = D34(e[17]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[65] = D12(e[17]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[66] = D34(e[18]); /* k1*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0) */
-    c[67] = D12(e[22]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[68] = D34(e[20]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[69] = D12(e[47]); /* (R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y) */
-    c[70] = D34(e[22]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
-    c[71] = D12(e[48]); /* (R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0) */
-    c[72] = D34(e[23]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
-    c[73] = D12(e[23]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
-    c[74] = D34(e[24]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
-    c[75] = D12(e[49]); /* K4*k1 */
-    c[76] = D34(e[26]); /* -K8*k1 */
-    c[77] = D34(e[28]); /* (R*k1)*(-K2 - K5) */
-    c[78] = D12(e[34]); /* (R*k1)*(K2 + K5) */
-    c[79] = D12(e[31]); /* K6*R*k1 */
-    c[80] = D34(e[29]); /* -2.0*K5*R*k1 */
-    c[81] = D12(e[50]); /* -2.0*K2*R*k1 */
-    c[82] = D34(e[31]); /* K6*R*k1 */
-    c[83] = D12(e[26]); /* -K8*k1 */
-    c[84] = D34(e[27]); /* -K4*k1 */
-    c[85] = D12(e[34]); /* (R*k1)*(K2 + K5) */
-    c[86] = D34(e[34]); /* (R*k1)*(K2 + K5) */
-    c[87] = D12(e[29]); /* -2.0*K5*R*k1 */
-    c[88] = D34(e[30]); /* -K6*R*k1 */
-    c[89] = D12(e[31]); /* K6*R*k1 */
-    c[90] = D34(e[32]); /* 2.0*K2*R*k1 */
-    c[91] = D12(e[37]); /* -2.0*K7*R*k1 */
-    c[92] = D34(e[37]); /* -2.0*K7*R*k1 */
-    c[93] = D12(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[94] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[95] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[96] = D34(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[97] = D12(e[40]); /* -0.5*K4*(R*R)*k1 */
-    c[98] = D34(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[99] = D12(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[100] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[101] = D12(e[44]); /* -K8*(R*R)*k1 */
-    c[102] = D12(e[45]); /* K4*(R*R)*k1 */
-    c[103] = D34(e[44]); /* -K8*(R*R)*k1 */
-    c[104] = D34(e[45]); /* K4*(R*R)*k1 */
-    c[105] = Sigma(e[51]); /* (R*k1)*(beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y + (beta_z*beta_z)*vartheta_z + 2.0*beta_z - vartheta_z) */
-    c[106] = Sigma(e[52]); /* (R*k1)*(2.0*beta_x*beta_z*vartheta_y - (beta_z*beta_z) + 2.0*beta_z*vartheta_z + 1.0) */
-    c[107] = Sigma(e[53]); /* (0.5*k1)*(-K2 + K5) */
-    c[108] = Sigma(e[54]); /* K6*k1 */
-    c[109] = Sigma(e[8]); /* 0.5*K4*R*k1 */
-    c[110] = Sigma(e[7]); /* 0.5*K8*R*k1 */
-    c[111] = Sigma(e[55]); /* (0.5*k1)*(K2 - K5) */
-    c[112] = Sigma(e[56]); /* -0.5*K8*R*k1 */
-    c[113] = Sigma(e[8]); /* 0.5*K4*R*k1 */
-    c[114] = Sigma(e[10]); /* K8*R*k1 */
-    c[115] = Sigma(e[11]); /* -K4*R*k1 */
-    c[116] = Sigma(e[57]); /* 2.0*K5*(R*R)*k1 */
-    c[117] = Sigma(e[15]); /* -K6*(R*R)*k1 */
-    c[118] = Sigma(e[15]); /* -K6*(R*R)*k1 */
-    c[119] = Sigma(e[58]); /* 2.0*K2*(R*R)*k1 */
-    c[120] = Sigma(e[59]); /* -0.5*K7*(R*R)*k1 */
-    c[121] = Sigma(e[13]); /* 0.5*K7*(R*R)*k1 */
-    c[122] = Sigma(e[52]); /* (R*k1)*(2.0*beta_x*beta_z*vartheta_y - (beta_z*beta_z) + 2.0*beta_z*vartheta_z + 1.0) */
-    c[123] = Sigma(e[60]); /* (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y + beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - 2.0*beta_z + vartheta_z) */
-    c[124] = Sigma(e[61]); /* -0.5*K6*k1 */
-    c[125] = Sigma(e[62]); /* k1*(-K2 + K5) */
-    c[126] = Sigma(e[7]); /* 0.5*K8*R*k1 */
-    c[127] = Sigma(e[6]); /* -0.5*K4*R*k1 */
-    c[128] = Sigma(e[63]); /* 0.5*K6*k1 */
-    c[129] = Sigma(e[8]); /* 0.5*K4*R*k1 */
-    c[130] = Sigma(e[7]); /* 0.5*K8*R*k1 */
-    c[131] = Sigma(e[11]); /* -K4*R*k1 */
-    c[132] = Sigma(e[64]); /* -K8*R*k1 */
-    c[133] = Sigma(e[15]); /* -K6*(R*R)*k1 */
-    c[134] = Sigma(e[58]); /* 2.0*K2*(R*R)*k1 */
-    c[135] = Sigma(e[65]); /* -2.0*K5*(R*R)*k1 */
-    c[136] = Sigma(e[66]); /* K6*(R*R)*k1 */
-    c[137] = Sigma(e[67]); /* K7*(R*R)*k1 */
-    c[138] = D12(e[68]); /* (R*k1)*(K2 - K5) */
-    c[139] = D34(e[31]); /* K6*R*k1 */
-    c[140] = D12(e[31]); /* K6*R*k1 */
-    c[141] = D34(e[69]); /* (R*k1)*(-K2 + K5) */
-    c[142] = D12(e[30]); /* -K6*R*k1 */
-    c[143] = D34(e[68]); /* (R*k1)*(K2 - K5) */
-    c[144] = D12(e[68]); /* (R*k1)*(K2 - K5) */
-    c[145] = D34(e[31]); /* K6*R*k1 */
-    c[146] = D12(e[40]); /* -0.5*K4*(R*R)*k1 */
-    c[147] = D34(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[148] = D12(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[149] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[150] = D12(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[151] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[152] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[153] = D34(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[154] = D12(e[31]); /* K6*R*k1 */
-    c[155] = D34(e[69]); /* (R*k1)*(-K2 + K5) */
-    c[156] = D12(e[69]); /* (R*k1)*(-K2 + K5) */
-    c[157] = D34(e[30]); /* -K6*R*k1 */
-    c[158] = D12(e[68]); /* (R*k1)*(K2 - K5) */
-    c[159] = D34(e[31]); /* K6*R*k1 */
-    c[160] = D12(e[31]); /* K6*R*k1 */
-    c[161] = D34(e[69]); /* (R*k1)*(-K2 + K5) */
-    c[162] = D12(e[39]); /* -0.5*K8*(R*R)*k1 */
-    c[163] = D34(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[164] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[165] = D34(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[166] = D12(e[38]); /* 0.5*K4*(R*R)*k1 */
-    c[167] = D34(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[168] = D12(e[41]); /* 0.5*K8*(R*R)*k1 */
-    c[169] = D34(e[40]); /* -0.5*K4*(R*R)*k1 */
-    c[170] = D1234(e[70]); /* (0.5*(R*R)*k1)*(-K2 + K5) */
-    c[171] = D1234(e[15]); /* -K6*(R*R)*k1 */
-    c[172] = D1234(e[71]); /* (0.5*(R*R)*k1)*(K2 - K5) */
-    c[173] = D1234(e[72]); /* -0.5*K6*(R*R)*k1 */
-    c[174] = D1234(e[73]); /* ((R*R)*k1)*(K2 - K5) */
-    c[175] = D1234(e[74]); /* 0.5*K6*(R*R)*k1 */
+    c[3] = D1234(e[3]); /* R*k1 */
+    c[4] = D1234(e[4]); /* R*(beta_z*beta_z)*k1 */
+    c[5] = D1234(e[5]); /* (R*beta_x*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[6] = D1234(e[6]); /* (0.5*k1)*(K2 + K5) */
+    c[7] = D1234(e[7]); /* -0.5*K4*R*k1 */
+    c[8] = D1234(e[8]); /* 0.5*K8*R*k1 */
+    c[9] = D1234(e[6]); /* (0.5*k1)*(K2 + K5) */
+    c[10] = D1234(e[8]); /* 0.5*K8*R*k1 */
+    c[11] = D1234(e[9]); /* 0.5*K4*R*k1 */
+    c[12] = D1234(e[10]); /* K7*k1 */
+    c[13] = D1234(e[11]); /* K8*R*k1 */
+    c[14] = D1234(e[12]); /* -K4*R*k1 */
+    c[15] = D1234(e[13]); /* (0.5*(R*R)*k1)*(K2 + K5) */
+    c[16] = D1234(e[13]); /* (0.5*(R*R)*k1)*(K2 + K5) */
+    c[17] = D1234(e[14]); /* 0.5*K7*(R*R)*k1 */
+    c[18] = D1234(e[14]); /* 0.5*K7*(R*R)*k1 */
+    c[19] = D1234(e[15]); /* K5*(R*R)*k1 */
+    c[20] = D1234(e[16]); /* -K6*(R*R)*k1 */
+    c[21] = D1234(e[17]); /* K2*(R*R)*k1 */
+    c[22] = D12(e[18]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[23] = D34(e[19]); /* k1 */
+    c[24] = D34(e[20]); /* (beta_z*k1)*(beta_x*vartheta_y + vartheta_z) */
+    c[25] = D12(e[19]); /* k1 */
+    c[26] = D12(e[20]); /* (beta_z*k1)*(beta_x*vartheta_y + vartheta_z) */
+    c[27] = D34(e[21]); /* k1*(-beta_x*vartheta_y + beta_z - vartheta_z) */
+    c[28] = D12(e[22]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[29] = D34(e[23]); /* (R*k1)*(-beta_x*vartheta_z + vartheta_y) */
+    c[30] = D12(e[24]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[31] = D34(e[22]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[32] = D12(e[25]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
+    c[33] = D34(e[26]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
+    c[34] = D12(e[26]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
+    c[35] = D34(e[27]); /* (R*beta_x*k1)*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[36] = D12(e[28]); /* -K8*k1 */
+    c[37] = D34(e[29]); /* -K4*k1 */
+    c[38] = D12(e[30]); /* (R*k1)*(-K2 - K5) */
+    c[39] = D34(e[30]); /* (R*k1)*(-K2 - K5) */
+    c[40] = D12(e[31]); /* -2.0*K5*R*k1 */
+    c[41] = D34(e[32]); /* -K6*R*k1 */
+    c[42] = D12(e[33]); /* K6*R*k1 */
+    c[43] = D34(e[34]); /* 2.0*K2*R*k1 */
+    c[44] = D12(e[29]); /* -K4*k1 */
+    c[45] = D34(e[35]); /* K8*k1 */
+    c[46] = D34(e[30]); /* (R*k1)*(-K2 - K5) */
+    c[47] = D12(e[36]); /* (R*k1)*(K2 + K5) */
+    c[48] = D12(e[32]); /* -K6*R*k1 */
+    c[49] = D34(e[37]); /* 2.0*K5*R*k1 */
+    c[50] = D12(e[34]); /* 2.0*K2*R*k1 */
+    c[51] = D34(e[32]); /* -K6*R*k1 */
+    c[52] = D34(e[38]); /* 2.0*K7*R*k1 */
+    c[53] = D12(e[39]); /* -2.0*K7*R*k1 */
+    c[54] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[55] = D34(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[56] = D12(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[57] = D34(e[42]); /* -0.5*K4*(R*R)*k1 */
+    c[58] = D12(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[59] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[60] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[61] = D34(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[62] = D34(e[44]); /* K8*(R*R)*k1 */
+    c[63] = D34(e[45]); /* -K4*(R*R)*k1 */
+    c[64] = D12(e[46]); /* -K8*(R*R)*k1 */
+    c[65] = D12(e[47]); /* K4*(R*R)*k1 */
+    c[66] = D12(e[48]); /* -k1 */
+    c[67] = D12(e[49]); /* (beta_z*k1)*(-beta_x*vartheta_y - vartheta_z) */
+    c[68] = D34(e[18]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[69] = D12(e[18]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[70] = D34(e[19]); /* k1 */
+    c[71] = D34(e[20]); /* (beta_z*k1)*(beta_x*vartheta_y + vartheta_z) */
+    c[72] = D12(e[24]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[73] = D34(e[22]); /* (R*beta_z*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[74] = D12(e[50]); /* (R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y) */
+    c[75] = D34(e[24]); /* (R*k1)*(beta_x*vartheta_z - vartheta_y) */
+    c[76] = D12(e[51]); /* (R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0) */
+    c[77] = D34(e[25]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
+    c[78] = D12(e[25]); /* (R*beta_x*k1)*(-beta_x*vartheta_y + beta_z - vartheta_z) */
+    c[79] = D34(e[26]); /* (R*beta_x*k1)*(-beta_x*beta_z*vartheta_y - beta_z*vartheta_z - 1.0) */
+    c[80] = D12(e[52]); /* K4*k1 */
+    c[81] = D34(e[28]); /* -K8*k1 */
+    c[82] = D34(e[30]); /* (R*k1)*(-K2 - K5) */
+    c[83] = D12(e[36]); /* (R*k1)*(K2 + K5) */
+    c[84] = D12(e[33]); /* K6*R*k1 */
+    c[85] = D34(e[31]); /* -2.0*K5*R*k1 */
+    c[86] = D12(e[53]); /* -2.0*K2*R*k1 */
+    c[87] = D34(e[33]); /* K6*R*k1 */
+    c[88] = D12(e[28]); /* -K8*k1 */
+    c[89] = D34(e[29]); /* -K4*k1 */
+    c[90] = D12(e[36]); /* (R*k1)*(K2 + K5) */
+    c[91] = D34(e[36]); /* (R*k1)*(K2 + K5) */
+    c[92] = D12(e[31]); /* -2.0*K5*R*k1 */
+    c[93] = D34(e[32]); /* -K6*R*k1 */
+    c[94] = D12(e[33]); /* K6*R*k1 */
+    c[95] = D34(e[34]); /* 2.0*K2*R*k1 */
+    c[96] = D12(e[39]); /* -2.0*K7*R*k1 */
+    c[97] = D34(e[39]); /* -2.0*K7*R*k1 */
+    c[98] = D12(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[99] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[100] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[101] = D34(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[102] = D12(e[42]); /* -0.5*K4*(R*R)*k1 */
+    c[103] = D34(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[104] = D12(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[105] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[106] = D12(e[46]); /* -K8*(R*R)*k1 */
+    c[107] = D12(e[47]); /* K4*(R*R)*k1 */
+    c[108] = D34(e[46]); /* -K8*(R*R)*k1 */
+    c[109] = D34(e[47]); /* K4*(R*R)*k1 */
+    c[110] = Sigma(e[54]); /* (R*k1)*(beta_x*(beta_z*beta_z)*vartheta_y - beta_x*vartheta_y + (beta_z*beta_z)*vartheta_z + 2.0*beta_z - vartheta_z) */
+    c[111] = Sigma(e[3]); /* R*k1 */
+    c[112] = Sigma(e[55]); /* (R*beta_z*k1)*(2.0*beta_x*vartheta_y - beta_z + 2.0*vartheta_z) */
+    c[113] = Sigma(e[56]); /* (0.5*k1)*(-K2 + K5) */
+    c[114] = Sigma(e[57]); /* K6*k1 */
+    c[115] = Sigma(e[9]); /* 0.5*K4*R*k1 */
+    c[116] = Sigma(e[8]); /* 0.5*K8*R*k1 */
+    c[117] = Sigma(e[58]); /* (0.5*k1)*(K2 - K5) */
+    c[118] = Sigma(e[59]); /* -0.5*K8*R*k1 */
+    c[119] = Sigma(e[9]); /* 0.5*K4*R*k1 */
+    c[120] = Sigma(e[11]); /* K8*R*k1 */
+    c[121] = Sigma(e[12]); /* -K4*R*k1 */
+    c[122] = Sigma(e[60]); /* 2.0*K5*(R*R)*k1 */
+    c[123] = Sigma(e[16]); /* -K6*(R*R)*k1 */
+    c[124] = Sigma(e[16]); /* -K6*(R*R)*k1 */
+    c[125] = Sigma(e[61]); /* 2.0*K2*(R*R)*k1 */
+    c[126] = Sigma(e[62]); /* -0.5*K7*(R*R)*k1 */
+    c[127] = Sigma(e[14]); /* 0.5*K7*(R*R)*k1 */
+    c[128] = Sigma(e[3]); /* R*k1 */
+    c[129] = Sigma(e[55]); /* (R*beta_z*k1)*(2.0*beta_x*vartheta_y - beta_z + 2.0*vartheta_z) */
+    c[130] = Sigma(e[63]); /* (R*k1)*(-beta_x*(beta_z*beta_z)*vartheta_y + beta_x*vartheta_y - (beta_z*beta_z)*vartheta_z - 2.0*beta_z + vartheta_z) */
+    c[131] = Sigma(e[64]); /* -0.5*K6*k1 */
+    c[132] = Sigma(e[65]); /* k1*(-K2 + K5) */
+    c[133] = Sigma(e[8]); /* 0.5*K8*R*k1 */
+    c[134] = Sigma(e[7]); /* -0.5*K4*R*k1 */
+    c[135] = Sigma(e[66]); /* 0.5*K6*k1 */
+    c[136] = Sigma(e[9]); /* 0.5*K4*R*k1 */
+    c[137] = Sigma(e[8]); /* 0.5*K8*R*k1 */
+    c[138] = Sigma(e[12]); /* -K4*R*k1 */
+    c[139] = Sigma(e[67]); /* -K8*R*k1 */
+    c[140] = Sigma(e[16]); /* -K6*(R*R)*k1 */
+    c[141] = Sigma(e[61]); /* 2.0*K2*(R*R)*k1 */
+    c[142] = Sigma(e[68]); /* -2.0*K5*(R*R)*k1 */
+    c[143] = Sigma(e[69]); /* K6*(R*R)*k1 */
+    c[144] = Sigma(e[70]); /* K7*(R*R)*k1 */
+    c[145] = D12(e[71]); /* (R*k1)*(K2 - K5) */
+    c[146] = D34(e[33]); /* K6*R*k1 */
+    c[147] = D12(e[33]); /* K6*R*k1 */
+    c[148] = D34(e[72]); /* (R*k1)*(-K2 + K5) */
+    c[149] = D12(e[32]); /* -K6*R*k1 */
+    c[150] = D34(e[71]); /* (R*k1)*(K2 - K5) */
+    c[151] = D12(e[71]); /* (R*k1)*(K2 - K5) */
+    c[152] = D34(e[33]); /* K6*R*k1 */
+    c[153] = D12(e[42]); /* -0.5*K4*(R*R)*k1 */
+    c[154] = D34(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[155] = D12(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[156] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[157] = D12(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[158] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[159] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[160] = D34(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[161] = D12(e[33]); /* K6*R*k1 */
+    c[162] = D34(e[72]); /* (R*k1)*(-K2 + K5) */
+    c[163] = D12(e[72]); /* (R*k1)*(-K2 + K5) */
+    c[164] = D34(e[32]); /* -K6*R*k1 */
+    c[165] = D12(e[71]); /* (R*k1)*(K2 - K5) */
+    c[166] = D34(e[33]); /* K6*R*k1 */
+    c[167] = D12(e[33]); /* K6*R*k1 */
+    c[168] = D34(e[72]); /* (R*k1)*(-K2 + K5) */
+    c[169] = D12(e[41]); /* -0.5*K8*(R*R)*k1 */
+    c[170] = D34(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[171] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[172] = D34(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[173] = D12(e[40]); /* 0.5*K4*(R*R)*k1 */
+    c[174] = D34(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[175] = D12(e[43]); /* 0.5*K8*(R*R)*k1 */
+    c[176] = D34(e[42]); /* -0.5*K4*(R*R)*k1 */
+    c[177] = D1234(e[73]); /* (0.5*(R*R)*k1)*(-K2 + K5) */
+    c[178] = D1234(e[16]); /* -K6*(R*R)*k1 */
+    c[179] = D1234(e[74]); /* (0.5*(R*R)*k1)*(K2 - K5) */
+    c[180] = D1234(e[75]); /* -0.5*K6*(R*R)*k1 */
+    c[181] = D1234(e[76]); /* ((R*R)*k1)*(K2 - K5) */
+    c[182] = D1234(e[77]); /* 0.5*K6*(R*R)*k1 */
 }
 
 static void evaluate(const double *in, const double c[FOLDED], double A[AMPLITUDES]) {
@@ -340,147 +350,147 @@ static void evaluate(const double *in, const double c[FOLDED], double A[AMPLITUD
         (c[0])
         + (c[1]) * (a_z)
         + (c[2]) * (T_5)
-        + (c[3]) * (T_6)
-        + (c[4]) * (S_4)
-        + (c[5]) * ((a_x*a_x))
-        + (c[6]) * (T_3*a_x)
-        + (c[7]) * (T_4*a_x)
-        + (c[8]) * ((a_y*a_y))
-        + (c[9]) * (T_3*a_y)
-        + (c[10]) * (T_4*a_y)
-        + (c[11]) * ((a_z*a_z))
-        + (c[12]) * (T_5*a_z)
-        + (c[13]) * (T_6*a_z)
-        + (c[14]) * ((T_1*T_1))
-        + (c[15]) * ((T_2*T_2))
-        + (c[16]) * ((T_3*T_3))
-        + (c[17]) * ((T_4*T_4))
-        + (c[18]) * ((T_5*T_5))
-        + (c[19]) * (T_5*T_6)
-        + (c[20]) * ((T_6*T_6))
+        + (c[3] + c[4]) * (T_6)
+        + (c[5]) * (S_4)
+        + (c[6]) * ((a_x*a_x))
+        + (c[7]) * (T_3*a_x)
+        + (c[8]) * (T_4*a_x)
+        + (c[9]) * ((a_y*a_y))
+        + (c[10]) * (T_3*a_y)
+        + (c[11]) * (T_4*a_y)
+        + (c[12]) * ((a_z*a_z))
+        + (c[13]) * (T_5*a_z)
+        + (c[14]) * (T_6*a_z)
+        + (c[15]) * ((T_1*T_1))
+        + (c[16]) * ((T_2*T_2))
+        + (c[17]) * ((T_3*T_3))
+        + (c[18]) * ((T_4*T_4))
+        + (c[19]) * ((T_5*T_5))
+        + (c[20]) * (T_5*T_6)
+        + (c[21]) * ((T_6*T_6))
         ;
     A[1] = /* A_1c */
-        (c[21] + c[22]) * (a_x)
-        + (c[23] + c[24]) * (a_y)
-        + (c[25] + c[26]) * (T_3)
-        + (c[27] + c[28]) * (T_4)
-        + (c[29] + c[30]) * (S_1)
-        + (c[31] + c[32]) * (S_2)
-        + (c[33] + c[34]) * (a_x*a_z)
-        + (c[35]) * (T_1*a_x)
-        + (c[36]) * (T_2*a_x)
-        + (c[37] + c[38]) * (T_5*a_x)
-        + (c[39] + c[40]) * (T_6*a_x)
-        + (c[41] + c[42]) * (a_y*a_z)
-        + (c[43]) * (T_1*a_y)
-        + (c[44]) * (T_2*a_y)
-        + (c[45] + c[46]) * (T_5*a_y)
-        + (c[47] + c[48]) * (T_6*a_y)
-        + (c[49]) * (T_3*a_z)
-        + (c[50]) * (T_4*a_z)
-        + (c[51] + c[52]) * (T_1*T_3)
-        + (c[53] + c[54]) * (T_1*T_4)
-        + (c[55] + c[56]) * (T_2*T_3)
-        + (c[57] + c[58]) * (T_2*T_4)
-        + (c[59]) * (T_3*T_5)
-        + (c[60]) * (T_3*T_6)
-        + (c[61]) * (T_4*T_5)
-        + (c[62]) * (T_4*T_6)
+        (c[22] + c[23] + c[24]) * (a_x)
+        + (c[25] + c[26] + c[27]) * (a_y)
+        + (c[28] + c[29]) * (T_3)
+        + (c[30] + c[31]) * (T_4)
+        + (c[32] + c[33]) * (S_1)
+        + (c[34] + c[35]) * (S_2)
+        + (c[36] + c[37]) * (a_x*a_z)
+        + (c[38]) * (T_1*a_x)
+        + (c[39]) * (T_2*a_x)
+        + (c[40] + c[41]) * (T_5*a_x)
+        + (c[42] + c[43]) * (T_6*a_x)
+        + (c[44] + c[45]) * (a_y*a_z)
+        + (c[46]) * (T_1*a_y)
+        + (c[47]) * (T_2*a_y)
+        + (c[48] + c[49]) * (T_5*a_y)
+        + (c[50] + c[51]) * (T_6*a_y)
+        + (c[52]) * (T_3*a_z)
+        + (c[53]) * (T_4*a_z)
+        + (c[54] + c[55]) * (T_1*T_3)
+        + (c[56] + c[57]) * (T_1*T_4)
+        + (c[58] + c[59]) * (T_2*T_3)
+        + (c[60] + c[61]) * (T_2*T_4)
+        + (c[62]) * (T_3*T_5)
+        + (c[63]) * (T_3*T_6)
+        + (c[64]) * (T_4*T_5)
+        + (c[65]) * (T_4*T_6)
         ;
     A[2] = /* A_1s */
-        (c[63] + c[64]) * (a_x)
-        + (c[65] + c[66]) * (a_y)
-        + (c[67] + c[68]) * (T_3)
-        + (c[69] + c[70]) * (T_4)
-        + (c[71] + c[72]) * (S_1)
-        + (c[73] + c[74]) * (S_2)
-        + (c[75] + c[76]) * (a_x*a_z)
-        + (c[77]) * (T_1*a_x)
-        + (c[78]) * (T_2*a_x)
-        + (c[79] + c[80]) * (T_5*a_x)
-        + (c[81] + c[82]) * (T_6*a_x)
-        + (c[83] + c[84]) * (a_y*a_z)
-        + (c[85]) * (T_1*a_y)
-        + (c[86]) * (T_2*a_y)
-        + (c[87] + c[88]) * (T_5*a_y)
-        + (c[89] + c[90]) * (T_6*a_y)
-        + (c[91]) * (T_3*a_z)
-        + (c[92]) * (T_4*a_z)
-        + (c[93] + c[94]) * (T_1*T_3)
-        + (c[95] + c[96]) * (T_1*T_4)
-        + (c[97] + c[98]) * (T_2*T_3)
-        + (c[99] + c[100]) * (T_2*T_4)
-        + (c[101]) * (T_3*T_5)
-        + (c[102]) * (T_3*T_6)
-        + (c[103]) * (T_4*T_5)
-        + (c[104]) * (T_4*T_6)
+        (c[66] + c[67] + c[68]) * (a_x)
+        + (c[69] + c[70] + c[71]) * (a_y)
+        + (c[72] + c[73]) * (T_3)
+        + (c[74] + c[75]) * (T_4)
+        + (c[76] + c[77]) * (S_1)
+        + (c[78] + c[79]) * (S_2)
+        + (c[80] + c[81]) * (a_x*a_z)
+        + (c[82]) * (T_1*a_x)
+        + (c[83]) * (T_2*a_x)
+        + (c[84] + c[85]) * (T_5*a_x)
+        + (c[86] + c[87]) * (T_6*a_x)
+        + (c[88] + c[89]) * (a_y*a_z)
+        + (c[90]) * (T_1*a_y)
+        + (c[91]) * (T_2*a_y)
+        + (c[92] + c[93]) * (T_5*a_y)
+        + (c[94] + c[95]) * (T_6*a_y)
+        + (c[96]) * (T_3*a_z)
+        + (c[97]) * (T_4*a_z)
+        + (c[98] + c[99]) * (T_1*T_3)
+        + (c[100] + c[101]) * (T_1*T_4)
+        + (c[102] + c[103]) * (T_2*T_3)
+        + (c[104] + c[105]) * (T_2*T_4)
+        + (c[106]) * (T_3*T_5)
+        + (c[107]) * (T_3*T_6)
+        + (c[108]) * (T_4*T_5)
+        + (c[109]) * (T_4*T_6)
         ;
     A[3] = /* A_2c */
-        (c[105]) * (T_1)
-        + (c[106]) * (T_2)
-        + (c[107]) * ((a_x*a_x))
-        + (c[108]) * (a_x*a_y)
-        + (c[109]) * (T_3*a_x)
-        + (c[110]) * (T_4*a_x)
-        + (c[111]) * ((a_y*a_y))
-        + (c[112]) * (T_3*a_y)
-        + (c[113]) * (T_4*a_y)
-        + (c[114]) * (T_1*a_z)
-        + (c[115]) * (T_2*a_z)
-        + (c[116]) * (T_1*T_5)
-        + (c[117]) * (T_1*T_6)
-        + (c[118]) * (T_2*T_5)
-        + (c[119]) * (T_2*T_6)
-        + (c[120]) * ((T_3*T_3))
-        + (c[121]) * ((T_4*T_4))
+        (c[110]) * (T_1)
+        + (c[111] + c[112]) * (T_2)
+        + (c[113]) * ((a_x*a_x))
+        + (c[114]) * (a_x*a_y)
+        + (c[115]) * (T_3*a_x)
+        + (c[116]) * (T_4*a_x)
+        + (c[117]) * ((a_y*a_y))
+        + (c[118]) * (T_3*a_y)
+        + (c[119]) * (T_4*a_y)
+        + (c[120]) * (T_1*a_z)
+        + (c[121]) * (T_2*a_z)
+        + (c[122]) * (T_1*T_5)
+        + (c[123]) * (T_1*T_6)
+        + (c[124]) * (T_2*T_5)
+        + (c[125]) * (T_2*T_6)
+        + (c[126]) * ((T_3*T_3))
+        + (c[127]) * ((T_4*T_4))
         ;
     A[4] = /* A_2s */
-        (c[122]) * (T_1)
-        + (c[123]) * (T_2)
-        + (c[124]) * ((a_x*a_x))
-        + (c[125]) * (a_x*a_y)
-        + (c[126]) * (T_3*a_x)
-        + (c[127]) * (T_4*a_x)
-        + (c[128]) * ((a_y*a_y))
-        + (c[129]) * (T_3*a_y)
-        + (c[130]) * (T_4*a_y)
-        + (c[131]) * (T_1*a_z)
-        + (c[132]) * (T_2*a_z)
-        + (c[133]) * (T_1*T_5)
-        + (c[134]) * (T_1*T_6)
-        + (c[135]) * (T_2*T_5)
-        + (c[136]) * (T_2*T_6)
-        + (c[137]) * (T_3*T_4)
+        (c[128] + c[129]) * (T_1)
+        + (c[130]) * (T_2)
+        + (c[131]) * ((a_x*a_x))
+        + (c[132]) * (a_x*a_y)
+        + (c[133]) * (T_3*a_x)
+        + (c[134]) * (T_4*a_x)
+        + (c[135]) * ((a_y*a_y))
+        + (c[136]) * (T_3*a_y)
+        + (c[137]) * (T_4*a_y)
+        + (c[138]) * (T_1*a_z)
+        + (c[139]) * (T_2*a_z)
+        + (c[140]) * (T_1*T_5)
+        + (c[141]) * (T_1*T_6)
+        + (c[142]) * (T_2*T_5)
+        + (c[143]) * (T_2*T_6)
+        + (c[144]) * (T_3*T_4)
         ;
     A[5] = /* A_3c */
-        (c[138] + c[139]) * (T_1*a_x)
-        + (c[140] + c[141]) * (T_2*a_x)
-        + (c[142] + c[143]) * (T_1*a_y)
-        + (c[144] + c[145]) * (T_2*a_y)
-        + (c[146] + c[147]) * (T_1*T_3)
-        + (c[148] + c[149]) * (T_1*T_4)
-        + (c[150] + c[151]) * (T_2*T_3)
-        + (c[152] + c[153]) * (T_2*T_4)
+        (c[145] + c[146]) * (T_1*a_x)
+        + (c[147] + c[148]) * (T_2*a_x)
+        + (c[149] + c[150]) * (T_1*a_y)
+        + (c[151] + c[152]) * (T_2*a_y)
+        + (c[153] + c[154]) * (T_1*T_3)
+        + (c[155] + c[156]) * (T_1*T_4)
+        + (c[157] + c[158]) * (T_2*T_3)
+        + (c[159] + c[160]) * (T_2*T_4)
         ;
     A[6] = /* A_3s */
-        (c[154] + c[155]) * (T_1*a_x)
-        + (c[156] + c[157]) * (T_2*a_x)
-        + (c[158] + c[159]) * (T_1*a_y)
-        + (c[160] + c[161]) * (T_2*a_y)
-        + (c[162] + c[163]) * (T_1*T_3)
-        + (c[164] + c[165]) * (T_1*T_4)
-        + (c[166] + c[167]) * (T_2*T_3)
-        + (c[168] + c[169]) * (T_2*T_4)
+        (c[161] + c[162]) * (T_1*a_x)
+        + (c[163] + c[164]) * (T_2*a_x)
+        + (c[165] + c[166]) * (T_1*a_y)
+        + (c[167] + c[168]) * (T_2*a_y)
+        + (c[169] + c[170]) * (T_1*T_3)
+        + (c[171] + c[172]) * (T_1*T_4)
+        + (c[173] + c[174]) * (T_2*T_3)
+        + (c[175] + c[176]) * (T_2*T_4)
         ;
     A[7] = /* A_4c */
-        (c[170]) * ((T_1*T_1))
-        + (c[171]) * (T_1*T_2)
-        + (c[172]) * ((T_2*T_2))
+        (c[177]) * ((T_1*T_1))
+        + (c[178]) * (T_1*T_2)
+        + (c[179]) * ((T_2*T_2))
         ;
     A[8] = /* A_4s */
-        (c[173]) * ((T_1*T_1))
-        + (c[174]) * (T_1*T_2)
-        + (c[175]) * ((T_2*T_2))
+        (c[180]) * ((T_1*T_1))
+        + (c[181]) * (T_1*T_2)
+        + (c[182]) * ((T_2*T_2))
         ;
 }
 

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { AMPLITUDES = 5, FOLDED = 41, BASIS = 29, SLOPES = 14 };
+enum { AMPLITUDES = 5, FOLDED = 45, BASIS = 29, SLOPES = 14 };
 
 /* Disc angle, rad, within half a turn of 0; the turns are dropped exactly, whatever the time. */
 static double disc_angle(double t, double spin_frequency) {
@@ -20,7 +20,7 @@ static double Sigma(const double x[4]) { return (x[0] + x[1]) + (x[2] + x[3]); }
 
 /* Error-propagation coefficients: all that the instrument's parameters contribute. */
 static void fold(const double *p, double c[FOLDED]) {
-    double e[26][4];
+    double e[28][4];
     for (size_t j = 0; j < 4; ++j) {
         const double radius = p[0];
         const double dR = p[2 + j];
@@ -48,25 +48,27 @@ static void fold(const double *p, double c[FOLDED]) {
         e[4][j] = (0.5*k1)*(K2 + K5);
         e[5][j] = K7*k1;
         e[6][j] = k1*(beta_x*vartheta_y - beta_z + vartheta_z);
-        e[7][j] = k1*(beta_z*vartheta_z + 1.0);
-        e[8][j] = k1*(-beta_x*vartheta_y + beta_z - vartheta_z);
-        e[9][j] = R*k1*vartheta_y;
-        e[10][j] = -R*k1*vartheta_y;
-        e[11][j] = -R*beta_x*k1;
-        e[12][j] = -K8*k1;
-        e[13][j] = -K4*k1;
-        e[14][j] = K8*k1;
-        e[15][j] = k1*(-beta_z*vartheta_z - 1.0);
-        e[16][j] = R*beta_x*k1;
-        e[17][j] = K4*k1;
-        e[18][j] = (R*k1)*(2.0*beta_z - vartheta_z);
-        e[19][j] = (0.5*k1)*(-K2 + K5);
-        e[20][j] = K6*k1;
-        e[21][j] = (0.5*k1)*(K2 - K5);
-        e[22][j] = (R*k1)*(-2.0*beta_z + vartheta_z);
-        e[23][j] = -0.5*K6*k1;
-        e[24][j] = k1*(-K2 + K5);
-        e[25][j] = 0.5*K6*k1;
+        e[7][j] = k1;
+        e[8][j] = beta_z*k1*vartheta_z;
+        e[9][j] = k1*(-beta_x*vartheta_y + beta_z - vartheta_z);
+        e[10][j] = R*k1*vartheta_y;
+        e[11][j] = -R*k1*vartheta_y;
+        e[12][j] = -R*beta_x*k1;
+        e[13][j] = -K8*k1;
+        e[14][j] = -K4*k1;
+        e[15][j] = K8*k1;
+        e[16][j] = -k1;
+        e[17][j] = -beta_z*k1*vartheta_z;
+        e[18][j] = R*beta_x*k1;
+        e[19][j] = K4*k1;
+        e[20][j] = (R*k1)*(2.0*beta_z - vartheta_z);
+        e[21][j] = (0.5*k1)*(-K2 + K5);
+        e[22][j] = K6*k1;
+        e[23][j] = (0.5*k1)*(K2 - K5);
+        e[24][j] = (R*k1)*(-2.0*beta_z + vartheta_z);
+        e[25][j] = -0.5*K6*k1;
+        e[26][j] = k1*(-K2 + K5);
+        e[27][j] = 0.5*K6*k1;
     }
     c[0] = D1234(e[0]); /* K0*k1 */
     c[1] = D1234(e[1]); /* k1*(-beta_x*vartheta_z + vartheta_y) */
@@ -76,39 +78,43 @@ static void fold(const double *p, double c[FOLDED]) {
     c[5] = D1234(e[4]); /* (0.5*k1)*(K2 + K5) */
     c[6] = D1234(e[5]); /* K7*k1 */
     c[7] = D12(e[6]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[8] = D34(e[7]); /* k1*(beta_z*vartheta_z + 1.0) */
-    c[9] = D12(e[7]); /* k1*(beta_z*vartheta_z + 1.0) */
-    c[10] = D34(e[8]); /* k1*(-beta_x*vartheta_y + beta_z - vartheta_z) */
-    c[11] = D34(e[9]); /* R*k1*vartheta_y */
-    c[12] = D12(e[10]); /* -R*k1*vartheta_y */
-    c[13] = D34(e[11]); /* -R*beta_x*k1 */
-    c[14] = D12(e[11]); /* -R*beta_x*k1 */
-    c[15] = D12(e[12]); /* -K8*k1 */
-    c[16] = D34(e[13]); /* -K4*k1 */
-    c[17] = D12(e[13]); /* -K4*k1 */
-    c[18] = D34(e[14]); /* K8*k1 */
-    c[19] = D12(e[15]); /* k1*(-beta_z*vartheta_z - 1.0) */
-    c[20] = D34(e[6]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[21] = D12(e[6]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
-    c[22] = D34(e[7]); /* k1*(beta_z*vartheta_z + 1.0) */
-    c[23] = D12(e[10]); /* -R*k1*vartheta_y */
-    c[24] = D34(e[10]); /* -R*k1*vartheta_y */
-    c[25] = D12(e[16]); /* R*beta_x*k1 */
-    c[26] = D34(e[11]); /* -R*beta_x*k1 */
-    c[27] = D12(e[17]); /* K4*k1 */
-    c[28] = D34(e[12]); /* -K8*k1 */
-    c[29] = D12(e[12]); /* -K8*k1 */
-    c[30] = D34(e[13]); /* -K4*k1 */
-    c[31] = Sigma(e[18]); /* (R*k1)*(2.0*beta_z - vartheta_z) */
-    c[32] = Sigma(e[3]); /* R*k1 */
-    c[33] = Sigma(e[19]); /* (0.5*k1)*(-K2 + K5) */
-    c[34] = Sigma(e[20]); /* K6*k1 */
-    c[35] = Sigma(e[21]); /* (0.5*k1)*(K2 - K5) */
+    c[8] = D34(e[7]); /* k1 */
+    c[9] = D34(e[8]); /* beta_z*k1*vartheta_z */
+    c[10] = D12(e[7]); /* k1 */
+    c[11] = D12(e[8]); /* beta_z*k1*vartheta_z */
+    c[12] = D34(e[9]); /* k1*(-beta_x*vartheta_y + beta_z - vartheta_z) */
+    c[13] = D34(e[10]); /* R*k1*vartheta_y */
+    c[14] = D12(e[11]); /* -R*k1*vartheta_y */
+    c[15] = D34(e[12]); /* -R*beta_x*k1 */
+    c[16] = D12(e[12]); /* -R*beta_x*k1 */
+    c[17] = D12(e[13]); /* -K8*k1 */
+    c[18] = D34(e[14]); /* -K4*k1 */
+    c[19] = D12(e[14]); /* -K4*k1 */
+    c[20] = D34(e[15]); /* K8*k1 */
+    c[21] = D12(e[16]); /* -k1 */
+    c[22] = D12(e[17]); /* -beta_z*k1*vartheta_z */
+    c[23] = D34(e[6]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[24] = D12(e[6]); /* k1*(beta_x*vartheta_y - beta_z + vartheta_z) */
+    c[25] = D34(e[7]); /* k1 */
+    c[26] = D34(e[8]); /* beta_z*k1*vartheta_z */
+    c[27] = D12(e[11]); /* -R*k1*vartheta_y */
+    c[28] = D34(e[11]); /* -R*k1*vartheta_y */
+    c[29] = D12(e[18]); /* R*beta_x*k1 */
+    c[30] = D34(e[12]); /* -R*beta_x*k1 */
+    c[31] = D12(e[19]); /* K4*k1 */
+    c[32] = D34(e[13]); /* -K8*k1 */
+    c[33] = D12(e[13]); /* -K8*k1 */
+    c[34] = D34(e[14]); /* -K4*k1 */
+    c[35] = Sigma(e[20]); /* (R*k1)*(2.0*beta_z - vartheta_z) */
     c[36] = Sigma(e[3]); /* R*k1 */
-    c[37] = Sigma(e[22]); /* (R*k1)*(-2.0*beta_z + vartheta_z) */
-    c[38] = Sigma(e[23]); /* -0.5*K6*k1 */
-    c[39] = Sigma(e[24]); /* k1*(-K2 + K5) */
-    c[40] = Sigma(e[25]); /* 0.5*K6*k1 */
+    c[37] = Sigma(e[21]); /* (0.5*k1)*(-K2 + K5) */
+    c[38] = Sigma(e[22]); /* K6*k1 */
+    c[39] = Sigma(e[23]); /* (0.5*k1)*(K2 - K5) */
+    c[40] = Sigma(e[3]); /* R*k1 */
+    c[41] = Sigma(e[24]); /* (R*k1)*(-2.0*beta_z + vartheta_z) */
+    c[42] = Sigma(e[25]); /* -0.5*K6*k1 */
+    c[43] = Sigma(e[26]); /* k1*(-K2 + K5) */
+    c[44] = Sigma(e[27]); /* 0.5*K6*k1 */
 }
 
 static void evaluate(const double *in, const double c[FOLDED], double A[AMPLITUDES]) {
@@ -161,38 +167,38 @@ static void evaluate(const double *in, const double c[FOLDED], double A[AMPLITUD
         + (c[6]) * ((a_z*a_z))
         ;
     A[1] = /* A_1c */
-        (c[7] + c[8]) * (a_x)
-        + (c[9] + c[10]) * (a_y)
-        + (c[11]) * (T_3)
-        + (c[12]) * (T_4)
-        + (c[13]) * (S_1)
-        + (c[14]) * (S_2)
-        + (c[15] + c[16]) * (a_x*a_z)
-        + (c[17] + c[18]) * (a_y*a_z)
+        (c[7] + c[8] + c[9]) * (a_x)
+        + (c[10] + c[11] + c[12]) * (a_y)
+        + (c[13]) * (T_3)
+        + (c[14]) * (T_4)
+        + (c[15]) * (S_1)
+        + (c[16]) * (S_2)
+        + (c[17] + c[18]) * (a_x*a_z)
+        + (c[19] + c[20]) * (a_y*a_z)
         ;
     A[2] = /* A_1s */
-        (c[19] + c[20]) * (a_x)
-        + (c[21] + c[22]) * (a_y)
-        + (c[23]) * (T_3)
-        + (c[24]) * (T_4)
-        + (c[25]) * (S_1)
-        + (c[26]) * (S_2)
-        + (c[27] + c[28]) * (a_x*a_z)
-        + (c[29] + c[30]) * (a_y*a_z)
+        (c[21] + c[22] + c[23]) * (a_x)
+        + (c[24] + c[25] + c[26]) * (a_y)
+        + (c[27]) * (T_3)
+        + (c[28]) * (T_4)
+        + (c[29]) * (S_1)
+        + (c[30]) * (S_2)
+        + (c[31] + c[32]) * (a_x*a_z)
+        + (c[33] + c[34]) * (a_y*a_z)
         ;
     A[3] = /* A_2c */
-        (c[31]) * (T_1)
-        + (c[32]) * (T_2)
-        + (c[33]) * ((a_x*a_x))
-        + (c[34]) * (a_x*a_y)
-        + (c[35]) * ((a_y*a_y))
+        (c[35]) * (T_1)
+        + (c[36]) * (T_2)
+        + (c[37]) * ((a_x*a_x))
+        + (c[38]) * (a_x*a_y)
+        + (c[39]) * ((a_y*a_y))
         ;
     A[4] = /* A_2s */
-        (c[36]) * (T_1)
-        + (c[37]) * (T_2)
-        + (c[38]) * ((a_x*a_x))
-        + (c[39]) * (a_x*a_y)
-        + (c[40]) * ((a_y*a_y))
+        (c[40]) * (T_1)
+        + (c[41]) * (T_2)
+        + (c[42]) * ((a_x*a_x))
+        + (c[43]) * (a_x*a_y)
+        + (c[44]) * ((a_y*a_y))
         ;
 }
 

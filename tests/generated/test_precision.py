@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-from derive.propagation import Collected, collect
+from derive.propagation import Collected
 from derive.simplify import simplified as simplified_model
 from generated import analytical, simplified
 from tests.generated import compiled, draws
