@@ -17,58 +17,22 @@ import signal
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
 
 from ragg_runtime.atomic import sync
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.errors import UserError
+from ragg_runtime.history import Step, history_text, read_history
 from ragg_runtime.instrument import Instrument, parse_instrument, read_text
 from ragg_runtime.lock import locked
+
+__all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
 MODEL, GENERATED, HISTORY = "model.toml", "generated", "history.json"
 _WORK = ".ragg"
 _JOURNAL = "journal.json"
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
-
-
-@dataclass(frozen=True)
-class Step:
-    """An entry of history.json.
-
-    Attributes
-    ----------
-    action
-        ``new``, ``add`` or ``remove``.
-    effect
-        The effect's id; empty for ``new``.
-    time
-        UTC, ISO 8601.
-    before, after
-        Error objects (rms_V, rms_Eo, ...) where a flight was given.
-    flights
-        The flights' names, with their SHA-256.
-    """
-
-    action: str
-    time: str
-    effect: str = ""
-    before: Mapping[str, Any] | None = None
-    after: Mapping[str, Any] | None = None
-    flights: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
-
-    def as_json(self) -> dict[str, Any]:
-        """The entry as it stands in the file."""
-        return {
-            "action": self.action,
-            "effect": self.effect or None,
-            "time": self.time,
-            "before": None if self.before is None else dict(self.before),
-            "after": None if self.after is None else dict(self.after),
-            "flights": dict(self.flights),
-        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,8 +172,7 @@ def replace_model_dir(
 def _stage(folder: Path, text: str, generated: Path | None, history: tuple[Step, ...]) -> None:
     """Write a complete state into an empty folder, on the disc."""
     (folder / MODEL).write_bytes(text.encode())
-    steps = [step.as_json() for step in history]
-    (folder / HISTORY).write_text(json.dumps({"steps": steps}, indent=2, allow_nan=False) + "\n", "utf-8")
+    (folder / HISTORY).write_text(history_text(history), "utf-8")
     if generated is not None:
         shutil.copytree(generated, folder / GENERATED, ignore=shutil.ignore_patterns("__pycache__"))
     for place in sorted(folder.rglob("*"), reverse=True):
@@ -320,7 +283,7 @@ def _read(path: Path) -> ModelDir:
             remedy="make a model with: ragg new",
         )
     text = read_text(path / MODEL)
-    history = _history(path / HISTORY)
+    history = read_history(path / HISTORY)
     generated = path / GENERATED if (path / GENERATED).is_dir() else None
     return ModelDir(
         path=path,
@@ -344,29 +307,3 @@ def _digest(path: Path) -> str:
         total.update(f"{file.relative_to(path).as_posix()} {len(content)}\n".encode())
         total.update(content)
     return total.hexdigest()
-
-
-def _history(path: Path) -> tuple[Step, ...]:
-    if not path.exists():
-        return ()
-    try:
-        content = json.loads(read_text(path))
-        return tuple(
-            Step(
-                action=str(s["action"]),
-                time=str(s["time"]),
-                effect=str(s["effect"] or ""),
-                before=s.get("before"),
-                after=s.get("after"),
-                flights=MappingProxyType(dict(s.get("flights", {}))),
-            )
-            for s in content["steps"]
-        )
-    except (ValueError, KeyError, TypeError) as error:
-        raise UserError(
-            "the history is damaged",
-            where=at(path),
-            found=str(error),
-            expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
-            remedy="restore the file, or remove it to start a new history",
-        ) from None

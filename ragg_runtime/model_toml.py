@@ -13,7 +13,8 @@ from tomlkit.items import AoT
 
 from ragg_runtime.atomic import write_text
 from ragg_runtime.errors import UserError, did_you_mean
-from ragg_runtime.instrument import DISC_UNITS, PARAMETER, PARAMETERS, EffectSetting, Instrument, Vector
+from ragg_runtime.instrument import EffectSetting, Instrument
+from ragg_runtime.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.units import RawQuantity, units
 
 
