@@ -11,6 +11,7 @@ help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 $(STAMP): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.x")'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
@@ -25,6 +26,8 @@ derive: $(STAMP)  ## derive every model and generate all code and pages anew
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
+# Two workers share the cores: a thread pool of linear algebra in each would only get in the way.
+test: export OPENBLAS_NUM_THREADS := 1
 test: $(STAMP)  ## run the tests
 	$(BIN)/python -m pytest -q -n 2
 
