@@ -16,7 +16,8 @@ from derive import ir
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import render
-from derive.propagation import collect
+from derive.propagation import collect, ideal
+from derive.transduction import starred
 
 FORMAT = 1
 """Version of the generated interface, in every manifest."""
@@ -49,6 +50,8 @@ def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics:
         files[f"{m.name}.py"] = render.harmonic_numpy(m)
         files[f"c/{m.name}.h"], files[f"c/{m.name}.c"] = render.harmonic_c(m)
         files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
+    if harmonics:
+        files["latex/paper.tex"] = render.paper_latex(starred(), ideal(collect()))
     active = [e for e in effects if e.kind in ("deterministic", "step")]
     chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
     known = {e.id for e in effects}

@@ -139,6 +139,28 @@ def collect(order: Order = PAPER) -> Collected:
     return from_generic(_generic(series(a.tape.assignments, a.voltage, _ALL, known)))
 
 
+def ideal(c: Collected) -> dict[str, tuple[Term, ...]]:
+    """Eq. 30: what is left for four equal accelerometers, perfectly mounted, without second-order terms.
+
+    Imbalances D vanish, and of Sigma what is made of k1 and R alone remains.
+    """
+    nominal = tuple(n in ("k1", "R") for n in COEFFICIENT_PARAMETERS)
+    left: dict[str, tuple[Term, ...]] = {}
+    for name, terms in c.amplitudes.items():
+        kept = []
+        for t in terms:
+            pure = {
+                m: k
+                for m, k in t.coefficient.terms()
+                if all(n or not e for n, e in zip(nominal, m, strict=True))
+            }
+            if t.combination == "Sigma" and pure:
+                kept.append(Term(t.motion, t.combination, c.ring.from_dict(pure)))
+        if kept:
+            left[name] = tuple(kept)
+    return left
+
+
 def _generic(v: Series) -> dict[tuple[int, str], dict[tuple[int, ...], PolyElement]]:
     n_parameters = len(COEFFICIENT_PARAMETERS)
     inner = range(n_parameters)

@@ -130,7 +130,8 @@ def diagnose(m: Loaded, flights: Sequence[Flight]) -> Diagnosis:
 def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
-    An effect that model.toml lists without values (one of your own, say) is calibrated likewise. The directory is changed whole or not at all.
+    An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
+    The directory is changed whole or not at all.
     """
     instrument = m.instrument
     known = extend.known(instrument)

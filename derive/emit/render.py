@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 
 import jinja2
@@ -9,8 +10,8 @@ import sympy as sp
 
 from derive.emit.printers import to_c, to_latex, to_numpy
 from derive.ir import AmplitudeTerm, Chain, Coefficient, Harmonic
-from derive.propagation import COEFFICIENT_PARAMETERS
-from derive.symbols import ACCELEROMETER, QUARTER_TURNS, SIGNS
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Term
+from derive.symbols import ACCELEROMETER, QUARTER_TURNS, SIGNS, symbol
 from derive.tape import Program
 
 
@@ -66,6 +67,19 @@ def harmonic_c(m: Harmonic) -> tuple[str, str]:
 
 def harmonic_latex(m: Harmonic) -> str:
     return render("harmonic.tex.j2", m=m, term=_latex_term)
+
+
+def paper_latex(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> str:
+    """Eq. 5b and Eq. 30."""
+    terms = []
+    for name, row in ideal.items():
+        carrier = "" if name == "A_0" else rf"\{'cos' if name[-1] == 'c' else 'sin'} {name[2:-1]}\Omega t"
+        for t in row:
+            number = sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, t.motion, strict=True)))
+            coefficient = rf"\sum\nolimits_{{{to_latex(t.coefficient.as_expr())}}}"
+            terms.append(f"{coefficient} {to_latex(number)} {carrier}")
+    rows = [(to_latex(symbol(name)), e) for name, e in starred.items()]
+    return render("paper.tex.j2", starred=rows, ideal=" + ".join(terms))
 
 
 def chain_numpy(m: Chain) -> str:
