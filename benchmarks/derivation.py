@@ -1,0 +1,153 @@
+"""How long deriving takes, against the plain SymPy way to the same harmonics.
+
+The plain way is what one writes first: put the stages into one expression, ``expand``, rewrite cosines and
+sines as exponentials, ``expand`` again, ``collect`` by harmonic and by motion number. It is given the
+same model: all four accelerometers with parameters of their own, the motion as recorded, and ends at the
+amplitudes of G_out. (That one accelerometer serves for four, and that T and S carry all motion, is part of
+what makes the derivation fast.) Both must yield the same amplitudes, which is checked at a random point.
+All times are CPU (user and system) of a fresh process, start of the interpreter included.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from benchmarks import Row
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def cpu_seconds(arguments: Sequence[str], repeats: int = 1) -> float:
+    """Smallest CPU time, s, of a fresh Python process with these arguments; it must succeed."""
+    times = []
+    for _ in range(repeats):
+        process = subprocess.Popen([sys.executable, *arguments], cwd=ROOT, stdout=subprocess.DEVNULL)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode:
+            raise RuntimeError(f"python {' '.join(arguments)}: exit status {process.returncode}")
+        times.append(used.ru_utime + used.ru_stime)
+    return min(times)
+
+
+def plain() -> dict[tuple[int, str], Any]:
+    """Amplitudes of G_out by SymPy expressions alone: (harmonic, "c" or "s") -> expression."""
+    import sympy as sp
+
+    from derive.chain import accelerometer
+    from derive.symbols import COS_J, COS_PHI, QUARTER_TURNS, SIGNS, SIN_J, SIN_PHI, symbol
+
+    phi = sp.Symbol("phi", real=True)
+    a = accelerometer()
+    output = sp.Integer(0)
+    for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
+        values: dict[sp.Symbol, sp.Expr] = {
+            COS_PHI: sp.cos(phi),
+            SIN_PHI: sp.sin(phi),
+            COS_J: sp.Integer((1, 0, -1, 0)[quarter]),
+            SIN_J: sp.Integer((0, 1, 0, -1)[quarter]),
+            **_own_symbols(j),
+        }
+        for s, e in a.tape.assignments:
+            values[s] = e.xreplace(values)
+        output += sign * values[a.voltage]
+
+    expanded = sp.expand(output)
+    exponentials = sp.expand(expanded.rewrite(sp.exp))
+    by_wave: dict[sp.Expr, list[sp.Expr]] = {}
+    for term in sp.Add.make_args(exponentials):  # sp.collect mistakes exp(2 i phi) for a power of exp(i phi)
+        steady, wave = term.as_independent(phi)
+        by_wave.setdefault(wave, []).append(steady)
+    motion = [symbol(f"{v}_{k}") for v in ("a", "omega", "omegadot") for k in "xyz"]
+    motion += [symbol(f"Gamma_{k}") for k in ("xx", "xy", "xz", "yy", "yz", "zz")]
+    found: dict[tuple[int, str], Any] = {}
+    for n in range(5):
+        up, down = (sp.Add(*by_wave.get(sp.exp(sp.I * k * phi), [])) for k in (n, -n))
+        found[n, "c"] = sp.collect(sp.expand(up + down) if n else up, motion)
+        if n:
+            found[n, "s"] = sp.collect(sp.expand(sp.I * (up - down)), motion)
+    return found
+
+
+def _own_symbols(j: int) -> dict[Any, Any]:
+    """Parameters of accelerometer j under names of their own, in k1 = k_VI K1 and R = radius + dR."""
+    import sympy as sp
+
+    from derive.propagation import COEFFICIENT_PARAMETERS
+    from derive.symbols import symbol
+
+    own = {symbol(n): symbol(f"{n}_{j + 1}") for n in COEFFICIENT_PARAMETERS}
+    own[symbol("K1")], own[symbol("k_VI")] = own.pop(symbol("k1")), sp.Integer(1)
+    own[symbol("dR")], own[symbol("radius")] = own.pop(symbol("R")), sp.Integer(0)
+    return own
+
+
+def verify(found: Mapping[tuple[int, str], Any]) -> None:
+    """The plain amplitudes are the derived ones, in exact rationals at a random point."""
+    import random
+
+    import sympy as sp
+
+    from derive.propagation import (
+        COEFFICIENT_PARAMETERS,
+        MOTION_NUMBERS,
+        amplitude_name,
+        collect,
+        motion_numbers,
+    )
+    from derive.symbols import MOTION, symbol
+
+    draw = random.Random(1)
+
+    def numbers(names: Sequence[str]) -> dict[Any, Any]:
+        return {symbol(n): sp.Rational(draw.randint(-9, 9), draw.randint(1, 5)) for n in names}
+
+    motion = numbers([c.name for c in MOTION])
+    parameters = [numbers(COEFFICIENT_PARAMETERS) for _ in range(4)]
+    point = dict(motion)
+    for j, own in enumerate(parameters):
+        point |= {symbol(f"{s.name}_{j + 1}"): v for s, v in own.items()}
+    T = {**motion, **{symbol(n): e.xreplace(motion) for n, e in motion_numbers().items()}}
+    weights = {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1), "D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1)}
+    for (n, phase), e in found.items():
+        derived = sum(
+            sum(
+                w * t.coefficient.as_expr().xreplace(own)
+                for w, own in zip(weights[t.combination], parameters, strict=True)
+            )
+            * sp.Mul(*(T[symbol(m)] ** k for m, k in zip(MOTION_NUMBERS, t.motion, strict=True)))
+            for t in collect().amplitudes[amplitude_name(n, phase)]
+        )
+        if sp.expand(e.xreplace(point)) != derived:
+            raise RuntimeError(f"the two ways differ in {amplitude_name(n, phase)}")
+
+
+def run() -> list[Row]:
+    """Cold derivation of everything, of the harmonics alone, and the plain way."""
+    start = cpu_seconds(["-c", "import sympy"], repeats=2)
+    series = cpu_seconds(["-c", "from derive.propagation import collect; collect()"], repeats=3)
+    with tempfile.TemporaryDirectory() as folder:
+        whole = cpu_seconds(["-m", "ragg_runtime", "derive", "--out", folder])
+    script = (
+        "import time; from benchmarks.derivation import plain, verify; found = plain()\n"
+        "print(time.process_time(), flush=True); verify(found)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    by_hand = float(done.stdout)
+    return [
+        Row("start of Python and SymPy", start, "s CPU"),
+        Row("derive everything, cold", whole, "s CPU", "all models in Python, C, LaTeX; pages"),
+        Row("derive the harmonics, cold", series, "s CPU", "start included; four accelerometers"),
+        Row("plain SymPy, cold", by_hand, "s CPU", "start included; four accelerometers; verified"),
+        Row("plain / derived, cold", by_hand / series, "", "start included", "at least 20"),
+        Row("plain / derived, start taken off", (by_hand - start) / max(series - start, 1e-3), ""),
+        Row("plain / derive everything", by_hand / whole, ""),
+    ]
