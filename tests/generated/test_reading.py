@@ -33,7 +33,9 @@ def test_what_the_instrument_is_there_for_can_be_found() -> None:
     """Eq. 18: the sum over k1 R multiplies T_1 in the sine and T_2 in the cosine of twice the spin rate."""
     source = inspect.getsource(analytical.amplitudes)
     for amplitude, motion in (("A_2s", "T_1"), ("A_2c", "T_2")):
-        assert term(source, amplitude, motion).startswith("(Sigma(R*k1) + Sigma((R*beta_z*k1)*(")  # and angles
+        assert term(source, amplitude, motion).startswith(
+            "(Sigma(R*k1) + Sigma((R*beta_z*k1)*("
+        )  # and angles
         assert term(inspect.getsource(simplified.amplitudes), amplitude, motion) == f"Sigma(R*k1) * {motion}"
 
 
