@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import gzip
 import io
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
@@ -17,6 +18,8 @@ from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of
 
 _MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
+# Of damaged or cut off files, compressed ones among them.
+_UNREADABLE = (UnicodeDecodeError, OSError, EOFError, zlib.error)
 _NOT_CSV = "the file is not a table of comma-separated values"
 
 
@@ -59,7 +62,7 @@ def _header(path: Path, compressed: bool) -> tuple[int, str]:
             for number, line in enumerate(lines):
                 if line.strip() and not line.startswith("#"):
                     return number, line.rstrip("\n")
-    except (UnicodeDecodeError, OSError, EOFError) as error:
+    except _UNREADABLE as error:
         raise UserError(_NOT_CSV, where=path, found=str(error)) from None
     raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
 
@@ -114,7 +117,7 @@ def _fault(
                             found=repr(text),
                             expected="a number with a decimal point, or nothing where it is missing",
                         )
-    except (UnicodeDecodeError, csv.Error) as fault:
+    except (*_UNREADABLE, csv.Error) as fault:
         error = str(fault)
     return UserError(_NOT_CSV, where=path, found=error.splitlines()[0][:200])
 

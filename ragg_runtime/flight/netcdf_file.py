@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -57,13 +59,22 @@ def write_netcdf(path: Path, columns: list[tuple[Column, Array]]) -> None:
 def _dataset(path: Path) -> Any:
     import xarray  # slow to import, and only this format needs it
 
+    # What h5netcdf leaves of a file that it failed to open complains on stderr when it is finalised.
+    hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
     try:
-        # CF decoding would turn a time "in seconds" into durations.
-        return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
-    except Exception as error:  # h5py, h5netcdf and xarray each raise their own
-        raise UserError(
-            "the NetCDF file is damaged or not NetCDF-4", where=path, found=str(error).split("\n", 1)[0][:200]
-        ) from None
+        try:
+            # CF decoding would turn a time "in seconds" into durations.
+            return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
+        except Exception as error:  # h5py, h5netcdf and xarray each raise their own
+            fault = str(error).split("\n", 1)[0][:200]
+        gc.collect()
+    finally:
+        sys.unraisablehook = hook
+    raise _damaged(path, fault)
+
+
+def _damaged(path: Path, fault: str) -> UserError:
+    return UserError("the NetCDF file is damaged or not NetCDF-4", where=path, found=fault)
 
 
 def _batches(
@@ -72,7 +83,11 @@ def _batches(
     with _dataset(path) as data:
         for start in range(0, length, _BATCH):
             part = data.isel({dimension: slice(start, start + _BATCH)})
-            yield {
-                c.name: np.asarray(part.variables[n].values, dtype=np.float64)
-                for n, c in zip(names, columns, strict=True)
-            }
+            try:
+                batch = {
+                    c.name: np.asarray(part.variables[n].values, dtype=np.float64)
+                    for n, c in zip(names, columns, strict=True)
+                }
+            except (OSError, RuntimeError, ValueError) as error:
+                raise _damaged(path, str(error)[:200]) from None
+            yield batch

@@ -272,3 +272,26 @@ def test_netcdf_of_other_tools(tmp_path: Path) -> None:
     xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
     with pytest.raises(UserError, match="'time' is missing"):
         read_flight(path, G0)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_damaged_files_give_one_message(
+    tmp_path: Path, suffix: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Any damage ends in a flight or in a UserError, and nothing is printed."""
+    path = tmp_path / f"x{suffix}"
+    write_flight(flight(60), path)
+    whole = path.read_bytes()
+    rng = np.random.default_rng(7)
+    refused = 0
+    for _ in range(40):
+        damaged = bytearray(whole)
+        where = int(rng.integers(len(whole) if rng.random() < 0.5 else min(600, len(whole))))
+        damaged[where : where + int(rng.integers(1, 40))] = rng.bytes(int(rng.integers(0, 6)))
+        path.write_bytes(damaged)
+        try:
+            read_flight(path, G0)
+        except UserError as error:
+            refused += str(path) in str(error)
+    assert refused > 10
+    assert capfd.readouterr() == ("", "")
