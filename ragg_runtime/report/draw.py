@@ -110,19 +110,22 @@ def svg(made: Figure, name: str, label: str) -> str:
     head, body = text.split(">", 1)
     view = re.search(r'viewBox="[^"]*"', head)
     assert view is not None
-    body = re.sub(r' id="', f' id="{name}-', body)
-    body = re.sub(r'href="#', f'href="#{name}-', body)
-    body = re.sub(r"url\(#", f"url(#{name}-", body)
-    # the reader's own sans-serif instead of a list of fonts in every label
-    body = re.sub(r"font: ((?:\d+ )?)([\d.]+)px [^;\"]*", _font, body)
+    body = re.sub(r"<[^>]*>", lambda tag: _own(tag[0], name), body)
     body = re.sub(r"<!--.*?-->", "", body, flags=re.DOTALL)
     body = re.sub(r"\n\s*", "\n", body)
     return f'<svg {view[0]} role="img" aria-label="{html.escape(words.clean(label))}">{body}'
 
 
-def _font(found: re.Match[str]) -> str:
-    weight = found[1].strip()
-    return f"font-size: {found[2]}px" + (f"; font-weight: {weight}" if weight else "")
+def _own(tag: str, name: str) -> str:
+    """A tag with ids of its own figure, and the reader's own sans-serif instead of a list of fonts."""
+    tag = tag.replace(' id="', f' id="{name}-').replace('href="#', f'href="#{name}-')
+    tag = tag.replace("url(#", f"url(#{name}-")
+    tag = re.sub(r"font: (?:(\d+) )?([\d.]+px) [^;\"]*", _size, tag)
+    return re.sub(r"font-family: [^;\"]*(?:; )?", "", tag)
+
+
+def _size(found: re.Match[str]) -> str:
+    return f"font-size: {found[2]}" + (f"; font-weight: {found[1]}" if found[1] else "")
 
 
 def log_ticks(axes: Axes, which: str) -> None:

@@ -148,7 +148,7 @@ def spectra(panels: Sequence[SpectrumPanel], name: str, label: str) -> str:
             low, high = float(np.min(every)) / 1.4, float(np.max(every)) * 1.8
             top = float(np.max(p.noise.density))
             # where an unknown gradient is taken out, the residual has a notch that says nothing
-            low = max(low, float(np.min(p.noise.density[p.noise.density > top / 1e3])) / 4.0)
+            low = max(low, float(np.min(p.noise.density[p.noise.density > top / 1e2])) / 4.0)
             if high / low < 10.0:
                 spread = np.sqrt(10.0 * low / high)
                 low, high = low / spread, high * spread

@@ -71,8 +71,7 @@ def figures(found: Sequence[Mapping[str, str]]) -> list[dict[str, Any]]:
 def versions() -> list[tuple[str, str]]:
     """(name, version) of Python, this package and the libraries that a report depends on."""
     found = [("Python", platform.python_version())]
-    own = metadata.packages_distributions().get("ragg_runtime", [])
-    for name in (*sorted(set(own)), *LIBRARIES):
+    for name in ("ragg", *LIBRARIES):
         try:
             found.append((name, metadata.version(name)))
         except metadata.PackageNotFoundError:

@@ -1,0 +1,548 @@
+"""Reports: what they say is what the physics says, and nothing in them can reach beyond the page."""
+
+from __future__ import annotations
+
+import html
+import math
+import re
+import warnings
+from dataclasses import dataclass, replace
+from functools import cache
+from html.parser import HTMLParser
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from ragg_runtime import compare, diagnose, extend, load, report
+from ragg_runtime.demodulate import demodulate
+from ragg_runtime.evaluate import output, record, vector, voltages
+from ragg_runtime.instrument import EffectSetting, Instrument
+from ragg_runtime.report import barcharts, budget, draw, effect_values, panels, parameters, series, words
+from ragg_runtime.units import RawQuantity
+
+RATE = 16.0
+UG = 9.8e-6
+PER_UG = 1e-6 / 9.8
+ARCSEC = math.pi / 180 / 3600
+HOSTILE = 'leg <script>alert("1")</script> & $\\frac{x}$ \u202e\x07\udcff'
+
+
+# --- a small flight -----------------------------------------------------------------------------------------
+
+
+def instrument() -> Instrument:
+    return Instrument.build(
+        0.1,
+        0.25,
+        9.8,
+        {
+            "dR": np.array([0, 30, 35, 25]) * 1e-6,
+            "beta_x": np.array([21, 14, 17, 19]) * ARCSEC,
+            "beta_z": np.array([18, 8, 10, 20]) * ARCSEC,
+            "vartheta_y": np.array([21, 10, 7, 19]) * ARCSEC,
+            "vartheta_z": np.array([30, 19, 20, 9]) * ARCSEC,
+            "K0": np.array([10, 2, 5, 8]) * UG,
+            "K1": np.array([10, 10.001, 10.0015, 10.002]) * 1e-3 / 9.8,
+            "K2": np.array([5, 1, 8, 7]) * PER_UG,
+            "K4": np.array([6, 12, 5, 16]) * PER_UG,
+            "K5": np.array([4, 11, 9, 13]) * PER_UG,
+            "K6": np.array([3, 12, 8, 10]) * PER_UG,
+            "K7": np.array([5, 15, 7, 17]) * PER_UG,
+            "K8": np.array([1, 7, 11, 20]) * PER_UG,
+            "k_VI": 1e9,
+        },
+    )
+
+
+def motion(samples: int, seed: int) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Turbulence of many sines below 2 Hz: their derivatives are exact."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(samples) / RATE
+    f = rng.uniform(0.02, 2.0, 40)[:, None]
+    channels = {}
+    for k in "xyz":
+        for name, size in (("a", 0.5), ("omega", 1e-3)):
+            c, p = rng.normal(0, size / 6, (40, 1)), rng.uniform(0, 2 * np.pi, (40, 1))
+            angle = 2 * np.pi * f * time + p
+            channels[f"{name}_{k}"] = np.sum(c * np.sin(angle), axis=0)
+            if name == "omega":
+                channels[f"omegadot_{k}"] = np.sum(c * 2 * np.pi * f * np.cos(angle), axis=0)
+    for name, value in zip(("xx", "xy", "xz", "yy", "yz", "zz"), (300, 120, 50, 200, -80, -500), strict=True):
+        channels[f"Gamma_{name}"] = np.full(samples, value * 1e-9)
+    return time, channels
+
+
+def flight(
+    effect: EffectSetting | None = None, samples: int = 3200, seed: int = 1, name: str = "leg 1"
+) -> Any:
+    """A record of the instrument above, calibrated a little off, with white noise of 2 sqrt(2) Eo."""
+    true = instrument()
+    true = true.replace(K0=true.accelerometers["K0"] + UG, K7=true.accelerometers["K7"] * 1.1)
+    model = load.packaged()
+    if effect is not None:
+        true = true.with_effects((effect,))
+        model = extend.with_effects(true, model, [effect.id])
+    time, channels = motion(samples, seed)
+    made = SimpleNamespace(
+        time=time, channels=channels, outputs={}, rate=RATE, valid=np.ones(samples, bool), name=name
+    )
+    G = output(model.chain, record(made, true), vector(model, true))
+    noise = np.random.default_rng(seed + 1000).normal(0, math.sqrt(8.0) * true.scale_factor * 1e-9, samples)
+    made.outputs["G_out"] = G + noise
+    return made
+
+
+CUBIC = EffectSetting("cubic-input", {"K_iii": RawQuantity((0.0, 0.0, 4.0, 0.0), "ug/g^3")})
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    comparison: compare.Comparison
+    diagnosis: diagnose.Diagnosis
+    flight: Any
+
+
+def case(made: Any) -> Case:
+    model, known = load.packaged(), instrument()
+    d = diagnose.diagnose(model, known, [made], lambda m, ids: extend.with_effects(known, m, ids))
+    return Case(compare.compare(model, known, [made]), d, made)
+
+
+@pytest.fixture(scope="module")
+def clean() -> Case:
+    return case(flight())
+
+
+@pytest.fixture(scope="module")
+def cubic() -> Case:
+    return case(flight(CUBIC, name=HOSTILE))
+
+
+ORIGIN: dict[str, Any] = {
+    "title": "gradiometer & leg",
+    "command": "ragg compare <dir> leg.csv",
+    "sources": [("model.toml", "ab" * 32), ('<img src="http://evil.example/x">', "cd" * 32)],
+}
+
+
+# --- the page as a whole ------------------------------------------------------------------------------------
+
+
+class Page(HTMLParser):
+    """Elements, attributes and text of a document."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.words: list[str] = []
+        self.open: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag not in ("meta", "br"):
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if "style" not in self.open:
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return re.sub(r"\s+", " ", "".join(self.words))
+
+
+@cache
+def pages(c: Case) -> dict[str, str]:
+    return make(c)
+
+
+def make(c: Case) -> dict[str, str]:
+    e = c.comparison.as_json()["error"]
+    history = [
+        {"action": "add", "effect": "lag <i>", "time": "2031-01-01T00:00:00Z", "before": None, "after": None},
+        {"action": "add", "effect": "cubic-input", "time": "2031-01-02T00:00:00Z", "before": e, "after": e},
+    ]
+    return {
+        "compare": report.compare_html(c.comparison, **ORIGIN),
+        "diagnose": report.diagnose_html(c.diagnosis, **ORIGIN),
+        "add": report.add_html(history, c.comparison, c.comparison, c.diagnosis, **ORIGIN),
+    }
+
+
+@pytest.mark.parametrize("which", ["clean", "cubic"])
+def test_pages_are_self_contained_well_formed_and_small(which: str, request: pytest.FixtureRequest) -> None:
+    for name, text in pages(request.getfixturevalue(which)).items():
+        page = Page(text)
+        assert page.open == [], name
+        assert len(text.encode()) < 500_000, name
+        assert {"html", "svg", "table", "footer"} <= {tag for tag, _ in page.elements}
+        foreign = {"script", "link", "iframe", "object", "embed", "img", "form", "base", "foreignobject"}
+        assert foreign.isdisjoint(tag for tag, _ in page.elements), name
+        for tag, attributes in page.elements:
+            for key, value in attributes.items():
+                assert not key.startswith("on"), (name, tag, key)
+                if key in ("src", "href", "xlink:href", "action"):
+                    assert (value or "").startswith("#"), (name, tag, value)
+        assert "@import" not in text
+        for target in re.findall(r"url\(([^)]*)\)", text):
+            assert target.startswith("#")
+        policy = [a["content"] for t, a in page.elements if a.get("http-equiv") == "Content-Security-Policy"]
+        assert policy
+        assert str(policy[0]).startswith("default-src 'none'")
+
+
+def test_references_inside_figures_are_met_once(cubic: Case) -> None:
+    for text in pages(cubic).values():
+        ids = re.findall(r' id="([^"]*)"', text)
+        assert len(ids) == len(set(ids))
+        used = re.findall(r'href="#([^"]*)"', text) + re.findall(r"url\(#([^)]*)\)", text)
+        assert used
+        assert set(used) <= set(ids)
+
+
+def test_names_of_strangers_are_text(cubic: Case) -> None:
+    for name, text in pages(cubic).items():
+        page = Page(text)
+        assert "<script>" in page.text or name != "compare"
+        assert "http://evil.example" in page.text
+        assert not any(c in text for c in "\u202e\x07\udcff")
+        text.encode("utf-8")
+    assert "lag <i>" in Page(pages(cubic)["add"]).text
+
+
+def test_same_input_same_bytes(clean: Case) -> None:
+    assert make(clean) == pages(clean)
+
+
+def test_page_says_how_to_make_it_again(clean: Case) -> None:
+    for text in pages(clean).values():
+        said = Page(text).text
+        assert ORIGIN["command"] in said
+        assert "ab" * 32 in said
+        assert load.packaged().digest in said
+        assert f"numpy {np.__version__}" in said
+
+
+def test_users_own_matplotlib_settings_do_not_matter(clean: Case) -> None:
+    import matplotlib
+
+    before = pages(clean)["compare"]
+    with matplotlib.rc_context({"axes.facecolor": "red", "font.size": 30.0}):
+        assert report.compare_html(clean.comparison, **ORIGIN) == before
+        assert matplotlib.rcParams["font.size"] == 30.0
+
+
+# --- what they say ------------------------------------------------------------------------------------------
+
+
+def test_clean_flight_is_adequate_in_words(clean: Case) -> None:
+    said = Page(pages(clean)["compare"]).text
+    assert "The model is adequate" in said
+    assert words.number(clean.comparison.calibrated.rms_Eo) in said
+    assert words.number(clean.comparison.nominal.rms_Eo) in said
+    said = Page(pages(clean)["diagnose"]).text
+    assert "Nothing is missing" in said
+    assert "smaller than" in said
+
+
+def test_missing_effect_is_named_with_its_size_and_its_ambiguity(cubic: Case) -> None:
+    assert cubic.diagnosis.found == ("cubic-input",)
+    said = Page(pages(cubic)["diagnose"]).text
+    assert "The model lacks cubic-input" in said
+    # a cubic term of A3 and its opposite in A4, which feels the opposite force, are the same in G_out
+    r = next(r for r in cubic.diagnosis.ranking if r.effect == "cubic-input")
+    shown = effect_values.values(cubic.diagnosis.fitted, r)
+    both = {
+        v.of: float(re.match(r"[−\d.]+", v.text)[0].replace("−", "-"))
+        for v in (*shown.values, *shown.instead)
+    }  # type: ignore[index]
+    if len(shown.values) == 1:
+        assert set(both) == {"A3", "A4"}
+        assert both["A3"] == pytest.approx(4.0, rel=0.1)
+        assert both["A4"] == pytest.approx(-4.0, rel=0.1)
+    else:
+        assert both["D34"] == pytest.approx(4.0, rel=0.1)
+
+
+def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
+    d = replace(cubic.diagnosis, verdict="unexplained", found=(), remainder=cubic.comparison.remainder)
+    d = replace(d, residual_after=d.residual, after=d.before, final=None)
+    assert d.remainder.significant
+    page = Page(report.diagnose_html(d, **ORIGIN))
+    assert "no known effect accounts for" in page.text
+    assert "The model lacks" not in page.text
+    best = compare.terms_json(d.remainder, d.residual, d.fitted)[0]
+    assert words.product(str(best["term"])) in page.text
+
+
+def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
+    known = instrument()
+    extended = extend.with_effects(known, load.packaged(), ["cubic-input"])
+    after = compare.compare(extended, known, [cubic.flight])
+    before = cubic.comparison
+    history = [
+        {
+            "action": "add",
+            "effect": "cubic-input",
+            "time": "2031-01-01T00:00:00Z",
+            "before": before.as_json()["error"],
+            "after": after.as_json()["error"],
+        }
+    ]
+    said = Page(report.add_html(history, before, after, **ORIGIN)).text
+    a, b = words.number(before.calibrated.rms_Eo), words.number(after.calibrated.rms_Eo)
+    assert f"With cubic-input added, the error falls from {a} to {b} Eo" in said
+    rows = {c.label: c for c in budget.contributions(after.fitted)}
+    # what the effect contributes is more than what the calibration of the others left of it
+    excess = math.sqrt(before.calibrated.rms_Eo**2 - after.calibrated.rms_Eo**2)
+    assert rows["cubic-input"].rms > 0.9 * excess
+
+
+# --- parameters ---------------------------------------------------------------------------------------------
+
+
+def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: Case) -> None:
+    """Eq. 17-19: of the biases only D1234 enters; K2 and K5 enter as Sigma (k5 - k2) and D1234 (k2 + k5)."""
+    v = parameters.visibility(clean.comparison.fitted)
+    unseen = {pattern: {s.name for s in symbols} for pattern, symbols in v.unseen}
+    for pattern in ("Σ", "D12", "D34"):
+        assert "K0" in unseen[pattern]
+    assert "K0" not in unseen.get("D1234", set())
+    groups = {frozenset((p.pattern, p.symbol.name) for p in g.members): g for g in v.groups}
+    for pattern, sign in (("Σ", words.MINUS), ("D1234", "+")):
+        group = groups[frozenset({(pattern, "K2"), (pattern, "K5")})]
+        assert group.unseen == 1
+        assert [p.sign for p in group.seen[0]] == ["", sign]
+        assert [p.factor for p in group.seen[0]] == ["", ""]
+    # a larger radius is the same as a larger scale factor: R / K1 = 0.1 m / (10 mA/g)
+    radius = groups[frozenset({("Σ", "dR"), ("Σ", "K1")})].seen[0]
+    assert radius[1].factor.startswith(f"10{words.THIN}000")
+    assert 0 < v.determined < v.total
+
+
+def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
+    rows = {r.symbol.name: r for r in parameters.by_combination(clean.comparison.fitted)}
+    patterns = [name for name, _ in parameters.PATTERNS]
+    K0 = rows["K0"].cells[patterns.index("D1234")]
+    assert K0.state == "seen"
+    # the flight's biases are 1 ug above the test sheet in all four: D1234 stays 10 + 2 - 5 - 8 = -1 ug
+    value = float(K0.value.split(words.THIN)[0].split("(")[0].replace(words.MINUS, "-"))
+    assert value == pytest.approx(-1.0, abs=0.05)
+    assert rows["K0"].cells[patterns.index("Σ")].state == "unseen"
+
+
+def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
+    """V_j = k_VI K1 K0: a constant in G_out, D1234 of k_VI K1 K0 over k_ggi, and nothing in the channels."""
+    f = clean.comparison.fitted
+    p = parameters.named(f.model.chain, f.calibration.p)
+    volts = p["k_VI"] * p["K1"] * p["K0"]
+    expected = abs(volts[0] + volts[1] - volts[2] - volts[3]) / f.k_ggi
+    row = next(r for r in budget.contributions(f) if r.label.startswith("K_0"))
+    assert row.rms == pytest.approx(expected, rel=1e-6)
+    assert row.inline < 1e-4 * row.rms
+    assert row.cross < 1e-4 * row.rms
+
+
+# --- series -------------------------------------------------------------------------------------------------
+
+
+def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> None:
+    """Against the demodulator itself, on noise drawn with the estimated density."""
+    f = clean.comparison.fitted
+    w = f.works[0]
+    rng = np.random.default_rng(5)
+    n = 1 << 17
+    frequency = np.fft.rfftfreq(n, 1 / RATE)
+    psd = sum(m.psd(np.maximum(frequency, frequency[1])) for m in w.noise.models)
+    spectrum = np.sqrt(psd * RATE * n / 2) * np.exp(2j * np.pi * rng.random(len(frequency)))
+    noise = np.fft.irfft(spectrum, n)
+    phi = 2 * np.pi * 0.25 * np.arange(n) / RATE
+    d = demodulate(noise, phi, RATE, f.k_ggi)
+    inline, cross = series.channel_noise(f)
+    assert np.std(d.inline) == pytest.approx(inline, rel=0.05)
+    assert np.std(d.cross) == pytest.approx(cross, rel=0.05)
+
+
+def test_clean_residual_has_the_noise_of_the_bars_at_every_harmonic(clean: Case) -> None:
+    f = clean.comparison.fitted
+    expected = series.harmonic_noise(f)
+    assert len(expected) == 9
+    for row in compare.harmonic_errors(f, clean.comparison.residual):
+        assert float(str(row["rms_Eo"])) == pytest.approx(expected[str(row["harmonic"])], rel=0.3)
+    assert not any(b.strong for b in panels.harmonic_bars(f, clean.comparison.residual))
+
+
+def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> None:
+    rng = np.random.default_rng(3)
+    n, density, amplitude = 1 << 16, 2.0, 40.0
+    time = np.arange(n) / RATE
+    x = rng.normal(0, density * math.sqrt(RATE / 2), n) + amplitude * np.sin(2 * np.pi * 3.0 * time)
+    s = series.spectrum(x, np.ones(n, bool), RATE)
+    assert s is not None
+    away = np.abs(s.frequency - 3.0) > 0.2
+    assert np.sqrt(np.mean(s.density[away] ** 2)) == pytest.approx(density, rel=0.03)
+    assert s.frequency[np.argmax(s.density)] == pytest.approx(3.0, abs=0.05)
+
+
+def test_spectrum_leaves_gaps_out() -> None:
+    rng = np.random.default_rng(4)
+    x = rng.normal(0, 1.0, 20000)
+    valid = np.ones(20000, bool)
+    valid[7000:9000] = False
+    x[~valid] = 1e6
+    s = series.spectrum(x, valid, RATE)
+    assert s is not None
+    assert np.sqrt(np.mean(s.density**2)) == pytest.approx(math.sqrt(2 / RATE), rel=0.05)
+    assert series.spectrum(x[:20], valid[:20], RATE) is None
+
+
+@given(st.integers(1, 5000), st.integers(1, 700), st.integers(0, 2**31))
+def test_envelope_keeps_the_extremes_and_the_power(n: int, points: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    x, valid = rng.normal(size=n), rng.random(n) < 0.7
+    assume(valid.any())
+    e = series.envelope(np.arange(n) / RATE, x, valid, points)
+    assert len(e.time) <= points
+    assert np.nanmax(e.high) == np.max(x[valid])
+    assert np.nanmin(e.low) == np.min(x[valid])
+    known = np.isfinite(e.rms)
+    assert np.all(e.rms[known] <= np.maximum(np.abs(e.low[known]), np.abs(e.high[known])) * (1 + 1e-12))
+
+
+def test_no_line_is_drawn_over_a_gap() -> None:
+    time = np.concatenate([np.arange(100), np.arange(200, 300)]) / RATE
+    t, y = series.broken(time, np.ones(200))
+    assert [r.stop - r.start for r in series.runs(y)] == [100, 100]
+    assert np.isnan(t[100])
+
+
+def test_blocks_are_those_of_the_comparison(cubic: Case) -> None:
+    c = cubic.comparison
+    _, rms = series.blocks(c.fitted.works[0], c.residual[0], c.fitted.k_ggi)
+    assert np.nanmax(rms) == pytest.approx(float(str(c.by_time()[0]["rms_Eo"])))
+
+
+def test_short_record_has_no_channels_but_a_report() -> None:
+    made = flight(samples=320)
+    c = compare.compare(load.packaged(), instrument(), [made])
+    said = Page(report.compare_html(c, **ORIGIN)).text
+    assert "too short for the demodulator" in said
+    assert "nan" not in said
+
+
+def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = [flight(samples=640, seed=s, name=f"leg {s}") for s in (1, 2, 3)]
+    ramp = np.linspace(0, 1, 640) * np.random.default_rng(9).normal(0, 0.02, 640)
+    made[1].outputs["G_out"] = made[1].outputs["G_out"] + ramp
+    c = compare.compare(load.packaged(), instrument(), made)
+    monkeypatch.setattr(panels, "FLIGHTS", 1)
+    text = report.compare_html(c, **ORIGIN)
+    assert "The 1 worst of 3 flights are drawn" in text
+    assert series.worst(c.fitted, c.residual_nominal, 3) == [0, 1, 2]
+
+
+def test_four_voltages_see_every_accelerometer() -> None:
+    made = flight()
+    known, model = instrument(), load.packaged()
+    V = voltages(model.chain, record(made, known), vector(model, known))
+    rng = np.random.default_rng(2)
+    made.outputs = {f"V_{j + 1}": V[j] + rng.normal(0, 4e-4, V.shape[1]) for j in range(4)}
+    c = compare.compare(model, known, [made])
+    v = parameters.visibility(c.fitted)
+    assert not v.patterns
+    assert v.determined > parameters.visibility(compare.compare(model, known, [flight()]).fitted).determined
+    assert "<svg" in report.compare_html(c, **ORIGIN)
+
+
+# --- numbers in words ---------------------------------------------------------------------------------------
+
+FINITE = st.floats(-1e30, 1e30, allow_nan=False).filter(lambda x: x == 0 or abs(x) > 1e-30)
+
+
+def read(text: str) -> float:
+    """A printed number, read back."""
+    plain = text.replace(words.MINUS, "-")
+    mantissa, _, exponent = plain.partition(f"{words.THIN}×{words.THIN}10")
+    digits = exponent.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
+    return float(mantissa.replace(words.THIN, "")) * 10.0 ** int(digits or 0)
+
+
+@given(FINITE, st.integers(1, 7))
+def test_number_reads_back_to_its_digits(x: float, digits: int) -> None:
+    assert read(words.number(x, digits)) == pytest.approx(x, rel=0.51 * 10.0 ** (1 - digits), abs=0.0)
+
+
+@given(FINITE, st.floats(1e-20, 1e20))
+def test_value_and_uncertainty_read_back(value: float, std: float) -> None:
+    assume(1e-6 < abs(value) / std < 1e9)
+    shown = words.rounded(value, std)
+    assert read(shown) == pytest.approx(value, abs=0.06 * std * (1 + 1e-6))
+    assert words.plus_minus(value, std).lstrip("(").startswith(shown.split(words.THIN + "×")[0])
+
+
+def test_numbers_a_reader_expects() -> None:
+    assert words.number(float("nan")) == "–"
+    assert words.number(107234.0) == "107\u202f000"
+    assert words.number(-0.00041) == "−4.10\u202f×\u202f10⁻⁴"
+    assert words.plus_minus(4.0061e-8, 3.1e-10) == "(4.006\u202f±\u202f0.031)\u202f×\u202f10⁻⁸"
+    assert words.plus_minus(40.0045, 5e-8) == "40.004500000(50)"
+    assert words.probability(-768 * math.log(10)) == "10⁻⁷⁶⁸"
+    assert words.probability(math.log(0.05)) == "0.050"
+    assert words.unit("ug/g^2") == "µg/g²"
+    assert words.unit_of_term("V/(m/s^2*m/s^2*K)") == "V/((m/s²)²·K)"
+    assert words.unit_of_term("V/(rad/s)") == "V/(rad/s)"
+    assert words.symbol(r"\partial_T K_{1}") == (("∂", False), ("T", True), ("K", False), ("1", True))
+    assert words.product("a_x*omegadot_y*d_a_z") == "a_x · dω_y/dt · da_z/dt"
+    assert words.harmonic("sin 1") == "sin Ωt"
+
+
+@given(st.text())
+def test_cleaned_text_can_be_written_and_drawn(text: str) -> None:
+    words.clean(text).encode("utf-8")
+    line = words.short(text, 30)
+    assert len(line) <= 30
+    assert "\n" not in line
+
+
+def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
+    bars = [barcharts.Bar("$\\frac{1}$ <b>\udc80\u202e 傾斜", 2.0), barcharts.Bar("b" * 300, math.inf)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        text = barcharts.lying(bars, "x", 'a "label" <', "Eo", 1.0, True)
+    assert "$\\frac{1}$ &lt;b&gt;" in text
+    assert "傾斜" in text
+    assert "certain" in text
+    assert "b" * 60 not in text
+    text.encode("utf-8")
+
+
+def test_figures_leave_the_text_of_labels_alone() -> None:
+    said = 'a id="b" href="#c" font: 8px d; url(#e) <!-- f -->'
+    assert html.escape(said, quote=False) in barcharts.lying(
+        [barcharts.Bar(said, 1.0)], "x", "y", "Eo", None, False
+    )
+
+
+def test_figures_are_vector_drawings_without_fonts_dates_or_links() -> None:
+    with draw.style():
+        fig = draw.figure(2.0)
+        ax = fig.subplots()
+        ax.plot(np.arange(50), np.arange(50) ** 2, label="curve")
+        text = draw.svg(fig, "key", "a curve")
+    assert text.startswith("<svg viewBox=")
+    assert 'aria-label="a curve"' in text
+    assert "://" not in text
+    assert "DejaVu" not in text
+    assert "<image" not in text
