@@ -64,8 +64,7 @@ def values(f: Fitted, r: Ranked) -> Values:
         found = _single(f, own)
         return Values((*found, *extra), 0, tuple(_instead(f, r.effect, columns, own)))
     found = _combined(f, own, _fit(f, own))
-    ordered = sorted(found, key=lambda v: -abs(v.z))[:MOST]
-    kept = [v for v in found if v in ordered]
+    kept = sorted(found, key=lambda v: -abs(v.z))[:MOST]
     return Values((*kept, *extra), len(found) - len(kept), ())
 
 

@@ -77,6 +77,9 @@ def in_time(panels: Sequence[TimePanel], name: str, label: str) -> str:
             upper.legend(loc="upper right", ncols=3, borderaxespad=0.0)
             _steps(lower, p)
             lower.set_ylabel("rms, Eo")
+            if len(p.blocks) > 1:
+                lower.set_ylim(0.0, 1.3 * lower.get_ylim()[1])
+                lower.legend(loc="upper left", ncols=3, borderaxespad=0.0)
             lower.set_xlim(p.edges[0], p.edges[-1])
         axes[-1].set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)
