@@ -118,7 +118,7 @@ def nuisance_basis(nuisance: Array, noise: Noise, valid: NDArray[np.bool_]) -> A
     if not len(nuisance):
         return None
     parts = [whiten(nuisance[:, m], taps, valid) for m, taps in enumerate(noise.filters)]
-    return np.asarray(np.linalg.qr(np.concatenate(parts, axis=1).T)[0])
+    return design.orthonormal(np.concatenate(parts, axis=1))
 
 
 def whitened(lin: Linearised, noise: Noise, Q: Array | None) -> Whitened:
@@ -146,7 +146,7 @@ def estimate_noise(lin: Linearised) -> Noise:
         y = lin.residual[m, r.valid]
         taken = 0
         if len(lin.nuisance):
-            Q = np.linalg.qr(lin.nuisance[:, m][:, r.valid].T)[0]
+            Q = design.orthonormal(lin.nuisance[:, m][:, r.valid])
             X, y, taken = X - (X @ Q) @ Q.T, y - Q @ (Q.T @ y), Q.shape[1]
         e = np.zeros(len(r.time))
         solution, rank = _least_squares(X, y)

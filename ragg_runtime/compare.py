@@ -13,6 +13,7 @@ from ragg_runtime import calibrate, design
 from ragg_runtime.calibrate import Calibration, Noise
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
+from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import record, scale_factor, vector, voltages
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.omnibus import Omnibus
@@ -148,6 +149,14 @@ def fit(
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence; the noise is estimated unless given."""
     c = calibrate.fit(model, instrument, observations, noise=noise)
+    if not scale_factor(model.chain, c.p) > 0.0:
+        raise UserError(
+            "the calibration does not converge: the record is not one of this instrument",
+            where=", ".join(o.name for o in observations),
+            found="a scale factor of the gradiometer below zero",
+            expected="the disc angle, spin frequency, axes and signs of the model",
+            remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
+        )
     works = work.prepare(model, instrument, observations, c)
     return Fitted(
         model,

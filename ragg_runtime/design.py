@@ -181,6 +181,12 @@ def observe(o: Observation, v: Array, accelerometer: int | None) -> Array:
     return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
 
 
+def orthonormal(columns: Array) -> Array:
+    """(rows, k): orthonormal basis of columns (n, rows); those that vanish (knots in a gap) span nothing."""
+    norms = np.linalg.norm(columns, axis=1)
+    return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
+
+
 KNOT_SECONDS = 10.0
 """Distance of the knots of an unknown gradient: it follows periods of half a minute and longer."""
 

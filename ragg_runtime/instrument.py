@@ -251,11 +251,14 @@ def _effect(entry: object, where: str, known: Units) -> EffectSetting:
         )
     effect_id = entry["id"]
     where = f"{where} ({effect_id})"
-    values = {
-        name: known.quantity(raw, f"{where}: {name}")
-        for name, raw in entry.items()
-        if name not in ("id", "stage", "add", "params")
-    }
+    own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
+    if "stage" in entry or "add" in entry:
+        # An effect in one line: its parameters stand beside stage and add, with or without a value.
+        given = entry.get("params", {})
+        if isinstance(given, dict):
+            entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": given | own}
+            own = {}
+    values = {name: known.quantity(raw, f"{where}: {name}") for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
         _check_names(values, expression["params"], None, where)
@@ -271,7 +274,7 @@ def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[s
     keys = [k for k in ("stage", "add", "params") if k in entry]
     if not keys:
         return None
-    example = 'stage = "transducer", add = "c*f_i^3", params = { c = { unit = "ug/g^3" } }'
+    example = 'stage = "transducer", add = "K_x * f_i**3", K_x = { value = 0, unit = "ug/g^3" }'
     for key, kind in (("stage", str), ("add", str), ("params", dict)):
         if not isinstance(entry.get(key), kind):
             raise UserError(

@@ -85,5 +85,8 @@ def pooled(errors: list[Error], weights: list[float]) -> Error:
     """One error of several flights: quadratic mean, weighted by their samples."""
     w = np.asarray(weights) / np.sum(weights)
     values = np.array([[getattr(e, k) for k in Error.__dataclass_fields__] for e in errors])
-    with np.errstate(invalid="ignore"):
-        return Error(*(float(v) for v in np.sqrt(np.nansum(w[:, None] * values**2, axis=0))))
+    counted = np.where(np.isfinite(values), w[:, None], 0.0)
+    total = np.sum(counted, axis=0)
+    squares = np.sum(counted * np.nan_to_num(values) ** 2, axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return Error(*(float(v) for v in np.sqrt(squares / total)))

@@ -84,7 +84,7 @@ def load_model_dir(path: Path | str) -> ModelDir:
         before = _stamp(path)
         try:
             state = _read(path)
-        except UserError:
+        except (UserError, FileNotFoundError):
             # Read amidst a change, a file may be missing.
             if _stamp(path) == before and not _is_committing(path):
                 raise

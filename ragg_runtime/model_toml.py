@@ -138,12 +138,11 @@ def _entry(setting: EffectSetting) -> Any:
     if setting.expression is not None:
         entry.add("stage", setting.expression["stage"])
         entry.add("add", setting.expression["add"])
-        params = tomlkit.inline_table()
         for name, parameter in setting.expression["params"].items():
             inner = tomlkit.inline_table()
             inner.update({k: v for k, v in parameter.items() if k != "value" or name not in setting.values})
-            params.add(name, inner)
-        entry.add("params", params)
+            if name not in setting.values:
+                entry.add(name, inner)
     for name, quantity in setting.values.items():
         entry.add(name, _quantity(quantity))
     return entry

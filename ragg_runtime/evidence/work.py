@@ -57,7 +57,7 @@ class Work:
             return None
         valid = self.observation.record.valid
         X = self.lin.nuisance[:, :, valid].reshape(len(self.lin.nuisance), -1)
-        return np.asarray(np.linalg.qr(X.T)[0])
+        return design.orthonormal(X)
 
     def without_gradient(self, e: Array) -> Array:
         """Take the fitted unknown gradient out of a residual (m, N): it is signal, not error."""

@@ -244,9 +244,7 @@ def test_magnetic_field_looks_like_horizontal_force() -> None:
 def test_all_of_the_angles_are_the_model_that_keeps_them() -> None:
     rng = np.random.default_rng(3)
     names = ("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
-    k = instrument(
-        **dict(zip(names, 1e-2 * rng.standard_normal(5), strict=True)), K4=0.1, K6=0.2, K8=0.3
-    )
+    k = instrument(**dict(zip(names, 1e-2 * rng.standard_normal(5), strict=True)), K4=0.1, K6=0.2, K8=0.3)
     w = world()
     kept = output((), w, k, LIKE_REFERENCE)
     close(output(("second-order-misalignment",), w, k, PAPER, kappa=1.0), kept, 1e-14)

@@ -154,7 +154,8 @@ def test_sampling_does_not_matter_in_regular_motion() -> None:
     few, many = (
         over_turns(error("simplified", r), r) for r in (regular_run(rate=16.0), regular_run(rate=100.0))
     )
-    np.testing.assert_allclose(few, many, rtol=0, atol=1e-7)
+    # to the round-off of the generated model (tests/generated/test_precision.py: below 1e-6 Eo)
+    np.testing.assert_allclose(few, many, rtol=0, atol=1e-6)
 
 
 def test_simplified_minus_analytical_needs_no_numerical_model() -> None:
