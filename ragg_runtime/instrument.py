@@ -252,12 +252,10 @@ def _effect(entry: object, where: str, known: Units) -> EffectSetting:
     effect_id = entry["id"]
     where = f"{where} ({effect_id})"
     own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
-    if "stage" in entry or "add" in entry:
+    if ("stage" in entry or "add" in entry) and "params" not in entry:
         # An effect in one line: its parameters stand beside stage and add, with or without a value.
-        given = entry.get("params", {})
-        if isinstance(given, dict):
-            entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": given | own}
-            own = {}
+        entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
+        own = {}
     values = {name: known.quantity(raw, f"{where}: {name}") for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
