@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo derive check test lint bench bench-diagnosis docs clean
+.PHONY: help demo derive check test lint bench docs clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -39,9 +39,6 @@ lint: $(STAMP)  ## style, types, layers
 
 bench: $(STAMP)  ## measure speed, as ratios within one run
 	$(BIN)/python -m benchmarks
-
-bench-diagnosis: $(STAMP)  ## measure how often the diagnosis is right
-	$(BIN)/python -m benchmarks.diagnosis
 
 docs: $(STAMP)  ## write the generated pages of docs/
 	$(BIN)/ragg derive

@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 TAPS = 32768
 """Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
 
+REACH = 5.0
+"""Farthest that a parameter is fitted from its nominal value, in scales."""
+
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
 
@@ -224,7 +227,10 @@ def fit(
             rows += X.shape[1]
             triangles.append(design.triangle(X))
         step, covariance = solve(design.join(triangles), (nominal[index] - p[index]) / scale, n)
-        p[index] += step * scale
+        # A strong effect that the model lacks must not drag the parameters out of all proportion:
+        # they are where the signatures are evaluated.
+        away = np.clip((p[index] - nominal[index]) / scale + step, -REACH, REACH)
+        p[index] = nominal[index] + away * scale
         settled = bool(np.max(np.abs(step)) < 1e-3)
         if known is None and (settled or iteration == 2):
             known = [

@@ -89,8 +89,9 @@ def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
     grid = np.linspace(np.log(f[0]) - 4.0, x[-1], 513)
     correction = interpolate.BSpline(knots, b, 3)(np.clip(grid, x[0], x[-1]))
     model = NoiseModel(rate, grid, np.asarray(np.log(red(np.exp(grid))) + correction))
-    total = sum(float(np.sum((r - np.mean(r)) ** 2)) for r in residuals) / sum(len(r) for r in residuals)
-    return NoiseModel(rate, grid, model.log_psd + np.log(total / model.rms**2))
+    # the level once more by itself: the penalties must not bias it
+    level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
+    return NoiseModel(rate, grid, model.log_psd + np.log(level))
 
 
 def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array, Array]:

@@ -1,0 +1,268 @@
+"""The loop, end to end, on flights of the independent reference: compare, diagnose, add, remove."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from derive.expression import ExpressionError, from_expression
+from ragg_runtime import extend, load, workflow
+from ragg_runtime.compare import compare
+from ragg_runtime.diagnose import Diagnosis, diagnose
+from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.model_toml import write_instrument
+from ragg_runtime.noise import Noise
+from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.whiten import estimate, whiten
+
+G0 = 9.8
+ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
+
+
+def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> tuple[Scenario, Flight]:
+    s = scenario(seed, duration=600.0, **options)
+    return s, s.simulate(effects or {}).flight()
+
+
+def diagnosed(s: Scenario, *flights: Flight) -> Diagnosis:
+    def extended(model: load.Model, ids: Any) -> load.Model:
+        return extend.with_effects(s.sheet, model, ids)
+
+    return diagnose(load.packaged(), s.sheet, flights, extended)
+
+
+def claimed(d: Diagnosis) -> set[str]:
+    """What is found, and what the record cannot tell from it."""
+    return set(d.found) | {o for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from}
+
+
+@pytest.mark.parametrize("trim", ["matched", "table-v"])
+def test_a_flight_without_hidden_effect_is_adequate_and_its_error_is_the_noise(trim: str) -> None:
+    s, flight = flown(41, trim=trim)
+    c = compare(load.packaged(), s.sheet, [flight])
+    assert c.adequate
+    truth = np.std(s.simulate({}).G_out - s.simulate({}).G_out_noise_free) / c.fitted.k_ggi
+    assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
+    assert c.noise_floor == pytest.approx(truth, rel=0.02)
+    assert c.nominal.rms_Eo > 100 * truth  # the test sheet alone is far off
+    d = diagnosed(s, flight)
+    assert (d.verdict, d.found) == ("adequate", ())
+
+
+HIDDEN: dict[str, dict[str, Any]] = {
+    "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]},
+    "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
+    "lag": {"tau": [4e-9, 0, 0, 0]},
+    "imu-lever-arm": {"l_x": 3e-3, "l_y": -2e-3},
+    "bias-drift": {"dK0_dt": [2e-9 * G0, 0, 0, 0]},
+    "gain-step": {"dK1": [0, 2e-7, 0, 0], "t_step": 350.0},
+    "time-offset": {"delta_t": 1e-5},
+}
+
+
+@pytest.mark.parametrize("effect", sorted(HIDDEN))
+def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise(effect: str) -> None:
+    s, flight = flown(42, {effect: HIDDEN[effect]})
+    d = diagnosed(s, flight)
+    assert d.verdict == "missing-effect"
+    assert effect in claimed(d)
+    assert d.after.rms_Eo < d.before.rms_Eo
+    if effect != "gain-step":  # whose instant is only found to a grid
+        assert d.after.rms_Eo == pytest.approx(d.noise_floor, rel=0.02)
+    else:
+        instants = [
+            p.value for r in d.ranking if r.effect == effect for p in r.parameters if p.name == "t_step"
+        ]
+        assert instants == [pytest.approx(350.0, abs=5.0)]
+
+
+def test_two_effects_are_both_found() -> None:
+    s, flight = flown(
+        43, {"odd-quadratic": {"K_oq": [0, 0, 0, 2e-6 / G0]}, "bias-drift": HIDDEN["bias-drift"]}
+    )
+    d = diagnosed(s, flight)
+    assert set(d.found) == {"odd-quadratic", "bias-drift"}
+
+
+def test_what_no_effect_explains_is_called_unexplained_and_named() -> None:
+    s = scenario(44, duration=600.0)
+    run = s.simulate({})
+    k1 = s.instrument.accelerometers["K1"][0] * s.instrument.accelerometers["k_VI"][0]
+    strange = k1 * 3e-7 * run.channels["omega_z"]  # a sensitivity to rate, in A1
+    flight = dataclasses.replace(run.flight(), outputs={"G_out": run.G_out + strange})
+    d = diagnosed(s, flight)
+    assert d.verdict == "unexplained"
+    assert d.found == ()
+    term = max((t for r in d.remainder.searches for t in r.terms), key=lambda t: abs(t.z)).term
+    assert (term.harmonic, term.product) == ("const", "omega_z")
+    assert "omega_z" in str(d.expression())
+
+
+def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
+    s = scenario(45, duration=600.0, gradient_rms=20e-9)
+    clean = s.simulate({}, record_gradient=False).flight()
+    assert diagnosed(s, clean).verdict == "adequate"
+    hidden = s.simulate({"thermal-scale": HIDDEN["thermal-scale"]}, record_gradient=False).flight()
+    assert "thermal-scale" in claimed(diagnosed(s, hidden))
+
+
+def test_voltages_gaps_and_several_flights() -> None:
+    s = scenario(46, duration=600.0)
+    run = s.simulate({"cubic-input": HIDDEN["cubic-input"]})
+    whole = run.flight(voltages=True)
+    valid = np.ones(len(whole.time), dtype=bool)
+    valid[2000:2100] = False
+    outputs = {n: np.where(valid, v, np.nan) for n, v in whole.outputs.items()}
+    broken = dataclasses.replace(whole, outputs=outputs, valid=valid)
+    assert diagnosed(s, broken).found == ("cubic-input",)
+    halves = [run.flight().part(slice(0, 4800)), run.flight().part(slice(4800, 9600))]
+    assert "cubic-input" in claimed(diagnosed(s, *halves))
+
+
+def test_saturation_of_the_output_is_recognised() -> None:
+    s = scenario(47, duration=600.0)
+    G = s.simulate({}).G_out
+    limit = float(np.quantile(np.abs(G), 0.98))
+    flight = s.simulate({"saturation": {"V_max": limit}}).flight()
+    assert diagnosed(s, flight).found == ("saturation",)
+
+
+def test_coloured_noise_becomes_white() -> None:
+    noise = Noise(alpha=0.3, b=1.2, omega_T=1.0)
+    x = noise.sample(np.random.default_rng(5), 1 << 15, 16.0)
+    model = estimate([x], 16.0)
+    f = np.geomspace(0.01, 7.0, 30)
+    np.testing.assert_allclose(model.psd(f), noise.psd(f), rtol=0.25)
+    w = whiten(x[None], model.whitening_filter(len(x)), np.ones(len(x), dtype=bool))[0]
+    assert np.var(w) == pytest.approx(1.0, rel=0.03)
+    for part in np.array_split(np.abs(np.fft.rfft(w)[1:]) ** 2 / len(w), 8):
+        assert np.mean(part) == pytest.approx(1.0, rel=0.1)
+
+
+@pytest.fixture(scope="module")
+def flight_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    folder = tmp_path_factory.mktemp("loop")
+    s, flight = flown(48, {"thermal-scale": HIDDEN["thermal-scale"]})
+    write_flight(flight, folder / "flight.parquet")
+    write_instrument(s.sheet, folder / "sheet.toml")
+    return folder / "sheet.toml", folder / "flight.parquet"
+
+
+def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
+    words = [sys.executable, "-m", "ragg_runtime", *map(str, arguments)]
+    return subprocess.run(words, capture_output=True, text=True, check=False, timeout=120)
+
+
+def strict(text: str) -> Any:
+    def refuse(name: str) -> None:
+        raise AssertionError(f"{name} is not JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_the_commands_speak_the_interface(flight_files: tuple[Path, Path], tmp_path: Path) -> None:
+    sheet, flight = flight_files
+    model = tmp_path / "model"
+    assert ragg("new", model, "--from", sheet).returncode == 0
+    before = (model / "model.toml").read_text()
+
+    found = strict(ragg("compare", model, flight, "--json", "-").stdout)
+    assert {
+        "effects",
+        "samples",
+        "duration_s",
+        "rate_Hz",
+        "error",
+        "noise_floor",
+        "adequate",
+        "where",
+    } <= set(found)
+    assert found["adequate"] is False
+    assert found["samples"] == 9600
+    assert all(set(found["error"][k]) == ERROR for k in ("nominal", "calibrated", "holdout"))
+    assert set(found["where"]) == {"harmonics", "time", "motion"}
+    assert {"harmonic", "term", "share"} <= set(found["where"]["motion"][0])
+
+    found = strict(ragg("diagnose", model, flight, "--json", "-", "--report", tmp_path / "d.html").stdout)
+    assert found["verdict"] == "missing-effect"
+    assert found["found"] == ["thermal-scale"]
+    first = found["ranking"][0]
+    assert {"effect", "p_value", "delta_bic", "error_before", "error_after", "error_after_holdout"} <= set(
+        first
+    )
+    assert set(first["parameters"][0]) == {"name", "accelerometer", "value", "std", "unit"}
+    assert (tmp_path / "d.html").read_text().startswith("<!")
+
+    found = strict(ragg("add", model, "thermal-scale", flight, "--json", "-").stdout)
+    assert {"effect", "before", "after", "parameters"} <= set(found)
+    noise = found["after"]["calibrated"]["rms_Eo"]
+    assert noise < 0.9 * found["before"]["calibrated"]["rms_Eo"]
+    assert (model / "generated" / "manifest.json").is_file()
+    assert strict(ragg("compare", model, flight, "--json", "-").stdout)["adequate"] is True
+
+    again = ragg("add", model, "thermal-scale", flight)
+    assert again.returncode == 2
+    assert "already" in again.stderr
+    assert ragg("remove", model, "thermal-scale").returncode == 0
+    assert (model / "model.toml").read_text() == before
+    assert not (model / "generated").exists()
+    steps = strict(ragg("history", model, "--json", "-").stdout)["steps"]
+    assert [s["action"] for s in steps] == ["new", "add", "remove"]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("compare", "nowhere", "flight.csv"), "no model directory"),
+        (("add", "MODEL", "lagg", "FLIGHT"), "lag"),
+        (("diagnose", "MODEL", "missing.csv"), "missing.csv"),
+        (("simulate", "MODEL", "--effect", "lag:tau=x", "-o", "f.csv"), "not a number"),
+        (("effects", "no-such-effect"), "unknown effect"),
+        (("compare", "MODEL"), "FLIGHTS"),
+    ],
+)
+def test_bad_input_is_one_message(
+    words: tuple[str, ...], message: str, flight_files: tuple[Path, Path], tmp_path: Path
+) -> None:
+    sheet, flight = flight_files
+    workflow.new(tmp_path / "m", sheet)
+    place = {"MODEL": str(tmp_path / "m"), "FLIGHT": str(flight)}
+    done = ragg(*(place.get(w, w) for w in words))
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "__import__('os').system('x')",
+        "K.real",
+        "K**K",
+        "9**9**9*K",
+        "[K]",
+        "K if K else 1",
+        "K/0",
+        "1 + K",
+        "K(1)",
+        "'K'",
+    ],
+)
+def test_hostile_expressions_are_refused(text: str) -> None:
+    with pytest.raises(ExpressionError):
+        from_expression("mine", "transducer", text, {"K": {"unit": "ug"}})
+
+
+def test_an_expression_is_derived_like_any_effect() -> None:
+    e = from_expression("mine", "transducer", "K * f_i**2 * temperature", {"K": {"unit": "ug/g^2/K"}})
+    assert e.channels == ("temperature",)
+    model, files = extend.derived((e,), ())
+    assert [x.id for x in model.effects] == ["mine"]
+    assert "temperature" in files["chain.py"]
