@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 Kind = Literal["deterministic", "step", "random", "output"]
 
-_ID = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+ID = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 
 
@@ -132,7 +132,7 @@ class Effect:
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
 
     def __post_init__(self) -> None:
-        if not _ID.fullmatch(self.id):
+        if not ID.fullmatch(self.id):
             raise ValueError(f"effect id {self.id!r}: expected lower-case words joined by hyphens")
         names = [q.name for q in self.parameters]
         for name in names:

@@ -1,19 +1,22 @@
 """Effects in one line: ``K_x * f_i**2 * temperature``, from text that is not to be trusted.
 
 The text is parsed by Python's own parser into a syntax tree, of which only numbers, names, + - * / **,
-parentheses and a few functions are translated to SymPy. Nothing is ever evaluated.
+parentheses and a few functions are translated to SymPy. Nothing is ever evaluated, and what is written into
+generated files is the tree as text again: comments and odd spellings of names do not get there.
 """
 
 from __future__ import annotations
 
 import ast
 import re
+import warnings
 from collections.abc import Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from derive.effect import Effect, EffectParameter, Values
+from derive.effect import ID, Effect, EffectParameter, Values
 from derive.stages import SensedForce
 from derive.symbols import MOTION, symbol
 
@@ -34,10 +37,32 @@ FUNCTIONS = {
 }
 STAGES = ("transducer",)
 FORCES = ("f_i", "f_o", "f_p")
+DEEPEST = 60
+"""Deepest nesting."""
+
+HIGHEST = 24
+"""Highest degree: that of nested powers multiplies up."""
+
+_BITS = 512  # of a number that powers and products of numbers may yield: 1e154
+_LARGEST = 1e30
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
+_LONGEST_NAME = 64
+_SHARED = re.compile(r"x[0-9]+|(bar|rate)_.*")  # names that the derivation gives to subexpressions
+# What generated Python and C call their own; a variable of that name would hide it.
 _RESERVED = frozenset(
-    {"time", "cos_phi", "sin_phi", "inputs", "q", "j", "D", "V", "np", "i", "n", "p", "in", "lambda"}
+    re.findall(
+        r"\S+",
+        """time t c s cos_phi sin_phi cos_j sin_j cos sin inputs q j i n p D V angle phi np len range sum numpy
+    Array NDArray INPUTS PARAMETERS ROWS SIZE SIGNS COS_J SIN_J
+    auto bool break case char const continue default do double else enum extern false float for goto if in
+    inline int lambda long register restrict return short signed sizeof static struct switch true typedef
+    union unsigned void volatile while
+    accelerometer derivatives disc_angle slopes exp fabs floor fma fmod log pow sqrt tan tanh""",
+    )
 )
+
+
+_TAKEN = frozenset({"time", "cos_phi", "sin_phi", *FORCES, *FUNCTIONS, *(c.name for c in MOTION)})
 
 
 class ExpressionError(ValueError):
@@ -63,22 +88,24 @@ def from_expression(
     ------
     ExpressionError
     """
+    if not ID.fullmatch(identifier):
+        raise ExpressionError(f"id {identifier!r}: expected lower-case words joined by hyphens")
     if stage not in STAGES:
         raise ExpressionError(f"stage {stage!r}: expected one of {', '.join(STAGES)}")
     tree = _parse(add)
+    add = ast.unparse(tree)
     names = sorted({n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(FUNCTIONS))
     for name in parameters:
-        if not _NAME.fullmatch(name) or name in FORCES or name in FUNCTIONS or name in _RESERVED:
+        # In generated code its name is that of the effect and its own.
+        if not _is_name(name) or name in _TAKEN:
             raise ExpressionError(f"{name!r} cannot name a parameter")
         if name not in names:
             raise ExpressionError(f"parameter {name} does not occur in {add!r}")
     if not parameters:
         raise ExpressionError("an effect needs at least one parameter with a unit")
-    recorded = {c.name for c in MOTION}
-    known = recorded | set(FORCES) | set(parameters) | {"time", "cos_phi", "sin_phi"}
-    channels = tuple(n for n in names if n not in known)
+    channels = tuple(n for n in names if n not in _TAKEN and n not in parameters)
     for name in channels:
-        if not _NAME.fullmatch(name) or name in _RESERVED:
+        if not _is_free(name) or name in _internal():
             raise ExpressionError(f"{name!r} cannot name a channel")
 
     def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
@@ -100,73 +127,151 @@ def from_expression(
                 name,
                 str(q["unit"]),
                 f"coefficient of {add}",
-                float(q.get("plausible", 1.0)),
-                shared=bool(q.get("shared", False)),
+                _plausible(name, q.get("plausible", 1.0)),
+                shared=_shared(name, q.get("shared", False)),
             )
             for name, q in parameters.items()
         ),
         transducer=transducer,
     )
-    probe = _translate(tree.body, symbol)
-    for name in parameters:
-        if probe.has(sp.zoo, sp.nan) or probe.xreplace({symbol(m): sp.Integer(0) for m in parameters}) != 0:
-            raise ExpressionError(f"{add!r} does not vanish when its parameters ({name} ...) are zero")
+    _check_size(tree, add, list(parameters))
     return effect
+
+
+def _check_size(tree: ast.Expression, add: str, parameters: list[str]) -> None:
+    """Refuse what does not vanish with its parameters, or grows without bound as they begin to."""
+    probe = _translate(tree.body, symbol)
+    neutral = {symbol(m): sp.Integer(0) for m in parameters}
+    bad = (sp.zoo, sp.nan, sp.oo, -sp.oo)
+    if probe.has(*bad) or probe.xreplace(neutral) != 0:
+        raise ExpressionError(
+            f"{add!r} does not vanish when its parameters ({', '.join(parameters)}) are zero"
+        )
+    for m in parameters:
+        if probe.diff(symbol(m)).xreplace(neutral).has(*bad):
+            raise ExpressionError(f"{add!r} has no finite slope in {m} where its parameters are zero")
+
+
+def _is_name(name: str) -> bool:
+    return len(name) <= _LONGEST_NAME and _NAME.fullmatch(name) is not None
+
+
+def _is_free(name: str) -> bool:
+    """Whether a name is none that generated code or the derivation uses itself."""
+    return _is_name(name) and name not in _RESERVED and not _SHARED.fullmatch(name)
+
+
+@cache
+def _internal() -> frozenset[str]:
+    """The names of the chain's own intermediate values."""
+    from derive.chain import accelerometer
+
+    return frozenset(s.name for s, _ in accelerometer().tape.assignments)
+
+
+def _plausible(name: str, value: object) -> float:
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < _LARGEST:
+        return float(value)
+    raise ExpressionError(f"{name}: plausible {value!r}: expected a positive number, in the parameter's unit")
+
+
+def _shared(name: str, value: object) -> bool:
+    if isinstance(value, bool):
+        return value
+    raise ExpressionError(f"{name}: shared {value!r}: expected true or false")
 
 
 def _parse(text: str) -> ast.Expression:
     if len(text) > LONGEST:
         raise ExpressionError(f"longer than {LONGEST} characters")
     try:
-        tree = ast.parse(text.strip(), mode="eval")
+        with warnings.catch_warnings():  # "0or 1" and the like: such warnings are about Python programs
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text.strip(), mode="eval")
     except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
-        raise ExpressionError(f"{text!r} is not an expression ({error})") from None
+        found = error.msg if isinstance(error, SyntaxError) else str(error)
+        raise ExpressionError(f"{text!r} is not an expression ({found})") from None
+    if not text.isascii():
+        raise ExpressionError(f"{text!r}: letters, digits and signs of ASCII only")
     _translate(tree.body, symbol)
     return tree
 
 
-def _translate(node: ast.expr, name: Any, depth: int = 0) -> sp.Expr:
-    if depth > 60:
+def _translate(node: ast.expr, name: Any, depth: int = 0, degree: int = 1) -> sp.Expr:
+    """The tree in SymPy; ``degree`` is the product of the exponents that ``node`` stands under."""
+    if depth > DEEPEST:
         raise ExpressionError("nested too deeply")
 
-    def inner(n: ast.expr) -> sp.Expr:
-        return _translate(n, name, depth + 1)
+    def inner(n: ast.expr, times: int = 1) -> sp.Expr:
+        return _translate(n, name, depth + 1, degree * times)
 
-    if isinstance(node, ast.Constant) and isinstance(node.value, (int, float)):
-        if isinstance(node.value, bool):
-            raise ExpressionError("True and False are not numbers")
-        if abs(node.value) > 1e30:
-            raise ExpressionError(f"the number {str(node.value)[:20]} is out of range")
-        return sp.Integer(node.value) if isinstance(node.value, int) else sp.Rational(repr(node.value))
+    if (
+        isinstance(node, ast.Constant)
+        and isinstance(node.value, (int, float))
+        and not isinstance(node.value, bool)
+    ):
+        return _constant(node.value)
     if isinstance(node, ast.Name):
         return name(node.id)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.UAdd, ast.USub)):
         return inner(node.operand) if isinstance(node.op, ast.UAdd) else -inner(node.operand)
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+        n = node.right.value if isinstance(node.right, ast.Constant) else None
+        if type(n) is not int or not 0 < n <= 8:
+            raise ExpressionError("an exponent must be a whole number from 1 to 8")
+        if degree * n > HIGHEST:
+            raise ExpressionError(f"powers of powers: the degree is above {HIGHEST}")
+        base = inner(node.left, n)
+        if base.is_Rational and n * _bits(base) > _BITS:
+            raise ExpressionError("a power of a number is out of range")
+        return _sized(base**n)
     if isinstance(node, ast.BinOp):
-        left = inner(node.left)
-        if isinstance(node.op, ast.Pow):
-            exponent = node.right
-            if not (
-                isinstance(exponent, ast.Constant) and type(exponent.value) is int and 0 < exponent.value <= 8
-            ):
-                raise ExpressionError("an exponent must be a whole number from 1 to 8")
-            return left**exponent.value
-        right = inner(node.right)
+        left, right = inner(node.left), inner(node.right)
         if isinstance(node.op, ast.Add):
-            return left + right
+            return _sized(left + right)
         if isinstance(node.op, ast.Sub):
-            return left - right
+            return _sized(left - right)
         if isinstance(node.op, ast.Mult):
-            return left * right
+            return _sized(left * right)
         if isinstance(node.op, ast.Div):
             if right == 0:
                 raise ExpressionError("division by zero")
-            return left / right
+            return _sized(left / right)
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS:
-        if len(node.args) != 1 or node.keywords:
+        if len(node.args) != 1 or node.keywords or isinstance(node.args[0], ast.Starred):
             raise ExpressionError(f"{node.func.id} takes one argument")
-        return FUNCTIONS[node.func.id](inner(node.args[0]))
+        argument = inner(node.args[0])
+        # Numbers of numbers (exp(exp(30))) may have no digits that anyone could compute.
+        if not argument.free_symbols and not (argument.is_Rational and abs(argument) <= 100):
+            raise ExpressionError(f"{node.func.id} of a number: write its value")
+        return FUNCTIONS[node.func.id](argument)
     raise ExpressionError(
-        f"{ast.unparse(node)[:40]!r} is not allowed: "
-        f"numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
+        f"{_shown(node)!r} is not allowed: numbers, names, + - * / **, parentheses and {', '.join(FUNCTIONS)}"
     )
+
+
+def _constant(value: float) -> sp.Expr:
+    if not abs(value) <= _LARGEST or (value != 0 and abs(value) < 1 / _LARGEST):
+        # Python refuses to print integers of more than 4,300 digits.
+        shown = str(value)[:20] if isinstance(value, float) else f"of {value.bit_length()} bits"
+        raise ExpressionError(f"the number {shown} is out of range")
+    return sp.Integer(value) if isinstance(value, int) else sp.Rational(repr(value))
+
+
+def _bits(e: sp.Expr) -> int:
+    return max(int(e.p).bit_length(), int(e.q).bit_length())
+
+
+def _sized(e: sp.Expr) -> sp.Expr:
+    """``e``, unless it holds a number with more digits than any quantity has."""
+    for number in e.atoms(sp.Rational):
+        if _bits(number) > _BITS:
+            raise ExpressionError("a number made of numbers is out of range")
+    return e
+
+
+def _shown(node: ast.AST) -> str:
+    try:
+        return ast.unparse(node)[:40]
+    except (RecursionError, ValueError):
+        return type(node).__name__

@@ -243,6 +243,34 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
+@click.option("--forget", is_flag=True, help="Trust them no longer.")
+def trust(model_dir: Path, forget: bool) -> None:
+    """Let the Python files of the model's effects_folder be executed, as they are now.
+
+    Needed only where they are not your own, or do more than describe effects. Read them first.
+    """
+    from ragg_runtime import trust as _trust
+    from ragg_runtime.model_dir import load_model_dir
+
+    instrument = load_model_dir(model_dir).instrument
+    if instrument.effects_folder is None:
+        raise UserError(
+            "the model names no effects_folder", where=model_dir, remedy="there is nothing to trust"
+        )
+    found = _trust.read_effects(instrument.effects_folder, instrument.path)
+    for path in found.sources:
+        click.echo(str(path))
+    for doubt in found.doubts:
+        click.echo(f"note: {doubt}")
+    if forget:
+        was = _trust.forget(found)
+        click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
+    else:
+        click.echo(f"Trusted as long as they stay as they are; written to {_trust.trust(found)}")
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
 @_json
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""

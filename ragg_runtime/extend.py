@@ -13,11 +13,12 @@ from pathlib import Path
 
 from derive import pipeline
 from derive.effect import Effect as SymbolicEffect
-from derive.effects import catalogue, from_folder
+from derive.effects import catalogue, from_sources
 from derive.expression import ExpressionError, from_expression
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import EffectSetting, Instrument
 from ragg_runtime.load import Model, from_files, packaged
+from ragg_runtime.trust import trusted_sources
 
 
 @dataclass(frozen=True)
@@ -48,9 +49,10 @@ def known(instrument: Instrument) -> Known:
     taken = {e.id for e in found}
     own: list[SymbolicEffect] = []
     if instrument.effects_folder is not None:
+        sources = trusted_sources(instrument.effects_folder, instrument.path)
         try:
-            own += from_folder(instrument.effects_folder)
-        except (ValueError, SyntaxError) as error:
+            own += from_sources(sources)
+        except ValueError as error:
             raise UserError(
                 "an effect of your own cannot be read", where=str(instrument.effects_folder), found=str(error)
             ) from error

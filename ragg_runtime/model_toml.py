@@ -69,6 +69,13 @@ def remove_effect(text: str, effect_id: str) -> str:
     return tomlkit.dumps(document)
 
 
+def set_effects_folder(text: str, folder: Path) -> str:
+    """``text``, whose ``effects_folder`` is given, with another folder there."""
+    document = _document(text)
+    document["effects_folder"] = str(folder)
+    return tomlkit.dumps(document)
+
+
 def model_text(instrument: Instrument) -> str:
     """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
     document = tomlkit.document()

@@ -32,7 +32,7 @@ from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
-from ragg_runtime.model_toml import add_effect, remove_effect
+from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.units import RawQuantity
 
 
@@ -95,7 +95,9 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
             raise UserError(
                 "the test sheet cannot be read", where=source, found=str(error), remedy="name a model.toml"
             ) from None
-    instrument = parse_instrument(text, Path(source) if source else Path("example.toml"))
+    instrument = parse_instrument(text, Path(source) if source else None)
+    if instrument.effects_folder is not None:
+        text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
     with _staged(extend.files_of(instrument)) as generated:
         return _loaded(create_model_dir(path, text, generated=generated, history=history))
