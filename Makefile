@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo derive check test lint bench docs clean
+.PHONY: help demo derive check test lint bench bench-diagnosis docs clean
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -40,9 +40,20 @@ lint: $(STAMP)  ## style, types, layers
 bench: $(STAMP)  ## measure speed, as ratios within one run
 	$(BIN)/python -m benchmarks
 
+# The other methods want older versions of the numerical packages than the lock: an environment of their own.
+PEERS := .venv-peers/.complete
+$(PEERS): pyproject.toml
+	$(PYTHON) -m venv .venv-peers
+	.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
+	@touch $@
+
+bench-diagnosis: export OPENBLAS_NUM_THREADS := 1
+bench-diagnosis: $(PEERS)  ## measure the diagnosis on 250 flights, beside other methods (resumable, half an hour)
+	.venv-peers/bin/python -m benchmarks.diagnosis --jobs 2
+
 docs: $(STAMP)  ## write the generated pages of docs/
 	$(BIN)/ragg derive
 	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf $(VENV) .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

@@ -1,0 +1,151 @@
+"""Physics that no effect of the catalogue can make: further terms of V_j, a wrong spin rate, Coriolis.
+
+Each term is a specific force (4, N), m/s^2, of the four accelerometers up to a factor; the factor is chosen so
+that what *neither the calibration nor any combination of catalogue effects* can absorb has the strength asked
+for. (What a catalogue effect could mimic comes on top.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from benchmarks.diagnosis.inject import Bench
+from ragg_runtime.reference.scenario import Scenario
+from ragg_runtime.reference.simulate import Simulation, combine
+
+Array = NDArray[np.float64]
+
+_QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
+
+
+@dataclass(frozen=True)
+class World:
+    """What a term may depend on: (N,) series, (4, N) forces in the accelerometers' nominal axes."""
+
+    time: Array
+    phi: Array
+    channels: Mapping[str, Array]
+    rate: float
+    duration: float
+    scenario: Scenario
+
+    def __getitem__(self, name: str) -> Array:
+        return self.channels[name]
+
+    @property
+    def psi(self) -> Array:
+        return self.phi[None] + _QUARTERS[:, None]
+
+    @property
+    def f_i(self) -> Array:
+        """Along the tangential (sensitive) axes."""
+        return np.asarray(self["a_y"] * np.cos(self.psi) - self["a_x"] * np.sin(self.psi))
+
+    @property
+    def f_o(self) -> Array:
+        """Along the radial axes."""
+        return np.asarray(self["a_x"] * np.cos(self.psi) + self["a_y"] * np.sin(self.psi))
+
+    def change(self, name: str) -> Array:
+        x = self[name]
+        return np.asarray(x - np.mean(x))
+
+
+def _first(x: Array) -> Array:
+    """In the first accelerometer alone."""
+    return np.asarray(np.array([1.0, 0, 0, 0])[:, None] * x)
+
+
+def _coriolis(w: World) -> Array:
+    """2 Omega x (omega x r) and its like, which Eq. 9 leaves out, seen through tilted sensitive axes.
+
+    Axial: 2 Omega R (omega_x cos psi + omega_y sin psi); radial: -2 Omega R omega_z.
+    """
+    k = w.scenario.instrument.accelerometers
+    spin = 2 * np.pi * w.scenario.instrument.spin_frequency
+    axial = w["omega_x"] * np.cos(w.psi) + w["omega_y"] * np.sin(w.psi)
+    tilt, turn = k["vartheta_y"][:, None], (k["vartheta_z"] + k["beta_z"])[:, None]
+    return np.asarray(2 * spin * w.scenario.instrument.radius * (tilt * axial - turn * w["omega_z"]))
+
+
+def _creep(x: Array, rate: float, constant: float) -> Array:
+    """x through a relaxation of some time constant, s."""
+    c = np.exp(-1 / (rate * constant))
+    return np.asarray(signal.lfilter([1 - c], [1, -c], x))
+
+
+TERMS: Mapping[str, Callable[[World], Array]] = {
+    "omega_z": lambda w: _first(w["omega_z"]),
+    "omega_x cos phi": lambda w: _first(w["omega_x"] * np.cos(w.phi)),
+    "omegadot_x^2": lambda w: _first(w["omegadot_x"] ** 2),
+    "omegadot_z a_x": lambda w: _first(w["omegadot_z"] * w["a_x"]),
+    "a_x omega_y": lambda w: _first(w["a_x"] * w["omega_y"]),
+    "f_i omega_z (scale by rate)": lambda w: _first(w.f_i[0] * w["omega_z"]),
+    "f_i |omega|^2 (scale by rate squared)": lambda w: _first(
+        w.f_i[0] * (w["omega_x"] ** 2 + w["omega_y"] ** 2 + w["omega_z"] ** 2)
+    ),
+    "a_x pressure": lambda w: _first(w["a_x"] * w.change("pressure")),
+    "a_z B_x": lambda w: _first(w["a_z"] * w.change("B_x")),
+    "f_i pressure (scale by pressure)": lambda w: _first(w.f_i[0] * w.change("pressure")),
+    "f_i temperature^2": lambda w: _first(w.f_i[0] * w.change("temperature") ** 2),
+    "omega_z temperature": lambda w: _first(w["omega_z"] * w.change("temperature")),
+    "sin 5 phi": lambda w: _first(np.sin(5 * w.phi)),
+    "a_z cos 6 phi": lambda w: _first(w["a_z"] * np.cos(6 * w.phi)),
+    "f_i^4": lambda w: _first(w.f_i[0] ** 4),
+    "|f_o|": lambda w: _first(np.abs(w.f_o[0])),
+    "f_i^2 sign(da_z/dt) (friction)": lambda w: _first(w.f_i[0] ** 2 * np.sign(np.gradient(w["a_z"]))),
+    "d^2 f_i/dt^2 (resonance)": lambda w: _first(np.gradient(np.gradient(w.f_i[0])) * w.rate**2),
+    "creep of f_p over 20 s": lambda w: _first(_creep(w["a_z"] - w["a_z"][0], w.rate, 20.0)),
+    "creep of f_i over 0.4 s": lambda w: _first(_creep(w.f_i[0], w.rate, 0.4)),
+    "f_i cos 2 pi t/45 s (supply)": lambda w: _first(w.f_i[0] * np.cos(2 * np.pi * w.time / 45)),
+    "line at 0.37 Hz (pump)": lambda w: _first(np.sin(2 * np.pi * 0.37 * w.time)),
+    "bias jump": lambda w: _first(np.where(w.time > 0.6 * w.duration, 1.0, 0.0)),
+    "misalignment jump": lambda w: _first(np.where(w.time > 0.45 * w.duration, w["a_z"], 0.0)),
+    "burst of a_x for 40 s": lambda w: _first(np.where(np.abs(w.time - 300) < 20, w["a_x"], 0.0)),
+    "misalignment drift": lambda w: _first(w["a_z"] * (w.time - w.time[-1] / 2)),
+    "Coriolis of the disc's spin": _coriolis,
+}
+"""Terms by name; beside them ``SPIN_RATE``, which is flown."""
+
+SPIN_RATE = "spin rate off"
+NAMES = (*TERMS, SPIN_RATE)
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A term in a flight: what it adds to G_out (N,) V, its factor, and its strengths in sigmas."""
+
+    name: str
+    change: Array
+    factor: float
+    strength: float
+    strength_with_mimics: float
+
+
+def drawn(bench: Bench, scenario: Scenario, name: str, strength: float, phi: Array) -> Outside:
+    """A term of this strength beyond the calibration and all catalogue effects together."""
+    sim = bench.simulation
+    if name == SPIN_RATE:
+        unit = _spin_rate(scenario, sim)
+    else:
+        world = World(sim.time, phi, sim.channels, scenario.rate, scenario.duration, scenario)
+        k = scenario.instrument.accelerometers
+        unit = combine((k["k_VI"] * k["K1"])[:, None] * TERMS[name](world))
+    row = bench.whitened(unit)
+    everything = bench.work.projection(bench.fitted.n_base, range(len(bench.columns)))
+    alone = float(np.linalg.norm(row - everything @ (everything.T @ row)))
+    factor = strength / alone
+    return Outside(name, factor * unit, factor, strength, factor * float(np.linalg.norm(row)))
+
+
+def _spin_rate(scenario: Scenario, sim: Simulation, error: float = 1e-9) -> Array:
+    """Change of G_out by a relative error of the spin rate, per ``error``."""
+    truth = scenario.instrument
+    quiet = replace(scenario, noise=None)
+    turned = replace(quiet, instrument=replace(truth, spin_frequency=truth.spin_frequency * (1 + error)))
+    return turned.simulate().G_out_noise_free - quiet.simulate().G_out_noise_free
