@@ -146,8 +146,8 @@ def main(arguments: Sequence[str]) -> int:
     if options.flight:
         return 0
     source = source_digest()
-    everything = list(plan.specs())
-    chosen = list(plan.specs(options.only, options.flights))
+    everything = plan.specs()
+    chosen = plan.specs(options.only, options.flights)
     accepted = None if options.keep or options.table else source
     if not options.table:
         have = finished(read(options.cache), chosen, accepted)

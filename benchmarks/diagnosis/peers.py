@@ -105,17 +105,18 @@ def sindy(c: Columns) -> list[int]:
     """
     import pysindy
 
-    X, rows = _scaled(c), len(c.y)
+    rows, R = len(c.y), np.linalg.qr(np.column_stack([_scaled(c), c.y]), mode="r")
+    X, y = R[:, :-1], R[:, -1]  # the same normal equations in a few rows
     optimizer = pysindy.SSR(alpha=RIDGE, max_iter=X.shape[1])
     model = pysindy.SINDy(optimizer=optimizer, feature_library=pysindy.IdentityLibrary())
-    model.fit(X, t=1.0, x_dot=c.y[:, None])
+    model.fit(X, t=1.0, x_dot=y[:, None])
     best: tuple[float, list[int]] = (bic(float(c.y @ c.y), rows, 0), [])
     survived: dict[int, int] = {}
     for step, coefficients in enumerate(optimizer.history_):
         kept = [int(k) for k in np.flatnonzero(np.asarray(coefficients)[0])]
         survived |= dict.fromkeys(kept, step)
         if 0 < len(kept) <= MOST:
-            e = c.y - X[:, kept] @ np.linalg.lstsq(X[:, kept], c.y, rcond=None)[0]
+            e = y - X[:, kept] @ np.linalg.lstsq(X[:, kept], y, rcond=None)[0]
             best = min(best, (bic(float(e @ e), rows, len(kept)), kept))
     return sorted(best[1], key=lambda k: (-survived[k], k))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -79,11 +79,14 @@ class Spec:
         return np.random.default_rng([self.seed, 900 + stream])
 
 
-def specs(kinds: Sequence[str] | None = None, most: int | None = None) -> Iterator[Spec]:
-    """All flights of these kinds (default: of every kind), at most ``most`` of each."""
-    for kind in kinds or COUNTS:
-        for index in range(COUNTS[kind] if most is None else min(most, COUNTS[kind])):
-            yield spec(kind, index)
+def specs(kinds: Sequence[str] | None = None, most: int | None = None) -> list[Spec]:
+    """All flights of these kinds (default: of every kind), at most ``most`` of each.
+
+    The kinds in turn, so that a run cut short says something of each.
+    """
+    counts = {k: COUNTS[k] if most is None else min(most, COUNTS[k]) for k in kinds or COUNTS}
+    order = sorted((index / count, kind) for kind, count in counts.items() for index in range(count))
+    return [spec(kind, round(place * counts[kind])) for place, kind in order]
 
 
 def spec(kind: str, index: int) -> Spec:

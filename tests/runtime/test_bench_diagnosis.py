@@ -187,8 +187,8 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
     cache.write_text(text[:-40])  # killed while the second line was written
     asked.clear()
     assert command.main([*arguments, "--only", "two", "--only", "outside"]) == 0
-    assert asked == ["two/001", "outside/000", "outside/001"]
-    specs = list(plan.specs(["two"], 2))
+    assert sorted(asked) == ["outside/000", "outside/001", "two/001"]
+    specs = plan.specs(["two"], 2)
     lines = [json.loads(x) for x in cache.read_text().splitlines() if x.endswith("}")]
     source = lines[0]["source"]
     assert set(command.finished(iter(lines), specs, source)) == {"two/000", "two/001"}
@@ -198,7 +198,7 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_the_plan_is_large_enough_and_always_the_same() -> None:
-    specs = list(plan.specs())
+    specs = plan.specs()
     assert len(specs) >= 200
     assert plan.COUNTS["effect-free"] >= 60
     assert plan.COUNTS["outside"] >= len(outside.NAMES) >= 20
