@@ -20,24 +20,18 @@ def folders() -> Mapping[str, Mapping[str, str]]:
     }
 
 
-def write(root: Path) -> list[str]:
-    """Write everything below ``root`` (pages only if it has a docs folder); returns what changed."""
-    changed = []
-    for folder, files in folders().items():
-        if _concerns(root, folder):
-            names = tree.write(files, root / folder, exclusive=folder == GENERATED)
-            changed += [f"{folder}/{name}" for name in names]
-    return changed
+def below(root: Path) -> Mapping[str, Mapping[str, str]]:
+    """As :func:`folders`, but only what concerns this root: pages, if it has a docs folder."""
+    return {folder: files for folder, files in folders().items() if _concerns(root, folder)}
 
 
 def difference(root: Path) -> str:
     """Empty if everything below ``root`` is as derived; else the diff."""
     parts = []
-    for folder, files in folders().items():
-        if _concerns(root, folder):
-            found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
-            if found:
-                parts.append(f"{folder}/ differs from the derivation:\n{found}")
+    for folder, files in below(root).items():
+        found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
+        if found:
+            parts.append(f"{folder}/ differs from the derivation:\n{found}")
     return "\n".join(parts)
 
 

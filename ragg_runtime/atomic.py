@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
-import tempfile
+import platform
+import secrets
+import shutil
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,16 +21,16 @@ def replacing(path: Path) -> Iterator[Path]:
 
     Raises UserError where the folder is missing or cannot be written.
     """
+    temporary = temporary_name(path)
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
+        clear_stale(path)
+        os.close(os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
     except FileNotFoundError:
         raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
     except OSError as error:
         raise UserError("the file cannot be written", where=path, found=error.strerror) from None
-    os.close(handle)
-    temporary = Path(name)
     try:
-        # mkstemp makes it private; the file that is asked for has the rights of any new file, or its own.
+        # It is private so far; the file that is asked for has the rights of any new file, or its own.
         os.chmod(temporary, path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_umask())
         yield temporary
         sync(temporary)
@@ -42,6 +46,42 @@ def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text whole or not at all."""
     with replacing(path) as temporary:
         temporary.write_bytes(text.encode())
+
+
+def temporary_name(path: Path) -> Path:
+    """A free name beside ``path`` that tells who uses it, and on which machine."""
+    return path.with_name(f"{_prefix(path)}{os.getpid()}-{secrets.token_hex(4)}{path.suffix}")
+
+
+def clear_stale(path: Path) -> None:
+    """Remove what processes that were killed on this machine left of :func:`temporary_name` for this path."""
+    if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
+        return
+    prefix = _prefix(path)
+    with contextlib.suppress(OSError):
+        for name in os.listdir(path.parent):
+            process = name.removeprefix(prefix).split("-")[0]
+            if name.startswith(prefix) and process.isdecimal() and not _lives(int(process)):
+                place = path.with_name(name)
+                if place.is_dir() and not place.is_symlink():
+                    shutil.rmtree(place, ignore_errors=True)
+                else:
+                    place.unlink(missing_ok=True)
+
+
+def _prefix(path: Path) -> str:
+    machine = hashlib.sha256(platform.node().encode()).hexdigest()[:6]
+    return f".{path.name[:60]}.{machine}-"
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
 
 
 def sync(path: Path) -> None:

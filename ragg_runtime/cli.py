@@ -5,6 +5,7 @@ Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ou
 
 from __future__ import annotations
 
+import errno
 import json
 import shlex
 import sys
@@ -18,6 +19,12 @@ import click
 from ragg_runtime.errors import UserError
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+# A full disc, a quota, a folder that may not be read: of the system, not of the program.
+_REFUSALS = {
+    getattr(errno, name, None)
+    for name in ("ENOSPC", "EFBIG", "EDQUOT", "EACCES", "EPERM", "EROFS", "EMFILE", "ENFILE", "EIO")
+}
 
 DIRECTORY = click.Path(path_type=Path)
 _json = click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
@@ -70,10 +77,11 @@ def _command() -> str:
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
-    import generated
     from derive import everything
+    from ragg_runtime.publish import publish, settle
 
-    root = out if out is not None else Path(str(generated.__file__)).parents[1]
+    root = out if out is not None else Path(str(everything.__file__)).parents[1]
+    settle(root)
     if check:
         found = everything.difference(root)
         if found:
@@ -86,7 +94,7 @@ def derive(out: Path | None, check: bool) -> None:
             )
         click.echo("The committed code is what the derivation yields, byte for byte.")
         return
-    changed = everything.write(root)
+    changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
     for name in changed:
         click.echo(f"written: {root / name}")
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
@@ -342,10 +350,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
         sys.exit(2)
     except BrokenPipeError:
         sys.exit(0)
+    except MemoryError:
+        click.echo("ragg: there is not enough memory for this; nothing was changed", err=True)
+        sys.exit(2)
     except KeyboardInterrupt:
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
-    except Exception:
+    except Exception as error:
+        if isinstance(error, OSError) and error.errno in _REFUSALS:
+            place = f"{error.filename}: " if error.filename else ""
+            click.echo(f"ragg: {place}{error.strerror}", err=True)
+            sys.exit(2)
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)

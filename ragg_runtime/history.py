@@ -12,6 +12,8 @@ from typing import Any
 from ragg_runtime.errors import UserError
 from ragg_runtime.instrument import read_text
 
+_LONGEST = 1 << 26  # bytes
+
 
 @dataclass(frozen=True)
 class Step:
@@ -60,7 +62,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
     if not path.exists():
         return ()
     try:
-        content = json.loads(read_text(path))
+        content = json.loads(read_text(path, _LONGEST))
         return tuple(
             Step(
                 action=str(s["action"]),
@@ -72,7 +74,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
             )
             for s in content["steps"]
         )
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise UserError(
             "the history is damaged",
             where=path,

@@ -135,10 +135,17 @@ def read_instrument(path: Path | str) -> Instrument:
     return parse_instrument(text, path)
 
 
-def read_text(path: Path) -> str:
-    """The text of a user's file, UTF-8 with or without a byte-order mark."""
+def read_text(path: Path, longest: int = 1 << 20) -> str:
+    """The text of a user's file, UTF-8 with or without a byte-order mark, of at most ``longest`` bytes."""
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        # A pipe or a device would be waited for, or never end.
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise UserError("a file is needed here, not a pipe or a device", where=path)
+        with path.open("rb") as stream:
+            data = stream.read(longest + 1)
+        if len(data) > longest:
+            raise UserError("the file is too long", where=path, expected=f"at most {longest} bytes")
+        return data.decode("utf-8-sig")
     except FileNotFoundError:
         raise UserError("the file does not exist", where=path) from None
     except IsADirectoryError:
@@ -157,7 +164,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
     """As :func:`read_instrument`, from the text of the file; ``path`` names it in messages."""
     try:
         table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except (ValueError, RecursionError) as error:  # numbers of thousands of digits, brackets in brackets
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None

@@ -1,27 +1,23 @@
 """A model directory: model.toml, generated/ and history.json, changed all together or not at all.
 
-A change is staged in ``<model>/.ragg/next``. The rename of that folder to ``.ragg/commit`` is the instant at
-which it is made: before it the old state stands, and what was staged is waste; after it the new one does, and
-whoever comes next finishes moving the three things into place. So a process may be killed at any instant.
-Writers hold a lock; readers need none: they look again if a change came between.
+A change is a transaction (:mod:`ragg_runtime.transaction`): a process may be killed at any instant. Writers
+hold a lock; readers need none: they look again if a change came between.
 """
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import os
 import shutil
-import signal
-import sys
-import tempfile
+import stat
 import time
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ragg_runtime.atomic import sync
+from ragg_runtime import transaction
+from ragg_runtime.atomic import clear_stale, sync, temporary_name
 from ragg_runtime.errors import UserError
 from ragg_runtime.history import Step, history_text, read_history
 from ragg_runtime.instrument import Instrument, parse_instrument, read_text
@@ -30,8 +26,9 @@ from ragg_runtime.lock import locked
 __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
 MODEL, GENERATED, HISTORY = "model.toml", "generated", "history.json"
-_WORK = ".ragg"
-_JOURNAL = "journal.json"
+Code = Mapping[str, str] | Path | None
+"""Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
+
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 
@@ -78,7 +75,7 @@ def load_model_dir(path: Path | str) -> ModelDir:
         )
     deadline = time.monotonic() + _PATIENCE
     while time.monotonic() < deadline:
-        if _is_committing(path):
+        if transaction.is_committing(path):
             _recover(path)
             continue
         before = _stamp(path)
@@ -86,18 +83,18 @@ def load_model_dir(path: Path | str) -> ModelDir:
             state = _read(path)
         except (UserError, FileNotFoundError):
             # Read amidst a change, a file may be missing.
-            if _stamp(path) == before and not _is_committing(path):
+            if _stamp(path) == before and not transaction.is_committing(path):
                 raise
         else:
-            if _stamp(path) == before and not _is_committing(path):
+            if _stamp(path) == before and not transaction.is_committing(path):
                 return state
     raise UserError("the model directory keeps changing", where=path, remedy="wait for the other commands")
 
 
 def create_model_dir(
-    path: Path | str, text: str, *, generated: Path | None = None, history: tuple[Step, ...] = ()
+    path: Path | str, text: str, *, generated: Code = None, history: tuple[Step, ...] = ()
 ) -> ModelDir:
-    """Make a model directory with this model.toml; ``generated`` is copied. It appears whole or not at all.
+    """Make a model directory with this model.toml. It appears whole or not at all.
 
     Raises UserError if ``path`` exists and is not an empty directory, or if ``text`` is no good model.toml.
     """
@@ -110,11 +107,15 @@ def create_model_dir(
     parent = path.absolute().parent
     try:
         parent.mkdir(parents=True, exist_ok=True)
-        staging = Path(tempfile.mkdtemp(prefix=f".{path.name}.", dir=parent))
+        clear_stale(path.absolute())
+        staging = temporary_name(path.absolute())
+        staging.mkdir()
     except OSError as error:
         raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
     try:
         _stage(staging, text, generated, history)
+        for place in sorted(staging.rglob("*"), reverse=True):
+            sync(place)
         staging.chmod(parent.stat().st_mode & 0o777)
         if path.exists():
             path.rmdir()
@@ -128,11 +129,10 @@ def create_model_dir(
 
 
 def replace_model_dir(
-    current: ModelDir, text: str, *, generated: Path | None, history: tuple[Step, ...]
+    current: ModelDir, text: str, *, generated: Code, history: tuple[Step, ...]
 ) -> ModelDir:
     """Put a new state in place of ``current``: all three things, or nothing if this fails or is killed.
 
-    ``generated`` is a folder anywhere, which is copied; ``None`` falls back to the packaged base model.
     Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
     """
     path = current.path
@@ -140,7 +140,7 @@ def replace_model_dir(
     with contextlib.ExitStack() as held:
         try:
             held.enter_context(locked(path, _PATIENCE))
-            _finish(path)
+            transaction.finish(path)
         except TimeoutError:
             raise UserError(
                 "another command is changing the model", where=path, remedy="wait for it to end and try again"
@@ -153,86 +153,37 @@ def replace_model_dir(
                 where=path,
                 remedy="look at it with: ragg history, and run the command again",
             )
-        work = path / _WORK
         try:
-            staging = work / "next"
-            staging.mkdir(parents=True)
-            _stage(staging, text, generated, history)
-            _switch(path)
+            _stage(transaction.stage(path), text, generated, history)
+            folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
+            transaction.switch(path, folders, removed=removed)
         except OSError as error:
             raise UserError(
                 "the model cannot be written", where=path, found=error.strerror or error
             ) from None
         finally:
-            if not _is_committing(path):
-                shutil.rmtree(work, ignore_errors=True)
+            transaction.abandon(path)
     return load_model_dir(path)
 
 
-def _stage(folder: Path, text: str, generated: Path | None, history: tuple[Step, ...]) -> None:
-    """Write a complete state into an empty folder, on the disc."""
+def _stage(folder: Path, text: str, generated: Code, history: tuple[Step, ...]) -> None:
+    """Write a complete state into an empty folder."""
     (folder / MODEL).write_bytes(text.encode())
     (folder / HISTORY).write_text(history_text(history), "utf-8")
-    if generated is not None:
+    if isinstance(generated, Path):
         shutil.copytree(generated, folder / GENERATED, ignore=shutil.ignore_patterns("__pycache__"))
-    for place in sorted(folder.rglob("*"), reverse=True):
-        sync(place)
-    sync(folder)
-
-
-def _switch(path: Path) -> None:
-    """Commit what is staged and move it into place."""
-    work = path / _WORK
-    journal = work / "next" / _JOURNAL
-    journal.write_text(json.dumps({"generated": (work / "next" / GENERATED).exists()}), "utf-8")
-    sync(journal)
-    sync(work / "next")
-    with _uninterrupted():
-        (work / "next").rename(work / "commit")
-        sync(work)
-        _finish(path)
-
-
-def _finish(path: Path) -> None:
-    """Complete a committed change, if there is one, and clear away what an aborted one left. Needs the lock.
-
-    Each move is done once whenever this is cut off and run again: what has been moved is no longer there.
-    """
-    work, commit = path / _WORK, path / _WORK / "commit"
-    if _is_committing(path):
-        _move_generated(path, commit)
-        for name in (MODEL, HISTORY):
-            if (commit / name).exists():
-                if (path / name).exists():
-                    shutil.copymode(path / name, commit / name)
-                os.replace(commit / name, path / name)
-        sync(path)
-        # From here on nothing is left to be moved.
-        commit.rename(work / f"done-{os.getpid()}-{time.monotonic_ns()}")
-    shutil.rmtree(work, ignore_errors=True)
-
-
-def _move_generated(path: Path, commit: Path) -> None:
-    """Move the old generated/ out of the way and the new one in, each once."""
-    old, new, place = commit / "old", commit / GENERATED, path / GENERATED
-    if json.loads((commit / _JOURNAL).read_text("utf-8"))["generated"]:
-        if new.exists():
-            if place.exists():
-                place.rename(old)
-            new.rename(place)
-    elif place.exists():
-        place.rename(old)
-
-
-def _is_committing(path: Path) -> bool:
-    return (path / _WORK / "commit").exists()
+        return
+    for name, content in (generated or {}).items():
+        place = folder / GENERATED / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content.encode())
 
 
 def _recover(path: Path) -> None:
     """Finish a dead process's change; one that is alive gets a moment to finish its own."""
     try:
         with locked(path, 0.0):
-            _finish(path)
+            transaction.finish(path)
     except TimeoutError:
         time.sleep(0.002)
     except OSError as error:
@@ -246,19 +197,6 @@ def _cannot_complete(path: Path, error: OSError) -> UserError:
         found=error.strerror,
         remedy="make the directory writable and run any command on it",
     )
-
-
-@contextlib.contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """Hold back the signals by which users and systems end a command, for the moment of a change."""
-    if sys.platform == "win32":
-        yield
-        return
-    old = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, old)
 
 
 def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
@@ -296,14 +234,31 @@ def _read(path: Path) -> ModelDir:
 
 
 def _digest(path: Path) -> str:
+    """SHA-256 over the three things. Links and pipes in generated/ count by what they are, and are not followed."""
     total = hashlib.sha256()
-    files = [path / MODEL, path / HISTORY]
-    files += sorted(p for p in (path / GENERATED).rglob("*") if "__pycache__" not in p.parts)
-    for file in files:
+    for file in (path / MODEL, path / HISTORY, *_below(path / GENERATED)):
         try:
-            content = file.read_bytes()
+            status = file.lstat()
+            if stat.S_ISLNK(status.st_mode) and file.parent != path:
+                content = b"link " + os.fsencode(os.readlink(file))
+            elif stat.S_ISREG(status.st_mode) or file.parent == path:
+                content = file.read_bytes()
+            else:
+                content = b"neither file nor folder"
         except (FileNotFoundError, IsADirectoryError):
             continue
-        total.update(f"{file.relative_to(path).as_posix()} {len(content)}\n".encode())
+        total.update(f"{file.relative_to(path).as_posix()} {len(content)}\n".encode(errors="surrogateescape"))
         total.update(content)
     return total.hexdigest()
+
+
+def _below(folder: Path) -> list[Path]:
+    """Everything in a folder but byte code; links are not followed, the folder's own neither."""
+    if folder.is_symlink():
+        return [folder]
+    found = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = [f for f in folders if f != "__pycache__"]
+        links = [f for f in folders if Path(place, f).is_symlink()]
+        found += [Path(place, name) for name in (*files, *links)]
+    return sorted(found)

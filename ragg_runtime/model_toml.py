@@ -122,7 +122,7 @@ def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, 
 def _document(text: str) -> tomlkit.TOMLDocument:
     try:
         return tomlkit.parse(text)
-    except TOMLKitError as error:
+    except (TOMLKitError, ValueError, RecursionError) as error:
         raise UserError("not a TOML file", found=str(error), expected="the form of model.toml") from None
 
 

@@ -105,8 +105,11 @@ class Units:
                 expected=si_unit,
                 remedy="write rad/s, deg/s, deg/h or rpm",
             )
-        with np.errstate(over="ignore"):  # callers look whether what comes out is finite
-            result: Value = self._registry.convert(value, source, target)
+        try:
+            with np.errstate(over="ignore"):  # callers look whether what comes out is finite
+                result: Value = self._registry.convert(value, source, target)
+        except (OverflowError, ZeroDivisionError):
+            raise UserError("the unit is out of all proportion", where=where, found=repr(unit)) from None
         return result * factor if factor != 1.0 else result
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
@@ -204,9 +207,14 @@ def _values(value: object, where: str | None, count: int) -> float | tuple[float
 def _number(value: object, where: str | None) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise UserError("not a number", where=where, found=repr(value), expected="a number")
-    if not math.isfinite(value):
-        raise UserError("the value is not finite", where=where, found=value, expected="a finite number")
-    return float(value)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        shown = value if isinstance(value, float) else "a whole number too large for a float"
+        raise UserError("the value is not finite", where=where, found=shown, expected="a finite number")
+    return number
 
 
 def _need_unit(unit: object, raw: object, where: str | None) -> str:

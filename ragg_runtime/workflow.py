@@ -10,9 +10,7 @@
 from __future__ import annotations
 
 import hashlib
-import tempfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -21,7 +19,6 @@ from types import MappingProxyType
 
 import numpy as np
 
-from derive import tree
 from ragg_runtime import compare as _compare
 from ragg_runtime import diagnose as _diagnose
 from ragg_runtime import extend
@@ -99,8 +96,7 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    with _staged(extend.files_of(instrument)) as generated:
-        return _loaded(create_model_dir(path, text, generated=generated, history=history))
+    return _loaded(create_model_dir(path, text, generated=extend.files_of(instrument), history=history))
 
 
 def load(path: Path | str) -> Loaded:
@@ -187,10 +183,9 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
     )
-    with _staged(extend.files_of(extended)) as generated:
-        directory = replace_model_dir(
-            m.directory, text, generated=generated, history=(*m.directory.history, step)
-        )
+    directory = replace_model_dir(
+        m.directory, text, generated=extend.files_of(extended), history=(*m.directory.history, step)
+    )
     return Added(_loaded(directory), effect, before, after, parameters, combinations)
 
 
@@ -199,10 +194,9 @@ def remove(m: Loaded, effect: str) -> Loaded:
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     step = Step("remove", _now(), effect)
-    with _staged(extend.files_of(instrument)) as generated:
-        directory = replace_model_dir(
-            m.directory, text, generated=generated, history=(*m.directory.history, step)
-        )
+    directory = replace_model_dir(
+        m.directory, text, generated=extend.files_of(instrument), history=(*m.directory.history, step)
+    )
     return _loaded(directory)
 
 
@@ -242,18 +236,6 @@ def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
                 if p.name == "t_step":
                     return p.value
     return 0.0
-
-
-@contextmanager
-def _staged(files: Mapping[str, str]) -> Iterator[Path | None]:
-    """A temporary folder that holds generated files; ``None`` if there are none."""
-    if not files:
-        yield None
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder) / "generated"
-        tree.write(files, place)
-        yield place
 
 
 def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:

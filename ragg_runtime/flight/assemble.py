@@ -32,6 +32,7 @@ BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
 channels are often sampled more slowly than the motion, with blanks between."""
 
+_ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 
@@ -86,7 +87,8 @@ class Layout:
     def _converted(self, column: Column, values: Array) -> Array:
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
-        return np.where(np.isfinite(result), result, np.nan)
+        with np.errstate(invalid="ignore"):
+            return np.where(np.abs(result) < _ENDLESS, result, np.nan)
 
 
 def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: bool = True) -> Layout:

@@ -13,19 +13,23 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of
 
+# What pyarrow raises for files that were damaged on purpose is not documented: names that are no text are
+# a ValueError, sizes that no memory holds a MemoryError.
+_DAMAGED = (pa.ArrowException, OSError, ValueError, TypeError, KeyError, OverflowError, MemoryError)
+
 
 def open_parquet(path: Path) -> Source:
     """The Parquet file as a source; UserError if a column is not numeric or has no unit."""
     try:
         schema = pq.read_schema(path)
-    except (pa.ArrowException, OSError) as error:
+    except _DAMAGED as error:
         raise _damaged(path, error) from None
     headers = []
     # pandas keeps an unnamed index as a column of its own.
-    names = [n for n in schema.names if not n.startswith("__index_level_")]
-    for name in names:
-        field = schema.field(name)
-        kind = field.type
+    fields = [f for f in schema if not f.name.startswith("__index_level_")]
+    names = [f.name for f in fields]
+    for field in fields:
+        name, kind = field.name, field.type
         if not (pa.types.is_floating(kind) or pa.types.is_integer(kind) or pa.types.is_null(kind)):
             raise UserError(
                 "the column does not hold numbers",
@@ -54,9 +58,13 @@ def _batches(path: Path, names: list[str], columns: tuple[Column, ...]) -> Itera
                     c.name: batch.column(n).cast(pa.float64()).to_numpy(zero_copy_only=False)
                     for n, c in zip(names, columns, strict=True)
                 }
-    except (pa.ArrowException, OSError) as error:
+    except _DAMAGED as error:
         raise _damaged(path, error) from None
 
 
 def _damaged(path: Path, error: Exception) -> UserError:
-    return UserError("the Parquet file is damaged", where=path, found=str(error).splitlines()[0][:200])
+    return UserError(
+        "the Parquet file is damaged",
+        where=path,
+        found=(str(error) or type(error).__name__).splitlines()[0][:200],
+    )

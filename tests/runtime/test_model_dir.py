@@ -7,7 +7,6 @@ import json
 import os
 import random
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -224,17 +223,19 @@ def test_killed_at_random_instants(tmp_path: Path) -> None:
         with subprocess.Popen(
             [sys.executable, script, tmp_path], stdout=subprocess.PIPE, text=True
         ) as writer:
-            assert writer.stdout is not None
-            assert writer.stdout.readline() == "ready\n"
-            # A reader beside the writer sees whole states only; the writer dies at any instant.
-            changes, wanted, deadline = 0, chance.randrange(1, 4), time.monotonic() + 30
-            while changes < wanted and time.monotonic() < deadline:
-                found = load_model_dir(made.path)
-                changes += found.digest != last
-                last = found.digest
-                time.sleep(0.002)
-            time.sleep(chance.uniform(0.0, 0.02))
-            writer.send_signal(signal.SIGKILL)
+            try:
+                assert writer.stdout is not None
+                assert writer.stdout.readline() == "ready\n"
+                # A reader beside the writer sees whole states only; the writer dies at any instant.
+                changes, wanted, deadline = 0, chance.randrange(1, 4), time.monotonic() + 30
+                while changes < wanted and time.monotonic() < deadline:
+                    found = load_model_dir(made.path)
+                    changes += found.digest != last
+                    last = found.digest
+                    time.sleep(0.002)
+                time.sleep(chance.uniform(0.0, 0.02))
+            finally:
+                writer.kill()  # or leaving the block would wait for it for ever
         seen.add(state_number(load_model_dir(made.path)))
     assert len(seen) > 3, "the writer never wrote"
     assert state_number(change(tmp_path, load_model_dir(made.path), 5)) == 5
