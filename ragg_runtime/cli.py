@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import errno
 import json
-import shlex
 import sys
 import traceback
 from collections.abc import Callable, Sequence
@@ -47,6 +46,10 @@ def _progress(text: str) -> None:
 
 def _emit(result: Any, json_file: str | None, text: str) -> None:
     """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+    if json_file is not None and isinstance(result, dict) and "provenance" not in result:
+        from ragg_runtime.provenance import provenance
+
+        result = result | {"provenance": provenance(_command())}
     if json_file == "-":
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
@@ -67,7 +70,9 @@ def _write_report(file: str | None, make: Callable[[], str]) -> None:
 
 
 def _command() -> str:
-    return shlex.join(["ragg", *sys.argv[1:]])
+    from ragg_runtime.provenance import command
+
+    return command()
 
 
 @cli.command()
@@ -238,12 +243,12 @@ def add(
 @_json
 def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     """Take an effect out of the model."""
-    from ragg_runtime import workflow
+    from ragg_runtime import texts, workflow
 
     m = workflow.remove(workflow.load(model_dir), effect)
     left = [e.id for e in m.model.effects]
     _emit(
-        {"effect": effect, "effects": left},
+        {"effect": effect, "effects": left} | texts.origin(m, (), _command()),
         json_file,
         f"removed {effect}; effects left: {', '.join(left) or 'none'}",
     )
@@ -284,9 +289,12 @@ def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
     from ragg_runtime import texts
     from ragg_runtime.model_dir import load_model_dir
+    from ragg_runtime.provenance import provenance
 
-    steps = [s.as_json() for s in load_model_dir(model_dir).history]
-    _emit({"steps": steps}, json_file, texts.history(steps))
+    directory = load_model_dir(model_dir)
+    steps = [s.as_json() for s in directory.history]
+    made = provenance(_command(), directory)
+    _emit({"steps": steps, "provenance": made}, json_file, texts.history(steps))
 
 
 @cli.command()

@@ -25,6 +25,7 @@ from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.metrics import Error, channels, error, pooled
 from ragg_runtime.terms import Dictionary, harmonics
+from ragg_runtime.threads import one_thread
 
 Array = NDArray[np.float64]
 
@@ -322,6 +323,7 @@ def channel_unit(name: str) -> str:
     return _UNITS.get(stem) or SI_UNITS.get(name, "1")
 
 
+@one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     observations = [observe(x, instrument) for x in flights]

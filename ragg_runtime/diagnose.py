@@ -28,6 +28,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error
+from ragg_runtime.threads import one_thread
 from ragg_runtime.whiten import whiten
 
 Array = NDArray[np.float64]
@@ -167,6 +168,7 @@ def _carrier_text(harmonic: str) -> tuple[str, ...]:
     }[kind, k]
 
 
+@one_thread
 def diagnose(
     model: Model, instrument: Instrument, flights: Sequence[Flight], extend: Extend | None = None
 ) -> Diagnosis:
@@ -185,6 +187,7 @@ def diagnose(
     return diagnose_fitted(f, flights, extend)
 
 
+@one_thread
 def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None = None) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted."""
     output = _output_effects(f, flights)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -11,22 +10,15 @@ from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, Ranked
 from ragg_runtime.flight import Flight
 from ragg_runtime.metrics import Error
-from ragg_runtime.workflow import Added, Loaded, sources
+from ragg_runtime.provenance import provenance
+from ragg_runtime.workflow import Added, Loaded
 
 
 def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, object]:
-    """What makes a result again: command, versions, digests of all that was read, and what the reader did."""
-    try:
-        own = version("ragg")
-    except PackageNotFoundError:
-        own = "not installed"
-    versions = {"ragg": own, **{n: version(n) for n in ("numpy", "scipy", "sympy")}}
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``)."""
     return {
-        "command": command,
-        "versions": versions,
-        "sources": [{"name": n, "sha256": d} for n, d in sources(m, flights)],
-        "derivation": m.model.digest,
         "notes": [f"{x.name}: {note}" for x in flights for note in x.notes],
+        "provenance": provenance(command, m.directory, flights, m.model.digest),
     }
 
 

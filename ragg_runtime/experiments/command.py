@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from ragg_runtime import provenance
 from ragg_runtime.errors import UserError
 from ragg_runtime.experiments.result import Result
 
@@ -76,7 +77,8 @@ def _give(result: Result, json_file: str | None, figures: Path | None) -> None:
         for path in result.figures(figures):
             click.echo(f"wrote {path}", err=True)
     if json_file is not None:
-        text = json.dumps(result.as_json(), indent=1, allow_nan=False) + "\n"
+        found = result.as_json() | {"provenance": provenance.provenance(provenance.command())}
+        text = json.dumps(found, indent=1, allow_nan=False) + "\n"
         if json_file == "-":
             sys.stdout.write(text)
             return

@@ -31,6 +31,8 @@ class Command:
     state: Callable[[Path], str]
     changes: int
     """About how many changes of the disc it makes."""
+    next: Callable[[Path], Sequence[str]]
+    """What somebody may do after it is done."""
 
 
 @dataclass(frozen=True)
@@ -122,10 +124,28 @@ def project_state(root: Path) -> str:
     return found[everything.GENERATED]
 
 
+def _derive(place: Path) -> Sequence[str]:
+    return ["derive", "--out", str(place)]
+
+
 COMMANDS: tuple[Command, ...] = (
-    Command("add", _model([]), lambda p: ["add", str(p), EFFECT], model_state, 30),
-    Command("remove", _model([EFFECT]), lambda p: ["remove", str(p), EFFECT], model_state, 25),
-    Command("derive", _project, lambda p: ["derive", "--out", str(p)], project_state, 160),
+    Command(
+        "add",
+        _model([]),
+        lambda p: ["add", str(p), EFFECT],
+        model_state,
+        30,
+        lambda p: ["remove", str(p), EFFECT],
+    ),
+    Command(
+        "remove",
+        _model([EFFECT]),
+        lambda p: ["remove", str(p), EFFECT],
+        model_state,
+        25,
+        lambda p: ["add", str(p), EFFECT],
+    ),
+    Command("derive", _project, _derive, project_state, 160, _derive),
 )
 
 
@@ -157,10 +177,10 @@ def trial(command: Command, kind: str, base: Path, chance: random.Random, spent:
     if kind == "forbidden" and (ended.status != 2 or state != before):
         wrong.append(f"it was not refused: {ended.status}")
     # The next command works, and nothing is left over.
-    if state == before:
-        again = run(command.arguments(place), Fault("none"), scratch, main)
-        if again.status != 0 or command.state(place) == before:
-            wrong.append(f"the next command failed: {again.said[-1500:]}")
+    arguments = command.arguments(place) if state == before else command.next(place)
+    again = run(arguments, Fault("none"), scratch, main)
+    if again.status != 0 or (command.state(place) == state and arguments != _derive(place)):
+        wrong.append(f"the next command failed: {again.said[-1500:]}")
     hidden = [p.name for p in place.iterdir() if p.name.startswith(".")]
     left = [*hidden, *os.listdir(scratch), *(set(os.listdir(base)) - set(beside))]
     if left:

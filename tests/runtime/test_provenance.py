@@ -1,0 +1,123 @@
+"""Every JSON says what made it, in the same bytes for the same input; every report too."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import shlex
+import subprocess
+import sys
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ragg_runtime import workflow
+from ragg_runtime.cli import cli, main
+from ragg_runtime.flight import write_flight
+from ragg_runtime.simulate import simulated
+
+DAY = re.compile(r"20\d\d-\d\d-\d\d")
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A model and a flight of a few minutes."""
+    folder = tmp_path_factory.mktemp("provenance")
+    m = workflow.new(folder / "model")
+    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
+    write_flight(flight, folder / "flight.parquet")
+    return folder
+
+
+def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, str]:
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(sys, "argv", ["ragg", *arguments, "--json", "result.json"])
+    main(sys.argv[1:])
+    text = (folder / "result.json").read_text("utf-8")
+    return json.loads(text), text
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["compare", "model", "flight.parquet"], ["history", "model"], ["effects", "lag"]],
+    ids=lambda a: a[0],
+)
+def test_a_result_names_what_made_it(
+    place: Path, monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]
+) -> None:
+    found, text = json_of(arguments, place, monkeypatch)
+    made = found["provenance"]
+    assert made["python"] == "{}.{}.{}".format(*sys.version_info)
+    assert {n: made[n] for n in ("numpy", "scipy", "sympy")} == {
+        n: version(n) for n in ("numpy", "scipy", "sympy")
+    }
+    assert made["command"] == shlex.join(["ragg", *arguments, "--json", "result.json"])
+    if "model" in arguments:
+        digest = hashlib.sha256((place / "model" / "model.toml").read_bytes()).hexdigest()
+        assert (made["model"], made["model_digest"]) == ("model", digest)
+    if "flight.parquet" in arguments:
+        digest = hashlib.sha256((place / "flight.parquet").read_bytes()).hexdigest()
+        assert made["flights"] == [{"path": "flight.parquet", "digest": digest}]
+        assert not DAY.search(text), "a result of today is no other than one of tomorrow"
+    assert json_of(arguments, place, monkeypatch)[1] == text
+
+
+def test_own_effects_are_named_by_their_digest(
+    place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "own").mkdir()
+    workflow.new(tmp_path / "model")
+    toml = tmp_path / "model" / "model.toml"
+    toml.write_text('effects_folder = "../own"\n' + toml.read_text("utf-8"), "utf-8")
+    first = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
+    (tmp_path / "own" / "a.py").write_text("# nothing\n")
+    second = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
+    assert first["effects_folder_digest"] != second["effects_folder_digest"]
+
+
+def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(place)
+    monkeypatch.setattr(sys, "argv", ["ragg", "compare", "model", "flight.parquet", "--report", "r.html"])
+    main(sys.argv[1:])
+    page = (place / "r.html").read_text("utf-8")
+    assert "ragg compare model flight.parquet --report r.html" in page
+    for path in ("model/model.toml", "flight.parquet"):
+        assert hashlib.sha256((place / path).read_bytes()).hexdigest() in page
+    for library in ("numpy", "scipy", "sympy"):
+        assert f"{library} {version(library)}" in page
+    assert workflow.load(place / "model").model.digest in page
+
+
+def test_every_command_that_gives_json_goes_through_one_door() -> None:
+    """Whatever has --json writes it with provenance: see ``cli._emit``."""
+    for name, command in sorted(cli.commands.items()):
+        if any(p.name == "json_file" for p in command.params) and name != "experiment":
+            assert command.callback is not None
+            assert "_emit" in command.callback.__code__.co_names, name
+
+
+def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
+    """BLAS splits sums by the number of its threads; the verdict and the figures must not notice."""
+    results = []
+    for threads in ("1", "2"):
+        done = subprocess.run(
+            [sys.executable, "-m", "ragg_runtime", "diagnose", "model", "flight.parquet", "--json", "-"],
+            cwd=place,
+            env={**_environment(), "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        results.append(done.stdout)
+    assert results[0] == results[1]
+
+
+def _environment() -> dict[str, str]:
+    import os
+
+    root = str(Path(workflow.__file__).parents[1])
+    return {**os.environ, "PYTHONPATH": root}
