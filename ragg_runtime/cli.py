@@ -200,7 +200,7 @@ def diagnose(
         return diagnose_html(d, title=title, command=_command(), sources=workflow.sources(m, read))
 
     _write_report(report_file, page)
-    _emit(d.as_json() | texts.origin(m, read, _command()), json_file, texts.diagnosed(d, model_dir))
+    _emit(d.as_json() | texts.origin(m, read, _command()), json_file, texts.diagnosed(d, model_dir, read))
 
 
 @cli.command()

@@ -76,7 +76,7 @@ def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[Par
     return lines
 
 
-def diagnosed(d: Diagnosis, model_dir: Path) -> str:
+def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> str:
     """The result of ``diagnose``."""
     head = {
         "adequate": "ADEQUATE: nothing significant is missing.",
@@ -114,6 +114,7 @@ def diagnosed(d: Diagnosis, model_dir: Path) -> str:
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
         lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 

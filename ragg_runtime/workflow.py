@@ -30,6 +30,7 @@ from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
+from ragg_runtime.plausibility import examined
 from ragg_runtime.units import RawQuantity
 
 
@@ -109,8 +110,8 @@ def _loaded(directory: ModelDir) -> Loaded:
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0)."""
-    return [read_flight(p, m.instrument.g0) for p in paths]
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
+    return [examined(m.model, m.instrument, read_flight(p, m.instrument.g0)) for p in paths]
 
 
 def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:

@@ -1,0 +1,7 @@
+"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them."""
+
+from ragg_runtime.plausibility.examine import examined
+from ragg_runtime.plausibility.likely import Likely, likely
+from ragg_runtime.plausibility.spikes import spikes
+
+__all__ = ["Likely", "examined", "likely", "spikes"]

@@ -1,0 +1,147 @@
+"""What can be told from a record by itself: too short, too slow, stuck, or columns that contradict each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError, at
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, VOLTAGES
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Model
+from ragg_runtime.timeseries import differentiate
+
+Array = NDArray[np.float64]
+
+LIKE = 0.9
+"""Correlation from which two series are taken for the same thing."""
+
+_LONGEST = 1 << 16  # samples that a comparison of columns takes
+_DEGREE = np.pi / 180
+_FACTORS = (
+    (3600.0, "deg/h for deg/s"),
+    (1 / 3600.0, "deg/s for deg/h"),
+    (1 / _DEGREE, "degrees for radians"),
+    (_DEGREE, "radians for degrees"),
+    (3600.0 / _DEGREE, "deg/h for rad/s"),
+    (_DEGREE / 3600.0, "rad/s for deg/h"),
+)
+
+
+def require(model: Model, instrument: Instrument, flight: Flight) -> None:
+    """UserError if the flight cannot be held against this model at all."""
+    where = flight.path or flight.name
+    for e in model.effects:
+        missing = [c for c in e.channels if c not in flight.channels]
+        if missing:
+            raise UserError(
+                f"the effect {e.id} of the model needs a channel that the flight lacks",
+                where=where,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
+            )
+    f = instrument.spin_frequency
+    if flight.duration * f < 1:
+        raise UserError(
+            "the flight is shorter than one revolution of the disc",
+            where=where,
+            found=f"{len(flight)} samples in {flight.duration:.6g} s",
+            expected=f"more than {1 / f:.6g} s (spin_frequency {f:.6g} Hz), usually half an hour",
+            remedy="give a longer record; check the unit of time (s, ms, min) and spin_frequency",
+        )
+    if flight.rate <= 4 * f:
+        raise UserError(
+            "the flight is sampled too slowly for the disc",
+            where=where,
+            found=f"{flight.rate:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
+        )
+    for name, values in flight.outputs.items():
+        there = values[flight.valid & np.isfinite(values)]
+        if len(there) and np.ptp(there) == 0 and name in ("G_out", *VOLTAGES):
+            raise UserError(
+                "the output does not change",
+                where=at(where, f"column {name!r}"),
+                found=f"{there[0]:.6g} V in all {len(there)} samples",
+                expected="the voltage of a turning disc",
+                remedy="a stuck or disconnected recorder? check the column",
+            )
+
+
+def remarks(instrument: Instrument, flight: Flight) -> list[str]:
+    """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
+    return [*_stuck(flight), *_rates(flight), *_encoder(instrument, flight)]
+
+
+def _stuck(flight: Flight) -> list[str]:
+    still = [
+        n
+        for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)
+        if n in flight.channels and np.ptp(flight.channels[n][flight.valid]) == 0
+    ]
+    if not still:
+        return []
+    if len(still) == 6:
+        return ["the motion does not change at all: a record at rest tells little about an instrument"]
+    verb = "does" if len(still) == 1 else "do"
+    return [f"{', '.join(still)} {verb} not change at all: a stuck sensor?"]
+
+
+def _rates(flight: Flight) -> list[str]:
+    """The recorded angular acceleration against the derivative of the recorded rate."""
+    part = slice(0, min(len(flight), _LONGEST))
+    valid = flight.valid[part]
+    given, wanted = [], []
+    for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
+        if change not in flight.channels:
+            return []
+        given.append(np.where(valid, flight.channels[change][part], np.nan))
+        wanted.append(differentiate(flight.channels[rate][part], flight.rate, valid))
+    there = np.isfinite(given).all(axis=0) & np.isfinite(wanted).all(axis=0)
+    if np.sum(there) < 64:
+        return []
+    G, W = np.array(given)[:, there], np.array(wanted)[:, there]
+    sizes = np.outer(np.std(G, axis=1), np.std(W, axis=1))
+    if np.any(sizes == 0):
+        return []
+    like = (G - G.mean(axis=1, keepdims=True)) @ (W - W.mean(axis=1, keepdims=True)).T / G.shape[1] / sizes
+    said = []
+    for k, (rate, change) in enumerate(zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)):
+        best = int(np.argmax(np.abs(like[k])))
+        factor = float(np.std(G[k]) / np.std(W[k]))
+        if abs(like[k, best]) < LIKE:
+            continue
+        if best != k and abs(like[k, k]) < 0.5:
+            said.append(f"{change} is the derivative of {ANGULAR_RATE[best]}, not of {rate}: axes exchanged?")
+        elif best == k and like[k, k] < 0:
+            said.append(f"{change} is minus the derivative of {rate}: the sign of one of them is reversed")
+        elif best == k and not 0.5 < factor < 2:
+            near = [text for x, text in _FACTORS if 0.8 < factor / x < 1.25]
+            meant = f": {near[0]}?" if near else ": check the units of both"
+            said.append(f"{change} is {factor:.4g} times the derivative of {rate}{meant}")
+    return said
+
+
+def _encoder(instrument: Instrument, flight: Flight) -> list[str]:
+    """The encoder's rate against the model's spin rate."""
+    if "spin_angle" not in flight.channels:
+        return []
+    part = slice(0, min(len(flight), _LONGEST))
+    angle = np.unwrap(flight.channels["spin_angle"][part])
+    time = flight.time[part]
+    rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
+    f = instrument.spin_frequency
+    if abs(rate - f) < 2e-3 * f:
+        return []
+    if abs(rate + f) < 2e-3 * f:
+        return [f"spin_angle runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
+    if abs(rate / f * _DEGREE - 1) < 0.02 or abs(rate / f / _DEGREE - 1) < 0.02:
+        return [f"spin_angle turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]
+    percent = 100 * (rate / f - 1)
+    return [
+        f"spin_angle turns at {rate:.6g} Hz, {percent:+.2g} % off the model's spin_frequency of {f:.6g} Hz:"
+        " the angle is used; is spin_frequency right?"
+    ]

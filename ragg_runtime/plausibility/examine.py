@@ -1,0 +1,145 @@
+"""Examine a flight before it is held against a model: refuse, mend, or remark."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.evaluate import scale_factor
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Model
+from ragg_runtime.plausibility import checks
+from ragg_runtime.plausibility.likely import Likely, derived_rates, likely
+from ragg_runtime.plausibility.linear import explain
+from ragg_runtime.plausibility.rows import Picker, picker
+from ragg_runtime.plausibility.spikes import glitches, spikes, told
+from ragg_runtime.timeseries import differentiate
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SENSELESS = 20.0
+"""Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
+
+_CHUNK = 1 << 16
+
+
+def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
+    """The flight with its spikes marked as missing, and with what was done or looks odd in its notes.
+
+    Raises
+    ------
+    UserError
+        If the flight cannot be held against the model: it is too short, too slow, lacks a channel, or holds
+        a mistake of units, signs, axes, order or spin rate, which the message names.
+    """
+    checks.require(model, instrument, flight)
+    flight = _without_motion_spikes(flight)
+    notes = checks.remarks(instrument, flight)
+    p = picker(flight, instrument, tuple(model.chain.INPUTS))
+    if not p.usable.any():
+        return dataclasses.replace(flight, notes=(*flight.notes, *notes))
+    notes += _saturated(p)
+    found = likely(model, instrument, p)
+    if found is not None:
+        if found.factor > SENSELESS and not found.timing:
+            raise _refused(flight, found, notes)
+        notes.append(_remark(found))
+    valid, said = _output_spikes(model, instrument, p)
+    return dataclasses.replace(flight, valid=valid, notes=(*flight.notes, *notes, *said))
+
+
+def _refused(flight: Flight, found: Likely, notes: list[str]) -> UserError:
+    also = f" (or: {'; or: '.join(found.others)})" if found.others else ""
+    odd = f"; {'; '.join(notes)}" if notes else ""
+    return UserError(
+        f"the record does not fit the instrument; the likely mistake: {found.what}{also}",
+        where=flight.path or flight.name,
+        found=f"the model leaves {100 * found.before.share:.2g} % of the output unexplained,"
+        f" {found.factor:.3g} times more than with the mistake undone{odd}",
+        expected="units, signs, axes and spin rate as the header and model.toml say",
+        remedy=found.remedy,
+    )
+
+
+def _remark(found: Likely) -> str:
+    also = f" (or: {'; or: '.join(found.others)})" if found.others else ""
+    gain = (
+        f"undone, the model leaves {found.factor:.3g} times less of the output"
+        if found.factor > 2
+        else "undone, the parameters stay closer to the test sheet"
+    )
+    return f"likely mistake: {found.what}{also}; {gain}; {found.remedy}"
+
+
+def _saturated(p: Picker) -> list[str]:
+    if "G_out" not in p.flight.outputs:
+        return []
+    G = p.flight.outputs["G_out"]
+    clipped = int(np.sum(p.flight.valid & np.isfinite(G) & ~p.usable))
+    if not clipped or p.kind == "voltages":
+        return []
+    top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))
+    return [f"G_out: {clipped} samples stand at the extreme value of {top:.6g} V: saturated, not used"]
+
+
+def _without_motion_spikes(flight: Flight) -> Flight:
+    """Spikes of the motion record interpolated, and their samples marked as missing."""
+    notes, channels, valid = [], dict(flight.channels), flight.valid.copy()
+    rates = []
+    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
+        if name not in channels:
+            continue
+        there = flight.valid & np.isfinite(channels[name])
+        mask, x = glitches(channels[name], there)
+        if not mask.any():
+            continue
+        if name in ANGULAR_RATE:
+            rates.append(name)
+        channels[name] = x
+        valid &= ~mask
+        notes.append(told(name, mask, flight.time, "not used"))
+    if not notes:
+        return flight
+    if rates and derived_rates(flight):
+        for rate in rates:
+            change = ANGULAR_ACCELERATION[ANGULAR_RATE.index(rate)]
+            channels[change] = differentiate(channels[rate], flight.rate)
+        notes = [n for n in notes if not n.startswith("omegadot")]
+    return dataclasses.replace(flight, channels=channels, valid=valid, notes=(*flight.notes, *notes))
+
+
+def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mask, list[str]]:
+    """Valid samples without the output's spikes, found in what the fitted model leaves."""
+    valid = p.flight.valid.copy()
+    if p.kind == "channels":
+        return valid, []  # a demodulator has smeared them
+    fitted = explain(model, instrument, p.pick(p.rows())).p
+    eotvos = scale_factor(model.chain, fitted)
+    n = len(p.flight)
+    names = ("G_out",) if p.kind == "G_out" else ("V_1", "V_2", "V_3", "V_4")
+    left = np.empty((len(names), n))
+    for start in range(0, n, _CHUNK):
+        rows = p.pick(np.arange(start, min(n, start + _CHUNK)))
+        x = rows.inputs(model.chain)
+        volts = np.stack(
+            [
+                model.chain.accelerometer(
+                    j, rows.time, np.cos(rows.phi), np.sin(rows.phi), x, model.chain.values_of(j, fitted)
+                )
+                for j in range(4)
+            ]
+        )
+        left[:, start : start + _CHUNK] = (rows.data - rows.seen(volts, None)) / eotvos
+    notes = []
+    for name, e in zip(names, left, strict=True):
+        mask = spikes(e, p.usable)
+        if mask.any():
+            valid &= ~mask
+            notes.append(told(name, mask, p.flight.time, "not used"))
+    return valid, notes

@@ -1,0 +1,234 @@
+"""Mistakes that people make with a record, each with the way to undo it.
+
+A mistake is recognised by undoing it: the model, which leaves most of the record unexplained as it stands,
+explains it then. Nothing is inferred from sizes alone; a platform may be quiet or rough.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import permutations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.flight.record import VOLTAGES
+from ragg_runtime.plausibility.rows import Rows
+
+Array = NDArray[np.float64]
+
+AXES = "xyz"
+_DEGREE = np.pi / 180
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One possible mistake.
+
+    Attributes
+    ----------
+    what
+        The mistake as a likely statement about the record: "a_x and a_y are exchanged".
+    remedy
+        What to do.
+    undo
+        Rows as they stand -> rows without the mistake.
+    plainness
+        Among mistakes that explain a record equally well the smallest is named first.
+    """
+
+    what: str
+    remedy: str
+    undo: Callable[[Rows], Rows]
+    plainness: int = 0
+
+
+def mistakes(rows: Rows, g0: float, *, rates_derived: bool) -> Iterator[Mistake]:
+    """Every mistake of units, signs, axes and order that such rows may hold.
+
+    ``rates_derived``: the angular acceleration was derived from the rate, so that both share its mistakes.
+    """
+    yield from _outputs(rows)
+    yield from _units_of_a(g0)
+    yield from _units_of_omega(rates_derived)
+    if rows.gradient_recorded:
+        yield from _gradients()
+    yield from _axes(rates_derived)
+
+
+def _scaled(names: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
+    def undo(rows: Rows) -> Rows:
+        changed = {n: factor * x for n, x in rows.channels.items() if _stem(n) in names}
+        return replace(rows, channels={**rows.channels, **changed})
+
+    return undo
+
+
+def _stem(name: str) -> str:
+    """``a`` of ``a_x`` and of its time derivative ``d_a_x``."""
+    return name.removeprefix("d_").removeprefix("d2_").rsplit("_", 1)[0]
+
+
+def _outputs(rows: Rows) -> Iterator[Mistake]:
+    what = {"G_out": "G_out", "voltages": "V_1 ... V_4", "channels": "inline and cross"}[rows.kind]
+
+    def scaled(factor: float) -> Callable[[Rows], Rows]:
+        return lambda r: replace(r, data=factor * r.data)
+
+    yield Mistake(f"the sign of {what} is reversed", f"multiply {what} by -1", scaled(-1.0), 0)
+    if rows.kind == "channels":
+        for factor, unit, given in ((1e-9, "Eo", "s^-2"), (1e9, "s^-2", "Eo")):
+            yield Mistake(
+                f"{what} are in {unit}, not in {given} as the header says",
+                f"write the unit [{unit}]",
+                scaled(factor),
+            )
+        yield Mistake(
+            "inline and cross are exchanged",
+            "exchange their names",
+            lambda r: replace(r, data=np.stack([-r.data[1] / 2, -2 * r.data[0]])),
+            1,
+        )
+        return
+    for factor, unit, given in (
+        (1e-3, "mV", "V"),
+        (1e3, "V", "mV"),
+        (1e-6, "uV", "V"),
+        (1e6, "V", "uV"),
+    ):
+        yield Mistake(
+            f"{what} {'are' if rows.kind == 'voltages' else 'is'} in {unit} where the header says {given}"
+            f" (or in another unit {1 / factor:g} times off)",
+            f"write the unit [{unit}]",
+            scaled(factor),
+        )
+    if rows.kind != "voltages":
+        return
+    for order in permutations(range(4)):
+        if order == (0, 1, 2, 3):
+            continue
+        swapped = [k for k in range(4) if order[k] != k]
+        if len(swapped) == 2:
+            i, j = (VOLTAGES[k] for k in swapped)
+            text = f"{i} and {j} are exchanged"
+        else:
+            text = f"the order of {', '.join(VOLTAGES)} is {', '.join(VOLTAGES[k] for k in order)}"
+        yield Mistake(
+            text,
+            "exchange the names of the columns",
+            _reordered(order),
+            len(swapped),
+        )
+
+
+def _reordered(order: tuple[int, ...]) -> Callable[[Rows], Rows]:
+    return lambda rows: replace(rows, data=rows.data[list(order)])
+
+
+def _units_of_a(g0: float) -> Iterator[Mistake]:
+    for factor, unit, given in (
+        (g0, "g", "m/s^2"),
+        (1 / g0, "m/s^2", "g"),
+        (1e-3 * g0, "mg", "m/s^2"),
+        (1e-3, "mg", "g"),
+        (1e3, "g", "mg"),
+        (1e3 / g0, "m/s^2", "mg"),
+        (1e-5, "mGal", "m/s^2"),
+        (1e5, "m/s^2", "mGal"),
+    ):
+        yield Mistake(
+            f"a_x, a_y, a_z are in {unit}, not in {given}",
+            f"write the unit [{unit}]",
+            _scaled(("a",), factor),
+        )
+
+
+def _units_of_omega(rates_derived: bool) -> Iterator[Mistake]:
+    both, rate, change = ("omega", "omegadot"), ("omega",), ("omegadot",)
+    known = (
+        (3600.0, "deg/s", "deg/h"),
+        (1 / 3600.0, "deg/h", "deg/s"),
+        (_DEGREE, "deg/s", "rad/s"),
+        (1 / _DEGREE, "rad/s", "deg/s"),
+        (_DEGREE / 3600, "deg/h", "rad/s"),
+        (3600 / _DEGREE, "rad/s", "deg/h"),
+        (1e-3, "mrad/s", "rad/s"),
+        (1e3, "rad/s", "mrad/s"),
+        (1e-6, "urad/s", "rad/s"),
+        (1e6, "rad/s", "urad/s"),
+    )
+    for factor, unit, given in known:
+        text = f"omega_x, omega_y, omega_z are in {unit}, not in {given}"
+        write = f"write the unit [{unit}]"
+        yield Mistake(text, write, _scaled(both if rates_derived else rate, factor))
+        if not rates_derived:
+            yield Mistake(
+                f"{text}, and omegadot likewise", f"{write}, and that of omegadot", _scaled(both, factor), 1
+            )
+            yield Mistake(
+                f"omegadot is in {unit}/s, not in {given}/s",
+                f"write the unit [{unit}/s]",
+                _scaled(change, factor),
+            )
+
+
+def _gradients() -> Iterator[Mistake]:
+    for factor, text, remedy in (
+        (-1.0, "the sign of Gamma is reversed", "multiply Gamma by -1: f = a + ... - Gamma r"),
+        (1e-9, "Gamma is in Eo, not in s^-2", "write the unit [Eo]"),
+        (1e9, "Gamma is in s^-2, not in Eo", "write the unit [s^-2]"),
+    ):
+        yield Mistake(text, remedy, _scaled(("Gamma",), factor))
+
+
+def _axes(rates_derived: bool) -> Iterator[Mistake]:
+    groups: tuple[tuple[tuple[str, ...], int], ...] = (
+        (("a",), 0),
+        (("omega", "omegadot"), 0),
+        (("a", "omega", "omegadot"), 1),
+    )
+    if not rates_derived:
+        groups = (*groups, (("omega",), 1))
+    for group, more in groups:
+        for order, signs in product(permutations(range(3)), product((1, -1), repeat=3)):
+            if order == (0, 1, 2) and signs == (1, 1, 1):
+                continue
+            moved = sum(order[k] != k for k in range(3))
+            flips = sum(s < 0 for s in signs)
+            yield Mistake(
+                _axes_told(group, order, signs),
+                "exchange the names of the columns or the signs, or turn the record into the measurement frame",
+                partial(_turned, group=group, order=order, signs=signs),
+                2 * moved + 2 * flips + more,
+            )
+
+
+def _axes_told(group: tuple[str, ...], order: tuple[int, ...], signs: tuple[int, ...]) -> str:
+    """In words: which columns hold which component."""
+    said = []
+    for q in group:
+        if q == "omegadot":
+            continue
+        own = [f"{q}_{k}" for k in AXES]
+        flipped = [own[k] for k in range(3) if signs[k] < 0]
+        if order == (0, 1, 2):
+            said.append(f"{' and '.join(flipped)} {'have' if len(flipped) > 1 else 'has'} the wrong sign")
+        elif not flipped and sum(order[k] != k for k in range(3)) == 2:
+            i, j = (own[k] for k in range(3) if order[k] != k)
+            said.append(f"{i} and {j} are exchanged")
+        else:
+            found = [f"{'-' if s < 0 else ''}{own[k]}" for k, s in zip(order, signs, strict=True)]
+            said.append(f"{', '.join(own)} stand in the columns {', '.join(found)}")
+    return "; ".join(said)
+
+
+def _turned(rows: Rows, group: tuple[str, ...], order: tuple[int, ...], signs: tuple[int, ...]) -> Rows:
+    changed: dict[str, Array] = {}
+    for prefix in ("", "d_", "d2_"):
+        for q in group:
+            own = [f"{prefix}{q}_{k}" for k in AXES]
+            if all(n in rows.channels for n in own):
+                changed |= {own[k]: signs[k] * rows.channels[own[order[k]]] for k in range(3)}
+    return replace(rows, channels={**rows.channels, **changed})

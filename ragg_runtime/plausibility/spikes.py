@@ -1,0 +1,134 @@
+"""Single samples far beyond everything about them: recorder glitches, to be left out like missing ones."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ragg_runtime.timeseries import runs
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+SIDE = 5
+"""Samples before and after that a sample is held against."""
+
+WIDEST = 3
+"""Most samples in a row that are a spike; a longer excursion is the signal."""
+
+BLOCK = 256
+"""Samples over which the usual scatter is taken: it changes with the motion."""
+
+FAR = 4.4
+"""Distance from both sides, over the 95 % quantile of distances from their mean (9 sigma if Gaussian)."""
+
+GLITCH = 12.0
+"""Error of what the neighbours foretell, in robust standard deviations, from which a sample of motion is off."""
+
+_FORETOLD = np.array([1.0, -6.0, 15.0, 0.0, 15.0, -6.0, 1.0]) / 20.0
+
+MOST = 0.05
+"""Largest fraction of the samples that can be spikes; more of them are no glitches but the signal."""
+
+
+def spikes(residual: Array, valid: Mask) -> Mask:
+    """(N,) bool: the samples of a residual that are spikes.
+
+    Parameters
+    ----------
+    residual
+        (N,) in any unit; what a model leaves of an output, or a slowly varying record itself.
+    valid
+        (N,) bool: False where there is no sample; such samples are never spikes, and neighbours on either
+        side of them count as neighbours.
+
+    A spike stands off the medians of the samples before and of those after it, to the same side: a step does
+    not. It is at most ``WIDEST`` samples wide and ``FAR`` beyond the usual scatter of the whole record and of
+    its own stretch of it. Where more than ``MOST`` of the samples would be spikes, none is.
+    """
+    found = np.zeros(len(residual), dtype=np.bool_)
+    places = np.flatnonzero(valid & np.isfinite(residual))
+    if len(places) < 8 * SIDE:
+        return found
+    e = np.asarray(residual[places])
+    reach = SIDE // 2 + 1
+    median = ndimage.median_filter(np.pad(e, reach, mode="reflect"), SIDE, mode="mirror")
+    before, after = median[: len(e)], median[2 * reach :]
+    above, below = e - np.maximum(before, after), np.minimum(before, after) - e
+    distance = np.maximum(0.0, np.maximum(above, below))
+    scatter = np.abs(e - (before + after) / 2)
+    distance[np.abs(after - before) > 0.3 * distance] = 0.0  # a step
+    blocks = np.arange(0, len(e), BLOCK)
+    usual = np.array([np.quantile(scatter[b : b + BLOCK], 0.95) for b in blocks])
+    if len(usual) > 1 and len(e) - blocks[-1] < BLOCK // 4:
+        usual[-1] = usual[-2]  # too short to speak for itself
+    usual = ndimage.maximum_filter1d(usual, 3, mode="nearest")
+    everywhere = np.quantile(scatter, 0.95)
+    limit = FAR * np.maximum(np.repeat(usual, BLOCK)[: len(e)], everywhere)
+    far = distance > limit
+    for run in runs(far):
+        if run.stop - run.start > WIDEST:
+            far[run] = False
+    if everywhere == 0 or not far.any() or np.mean(far) > MOST:
+        return found
+    found[places[far]] = True
+    return found
+
+
+def glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
+    """Spikes of a smooth record (N,), and the record with them interpolated.
+
+    A glitch is off what its neighbours foretell (a polynomial of the fifth degree through three samples on
+    either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
+    within a dozen samples. The largest go first, since they spoil what is foretold of the others.
+    """
+    found = np.zeros(len(x), dtype=np.bool_)
+    places = np.flatnonzero(valid & np.isfinite(x))
+    if len(places) < 8 * SIDE:
+        return found, x
+    y = np.array(x[places])
+    off = np.zeros(len(y), dtype=np.bool_)
+    spread: Array | None = None
+    for _ in range(12):
+        error = y - ndimage.correlate1d(y, _FORETOLD, mode="mirror")
+        size = np.abs(error)
+        blocks = np.arange(0, len(y), BLOCK)
+        usual = np.array([np.median(size[b : b + BLOCK]) for b in blocks])
+        usual = np.repeat(ndimage.maximum_filter1d(usual, 3, mode="nearest"), BLOCK)[: len(y)]
+        far = size > GLITCH * np.maximum(usual, np.median(size)) / 0.67
+        if not far.any():
+            break
+        if spread is None:
+            spread = np.asarray(
+                ndimage.percentile_filter(y, 90, 25, mode="nearest")
+                - ndimage.percentile_filter(y, 10, 25, mode="nearest")
+            )
+        far &= (size > 2 * spread) & (size >= ndimage.maximum_filter1d(size, 7, mode="nearest"))
+        if not far.any():
+            break
+        off |= far
+        good = np.flatnonzero(~off)
+        y[off] = np.interp(np.flatnonzero(off), good, y[good])
+    if spread is not None:
+        # what was only spoiled by a glitch beside it stays
+        off &= np.abs(x[places] - y) > 2 * spread
+        y[~off] = x[places][~off]
+    if not off.any() or np.mean(off) > MOST:
+        return found, x
+    found[places[off]] = True
+    mended = np.array(x)
+    mended[places] = y
+    return found, mended
+
+
+def told(name: str, mask: Mask, time: Array, done: str) -> str:
+    """A note: how many spikes, where, what was done with them."""
+    places = np.flatnonzero(mask)
+    instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])
+    more = ", ..." if len(places) > 3 else ""
+    count = f"{len(places)} sample" + ("s stand" if len(places) > 1 else " stands")
+    return (
+        f"{name}: {count} far off the neighbours (spikes, {100 * np.mean(mask):.2g} %; t = {instants}{more} s);"
+        f" {done}"
+    )

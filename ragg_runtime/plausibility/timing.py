@@ -1,0 +1,183 @@
+"""Mistakes of timing, searched for: spin rate, disc angle at the start, motion and output apart in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft, optimize
+
+from ragg_runtime.demodulate import low_pass
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Model
+from ragg_runtime.plausibility.linear import Explained, explain
+from ragg_runtime.plausibility.rows import Picker
+
+Array = NDArray[np.float64]
+
+FARTHEST = 60.0
+"""Longest shift of the motion record that is looked for, s."""
+
+SPIN_RANGE = 0.05
+"""Relative error of the spin rate that is looked for."""
+
+LEAST_PHASE = np.deg2rad(5.0)
+"""Angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A mistake of timing undone as well as can be: what is likely, what to do, what is left then."""
+
+    what: str
+    remedy: str
+    left: Explained
+    shift: bool = False
+
+
+def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
+    """The best of each kind of mistake."""
+    found = [*_spin(model, instrument, p), *_shift(model, instrument, p)]
+    if "spin_angle" not in p.flight.channels or p.kind == "channels":
+        found += _phase(model, instrument, p)
+    return found
+
+
+def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
+    """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
+    f0 = instrument.spin_frequency
+    encoder = "spin_angle" in p.flight.channels
+    x = p.flight
+    best, width = f0, SPIN_RANGE * f0
+    span = min(x.duration, 0.5 / width * 2)
+
+    def left(f: float, last: int) -> Explained:
+        return explain(model, instrument, p.pick(p.rows(0, last, 600), spin_frequency=f))
+
+    while True:
+        last = max(2, min(len(x), int(span * x.rate)))
+        step = 0.1 / (last / x.rate)
+        grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
+        best = float(grid[int(np.argmin([left(f, last).share for f in grid]))])
+        if last == len(x):
+            break
+        width, span = 2 * step, span * 4
+    best = float(
+        optimize.minimize_scalar(
+            lambda f: np.log(left(f, len(x)).share),
+            bounds=(best - step, best + step),
+            method="bounded",
+            options={"xatol": 1e-9 * f0},
+        ).x
+    )
+    where = "the encoder's angle does not: it" if encoder else "not at the model's"
+    turned = explain(model, instrument, p.pick(p.rows(), spin_frequency=best))
+    backwards = explain(model, instrument, p.pick(p.rows(), spin_frequency=-f0))
+    percent = 100 * (best / f0 - 1)
+    return [
+        Found(
+            f"the spin rate is {best:.6g} Hz, {where} {f0:.6g} Hz ({percent:+.2g} %)"
+            if not encoder
+            else f"the spin rate is {best:.6g} Hz, from angle 0 at the first sample; spin_angle says otherwise",
+            f'write spin_frequency = "{best:.6g} Hz" in model.toml, or record spin_angle',
+            turned,
+        ),
+        Found(
+            "the disc turns the other way",
+            "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)",
+            backwards,
+        ),
+    ]
+
+
+def _phase(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
+    def left(phase: float) -> Explained:
+        return explain(model, instrument, p.pick(p.rows(most=600), phase=phase))
+
+    best = _refined(left, np.deg2rad(np.arange(0.0, 360.0, 10.0)), np.deg2rad(10.0))
+    best = float((best + np.pi) % (2 * np.pi) - np.pi)
+    if abs(best) < LEAST_PHASE:
+        return []
+    final = explain(model, instrument, p.pick(p.rows(), phase=best))
+    return [
+        Found(
+            f"the disc stood at {np.rad2deg(best):.4g} degrees at the first sample, not at 0"
+            " (a file cut out of a longer one?)",
+            "record spin_angle, or keep the record from the instant of angle 0 on",
+            final,
+        )
+    ]
+
+
+def _refined(left: Callable[[float], Explained], grid: Array, step: float) -> float:
+    best = float(grid[int(np.argmin([left(g).share for g in grid]))])
+    for _ in range(4):
+        step /= 4
+        near = best + step * np.arange(-4, 5)
+        best = float(near[int(np.argmin([left(g).share for g in near]))])
+    return best
+
+
+def _shift(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
+    """Motion and output apart: candidates from the cross-correlation, judged by what the model explains."""
+    found = []
+    for k in _lags(instrument, p):
+        if k == 0:
+            continue
+        seconds = abs(k) / p.flight.rate
+        apart = f"{seconds:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)})"
+        moved = explain(model, instrument, p.pick(p.rows(), shift=k))
+        found.append(
+            Found(
+                f"the motion record is {apart} {'late' if k > 0 else 'early'} against the output",
+                f"shift the motion columns by {seconds:.6g} s",
+                moved,
+                True,
+            )
+        )
+        moved = explain(model, instrument, p.pick(p.rows(), output_shift=-k))
+        found.append(
+            Found(
+                f"the output is {apart} {'early' if k > 0 else 'late'} against motion and disc angle",
+                f"shift the output column by {seconds:.6g} s",
+                moved,
+                True,
+            )
+        )
+    best = sorted(found, key=lambda x: x.left.share)
+    return best[:2]
+
+
+def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
+    """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y most."""
+    x = p.flight
+    if p.kind == "channels" or x.duration < 3 / instrument.spin_frequency:
+        return ()
+    n = len(x)
+    whole = p.pick(np.arange(n))
+    data = whole.data if p.kind == "G_out" else (whole.data[0] - whole.data[1])[None]
+    usable = p.usable
+    carried = np.where(usable, data[0], 0.0) * np.exp(1j * whole.phi)
+    taps = low_pass(x.rate)
+    narrow = fft.next_fast_len(n + len(taps))
+    response = fft.fft(taps, narrow)
+    size = fft.next_fast_len(2 * n)
+
+    def prepared(z: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        low = fft.ifft(fft.fft(z, narrow) * response)[len(taps) // 2 :][:n]
+        low = np.diff(low)  # slow drifts resemble each other at any lag
+        return np.asarray(fft.fft(low - np.mean(low), size))
+
+    motion = prepared(np.asarray(whole.channels["a_x"] + 1j * whole.channels["a_y"]))
+    output = prepared(np.asarray(carried))
+    reach = min(n // 4, int(FARTHEST * x.rate))
+    found: list[int] = []
+    for spectrum in (motion, None):
+        other = motion if spectrum is not None else np.conj(np.roll(motion[::-1], 1))
+        like = np.abs(fft.ifft(other * np.conj(output)))
+        like = np.concatenate([like[-reach:], like[: reach + 1]])
+        top = int(np.argmax(like)) - reach
+        found += [k for k in range(top - 3, top + 4) if k not in found]
+    return found
