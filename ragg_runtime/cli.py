@@ -338,6 +338,17 @@ def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: An
     click.echo(f"{output}: {len(flight.time)} samples at {flight.rate:g} Hz")
 
 
+@cli.command()
+@click.option(
+    "--output", type=DIRECTORY, default=Path("ragg-demo"), show_default=True, help="Folder to make."
+)
+def demo(output: Path) -> None:
+    """The main job on a simulated flight: find a hidden effect, add it, watch the error fall."""
+    from ragg_runtime import demo as _demo
+
+    _demo.main(output, command=_command())
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     from ragg_runtime.experiments.command import experiment
