@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo derive check test lint bench bench-diagnosis docs clean
+.PHONY: help demo derive check test lint bench bench-diagnosis docs clean faults fuzz package test-oldest
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -51,9 +51,25 @@ bench-diagnosis: export OPENBLAS_NUM_THREADS := 1
 bench-diagnosis: $(PEERS)  ## measure the diagnosis on 250 flights, beside other methods (resumable, half an hour)
 	.venv-peers/bin/python -m benchmarks.diagnosis --jobs 2
 
+faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
+	$(BIN)/python -m tests.faults --trials 200
+
+fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for longer)
+	$(BIN)/python -m tests.fuzz --seconds 50 $(FUZZ)
+
+package:  ## build wheel and sdist, install into an empty environment, run the demo there
+	PYTHON=$(PYTHON) .ci/package
+
+# The oldest versions that pyproject.toml allows; Python 3.11, for which they have wheels.
+test-oldest: export OPENBLAS_NUM_THREADS := 1
+test-oldest:  ## run the tests of the runtime with the oldest dependencies
+	$(PYTHON) -m venv .venv-oldest
+	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-oldest.lock
+	.venv-oldest/bin/python -m pytest -q -n 2 tests/runtime tests/fuzz tests/derive/test_expression.py
+
 docs: $(STAMP)  ## write the generated pages of docs/
 	$(BIN)/ragg derive
 	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
-	rm -rf $(VENV) .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf $(VENV) .venv-oldest .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
