@@ -19,7 +19,9 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor, vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.whiten import NoiseModel, estimate, whiten
+from ragg_runtime.passes import Noise, Point, flight_segments, pieces
+from ragg_runtime.segments import Segment
+from ragg_runtime.whiten import NoiseModel, estimate
 
 Array = NDArray[np.float64]
 
@@ -29,27 +31,14 @@ TAPS = 32768
 REACH = 5.0
 """Farthest that a parameter is fitted from its nominal value, in scales."""
 
+NOISE_SEGMENTS = 24
+"""Most segments of a flight of which the noise is estimated: 800,000 samples tell a smooth spectrum."""
+
+WHITE_SEGMENTS = 4
+"""Most segments on which the first fit, with noise still taken as white, is made."""
+
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
-
-
-@dataclass(frozen=True)
-class Linearised:
-    """A flight about one parameter vector, not yet whitened: (columns, m, N) and residual (m, N), V."""
-
-    observation: Observation
-    residual: Array
-    nuisance: Array
-    base: Array
-    candidates: Array
-
-
-@dataclass(frozen=True)
-class Noise:
-    """Noise of each output of an observation, and its whitening filters."""
-
-    models: tuple[NoiseModel, ...]
-    filters: tuple[Array, ...]
 
 
 @dataclass(frozen=True)
@@ -78,108 +67,61 @@ class Calibration:
     rows: int
 
 
-def linearise(
-    model: Model, instrument: Instrument, observation: Observation, p: Array, with_candidates: bool
-) -> Linearised:
-    """Residual and columns of one flight about p, in volts, each column times its parameter's scale."""
-    r = observation.record
-    V, by = design.derivatives(model.chain, r, p)
-    residual = observation.data - design.observe(observation, V, None)
-    base = np.stack(
-        [
-            design.observe(observation, by[c.name, c.accelerometer], c.accelerometer) * c.scale
-            for c, _ in design.base_columns(model, instrument)
-        ]
-    )
-    candidates = np.empty((0, *residual.shape))
-    if with_candidates and (columns := design.candidate_columns(model, instrument)):
-        q = np.concatenate([p, np.zeros(model.signatures.SIZE - len(p))])
-        _, by = design.derivatives(model.signatures, r, q)
-        candidates = np.stack(
-            [
-                design.observe(observation, by[c.name, c.accelerometer], c.accelerometer) * c.scale
-                for c in columns
-            ]
+def estimate_noise(at: Point, o: Observation) -> Noise:
+    """Noise of each output from what no column (base, candidate, unknown gradient) explains."""
+    r = o.record
+    if np.sum(r.valid) < SHORTEST:
+        raise UserError(
+            "the record is too short to estimate its noise",
+            where=o.name,
+            found=f"{int(np.sum(r.valid))} valid samples",
+            expected=f"at least {SHORTEST}",
+            remedy="give a longer or cleaner recording",
         )
-    eotvos = scale_factor(model.chain, p)
-    voltages = observation.kind == "voltages"
-    size = np.array([0.25, 0.25, -0.25, -0.25]) if voltages else np.array([1.0])
-    nuisance = design.gradient_nuisance(observation, size * 1e4 * eotvos)
-    return Linearised(observation, residual, nuisance, base, candidates)
-
-
-@dataclass(frozen=True)
-class Whitened:
-    """Whitened columns (n, rows) in the order base, candidates, residual, and the sample of every row."""
-
-    columns: Array
-    sample: NDArray[np.intp]
-
-
-def nuisance_basis(nuisance: Array, noise: Noise, valid: NDArray[np.bool_]) -> Array | None:
-    """(rows, k): orthonormal basis of the whitened nuisance columns; ``None`` if there are none."""
-    if not len(nuisance):
-        return None
-    parts = [whiten(nuisance[:, m], taps, valid) for m, taps in enumerate(noise.filters)]
-    return design.orthonormal(np.concatenate(parts, axis=1))
-
-
-def whitened(lin: Linearised, noise: Noise, Q: Array | None) -> Whitened:
-    """Every column through the noise's whitening filter, the nuisance basis Q projected out of all."""
-    valid = lin.observation.record.valid
-    parts, samples = [], []
-    for m, taps in enumerate(noise.filters):
-        blocks = (lin.base, lin.candidates)
-        parts.append(whiten(np.concatenate([*(b[:, m] for b in blocks), lin.residual[None, m]]), taps, valid))
-        samples.append(np.flatnonzero(valid))
-    columns = np.concatenate(parts, axis=1)
-    if Q is not None:
-        columns -= (columns @ Q) @ Q.T
-    return Whitened(columns, np.concatenate(samples))
-
-
-def estimate_noise(lin: Linearised) -> Noise:
-    """Noise of each output from what no column (base, candidate, nuisance) explains."""
-    r = lin.observation.record
+    plain = Noise((), (np.ones(1),) * len(o.series))
+    found: list[list[Array]] = [[] for _ in o.series]
+    squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
+    share = []
+    for piece in pieces(at, o, plain, spread(flight_segments(o), NOISE_SEGMENTS)):
+        valid = piece.observation.record.valid
+        if np.sum(valid) < SHORTEST:
+            continue
+        share.append(float(np.mean(valid)))
+        taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
+        for m, flat in enumerate(np.split(piece.white, len(o.series), axis=1)):
+            X, y = flat[:-1], flat[-1]
+            X = X[np.any(X != 0.0, axis=1)]
+            solution, rank = _least_squares(X, y)
+            left = y - X.T @ solution
+            # The fit takes as many degrees of freedom as it has columns.
+            e = np.zeros(len(valid))
+            e[valid] = left * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
+            found[m].append(e)
+            gain = design.noise_gain(r.rate) if o.kind == "channels" else 1.0
+            squares[m] += float(np.sum(left**2)) / gain
+            freedom[m] += len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
     models, filters = [], []
-    length = int(min(TAPS, len(r.time)))
-    for m in range(lin.residual.shape[0]):
-        X = np.concatenate([lin.base[:, m], lin.candidates[:, m]])[:, r.valid]
-        X = X[np.any(X != 0.0, axis=1)]
-        y = lin.residual[m, r.valid]
-        taken = 0
-        if len(lin.nuisance):
-            Q = design.orthonormal(lin.nuisance[:, m][:, r.valid])
-            X, y, taken = X - (X @ Q) @ Q.T, y - Q @ (Q.T @ y), Q.shape[1]
-        e = np.zeros(len(r.time))
-        solution, rank = _least_squares(X, y)
-        e[r.valid] = y - X.T @ solution
-        # The fit takes as many degrees of freedom as it has columns.
-        e *= np.sqrt(len(y) / max(1, len(y) - rank - taken))
-        if np.sum(r.valid) < SHORTEST:
-            raise UserError(
-                "the record is too short to estimate its noise",
-                where=lin.observation.name,
-                found=f"{int(np.sum(r.valid))} valid samples",
-                expected=f"at least {SHORTEST}",
-                remedy="give a longer or cleaner recording",
-            )
-        if lin.observation.kind == "channels":
+    for m, e_m in enumerate(found):
+        if o.kind == "channels":
             # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
-            gain = design.noise_gain(r.rate)
-            kept = max(0.1, 1 - (rank + taken) / (gain * len(y)))
-            sigma = float(np.sqrt(np.mean((y - X.T @ solution) ** 2) / (gain * kept)))
-            flat = np.full(2, np.log(2 * sigma**2 / r.rate))
-            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat))
+            sigma = float(np.sqrt(squares[m] / freedom[m]))
+            flat_psd = np.full(2, np.log(2 * sigma**2 / r.rate))
+            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd))
             filters.append(np.array([1.0 / sigma]))
             continue
+        noise = estimate(e_m, r.rate)
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
-        noise = estimate([e], r.rate)
-        if not r.valid.all():
-            noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(r.valid)))
+        noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
         models.append(noise)
-        filters.append(noise.whitening_filter(length))
+        filters.append(noise.whitening_filter(int(min(TAPS, len(r.time)))))
     return Noise(tuple(models), tuple(filters))
+
+
+def spread(found: Sequence[Segment], most: int) -> list[Segment]:
+    """At most so many of the segments, evenly spread."""
+    if len(found) <= most:
+        return list(found)
+    return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
 def _least_squares(X: Array, y: Array) -> tuple[Array, int]:
@@ -214,18 +156,18 @@ def fit(
     scale = np.array([c.scale for c in columns])
     n = len(columns)
     known = list(noise) if noise is not None else None
-    bases: list[Array | None] = []
     eotvos = scale_factor(model.chain, p)
     for iteration in range(iterations):
+        at = Point(model, instrument, p.copy(), with_candidates=False)
         triangles, rows = [], 0
         for k, o in enumerate(observations):
-            lin = linearise(model, instrument, o, p, with_candidates=False)
-            used = known[k] if known is not None else _white(o, eotvos)
-            if len(bases) <= k:
-                bases.append(nuisance_basis(lin.nuisance, used, o.record.valid))
-            X = whitened(lin, used, bases[k]).columns
-            rows += X.shape[1]
-            triangles.append(design.triangle(X))
+            if known is None:
+                passed = pieces(at, o, _white(o, eotvos), spread(flight_segments(o), WHITE_SEGMENTS))
+            else:
+                passed = pieces(at, o, known[k])
+            for piece in passed:
+                rows += piece.white.shape[1]
+                triangles.append(design.triangle(piece.white))
         step, covariance = solve(design.join(triangles), (nominal[index] - p[index]) / scale, n)
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
         # they are where the signatures are evaluated.
@@ -233,10 +175,8 @@ def fit(
         p[index] = nominal[index] + away * scale
         settled = bool(np.max(np.abs(step)) < 1e-3)
         if known is None and (settled or iteration == 2):
-            known = [
-                estimate_noise(linearise(model, instrument, o, p, with_candidates=True)) for o in observations
-            ]
-            bases = []
+            everything = Point(model, instrument, p.copy(), with_candidates=True)
+            known = [estimate_noise(everything, o) for o in observations]
         elif known is not None and settled:
             break
     assert known is not None
@@ -258,5 +198,5 @@ def solve(R: Array, to_nominal: Array, n: int) -> tuple[Array, Array]:
 def _white(o: Observation, eotvos: float) -> Noise:
     flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2))
     taps = np.array([1.0 / eotvos])
-    m = o.data.shape[0]
+    m = len(o.series)
     return Noise((flat,) * m, (taps,) * m)

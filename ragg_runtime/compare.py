@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import oaconvolve
 
 from ragg_runtime import calibrate, design
-from ragg_runtime.calibrate import Calibration, Noise
+from ragg_runtime.calibrate import Calibration
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
 from ragg_runtime.errors import UserError
@@ -18,13 +19,15 @@ from ragg_runtime.evaluate import record, scale_factor, vector, voltages
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.omnibus import Omnibus
 from ragg_runtime.evidence.search import Field
-from ragg_runtime.evidence.work import BLOCKS, Work
+from ragg_runtime.evidence.work import Flown
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.metrics import Error, channels, error, pooled
-from ragg_runtime.terms import Dictionary, harmonics
+from ragg_runtime.metrics import Error, Tally, channels, pooled
+from ragg_runtime.passes import Noise, Piece, as_output
+from ragg_runtime.segments import BLOCKS, ROWS
+from ragg_runtime.terms import carrier, harmonics
 from ragg_runtime.threads import one_thread
 
 Array = NDArray[np.float64]
@@ -34,20 +37,50 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 
 
 @dataclass(frozen=True)
+class Scored:
+    """How large one residual is.
+
+    Attributes
+    ----------
+    whole, held_out
+        The error object over everything, and over the blocks of time that a held-out fit does not see.
+    mean_square
+        Of each flight, V^2.
+    blocks
+        (flights, BLOCKS): rms in each block of time, V; NaN where it has no valid sample.
+    """
+
+    whole: Error
+    held_out: Error
+    mean_square: tuple[float, ...]
+    blocks: Array
+
+
+@dataclass(frozen=True)
 class Fitted:
-    """A model fitted to flights, and everything that evidence is read from."""
+    """A model fitted to flights, and everything that evidence is read from.
+
+    ``triangles`` holds for every flight the triangle of its whitened columns [base | candidates | residual]
+    in each block of time; all tests are made on them alone.
+    """
 
     model: Model
     instrument: Instrument
     observations: tuple[Observation, ...]
     calibration: Calibration
-    works: tuple[Work, ...]
+    flown: tuple[Flown, ...]
+    triangles: tuple[tuple[Array, ...], ...]
     to_nominal: Array
     k_ggi: float
 
     @property
     def n_base(self) -> int:
         return len(self.calibration.columns)
+
+    @property
+    def size(self) -> int:
+        """Number of columns, base and candidates."""
+        return int(self.triangles[0][0].shape[1]) - 1
 
     @cached_property
     def whole(self) -> Array:
@@ -60,7 +93,7 @@ class Fitted:
         return self._triangle(FITTED_BLOCKS)
 
     def _triangle(self, blocks: Sequence[int]) -> Array:
-        joined = np.vstack([w.triangles[b] for w in self.works for b in blocks])
+        joined = np.vstack([t[b] for t in self.triangles for b in blocks])
         return likelihood.with_prior(joined, self.n_base, self.to_nominal)
 
     def field(self, available: Sequence[str]) -> Field:
@@ -84,36 +117,66 @@ class Fitted:
         inverse = np.linalg.inv(R[:k, :k])
         return inverse @ R[:k, k], inverse @ inverse.T
 
-    def residuals(self, coefficients: Array, extra: Sequence[int]) -> list[Array]:
+    def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
+        """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
+        v = np.zeros(self.size)
+        v[: self.n_base] = coefficients[: self.n_base]
+        v[[self.n_base + k for k in extra]] = coefficients[self.n_base :]
+        return v
+
+    def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
         """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
-        found = []
-        n = self.n_base
-        for w in self.works:
-            e = w.lin.residual - np.tensordot(coefficients[:n], w.lin.base, 1)
-            if len(extra):
-                e = e - np.tensordot(coefficients[n:], w.lin.candidates[list(extra)], 1)
-            found.append(as_output(w.observation, w.without_gradient(e)))
-        return found
+        v = self.vector(coefficients, extra)[None]
+        return [np.concatenate([p.left(v)[0] for p in x.pieces(whitened=False)]) for x in self.flown]
 
-    def error(self, residuals: Sequence[Array], blocks: Sequence[int] | None = None) -> Error:
-        """The error object over all flights, of some blocks of time or of all."""
-        errors, weights = [], []
-        for w, e in zip(self.works, residuals, strict=True):
-            r = w.observation.record
-            selected = r.valid
-            if blocks is not None:
-                inside = np.zeros(len(r.time), dtype=bool)
-                for b in blocks:
-                    inside[w.edges[b] : w.edges[b + 1]] = True
-                selected = selected & inside
-            errors.append(error(e, r, self.k_ggi, selected))
-            weights.append(float(np.sum(selected)))
-        return errors[0] if len(errors) == 1 else pooled(errors, weights)
+    def score(
+        self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
+    ) -> list[Scored]:
+        """How large the residuals are with these coefficients (size,), in one pass over the flights.
 
+        ``further`` yields ``count`` more residuals (count, N), V, of a piece.
+        """
+        V = np.stack(vectors) if vectors else np.empty((0, self.size))
+        k = len(V) + count
+        tallies, blocks = [], np.full((len(self.flown), BLOCKS, k), np.nan)
+        for n, x in enumerate(self.flown):
+            tally = Tally(k, 2, x.observation.record.rate)
+            squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
+            for piece in x.pieces(whitened=False):
+                r = piece.observation.record
+                e = piece.left(V)
+                if further is not None:
+                    e = np.concatenate([e, further(piece)])
+                scored = np.zeros(len(r.time), dtype=np.bool_)
+                for b, rows in piece.segment.blocks:
+                    here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+                    scored[here] = b not in FITTED_BLOCKS
+                    v = r.valid[here]
+                    squares[b] += np.sum(e[:, here][:, v] ** 2, axis=1)
+                    samples[b] += np.sum(v)
+                tally.add(e, r.phi, np.stack([r.valid, r.valid & scored]))
+            tallies.append(tally)
+            some = samples > 0
+            blocks[n, some] = np.sqrt(squares[some] / samples[some, None])
+        return [
+            Scored(
+                self._pooled(tallies, j, 0),
+                self._pooled(tallies, j, 1),
+                tuple(float(t.squares[0, j] / t.samples[0]) for t in tallies),
+                blocks[:, :, j],
+            )
+            for j in range(k)
+        ]
 
-def as_output(o: Observation, e: Array) -> Array:
-    """G_out of what an observation holds: itself, or V_1 + V_2 - V_3 - V_4."""
-    return design.combined(e) if o.kind == "voltages" else e[0]
+    def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
+        errors = [t.error(series, self.k_ggi, group) for t in tallies]
+        if len(errors) == 1:
+            return errors[0]
+        return pooled(errors, [float(t.samples[group]) for t in tallies])
+
+    def released(self) -> Fitted:
+        """The same without the columns of its flights in memory."""
+        return replace(self, flown=tuple(x.released() for x in self.flown))
 
 
 def observe(flight: Flight, instrument: Instrument) -> Observation:
@@ -121,27 +184,31 @@ def observe(flight: Flight, instrument: Instrument) -> Observation:
     r = record(flight, instrument)
     volts = [f"V_{j}" for j in (1, 2, 3, 4)]
     if all(v in flight.outputs for v in volts):
-        data, kind = np.stack([flight.outputs[v] for v in volts]), "voltages"
+        series, kind = tuple(flight.outputs[v] for v in volts), "voltages"
     elif "G_out" in flight.outputs:
-        data, kind = flight.outputs["G_out"][None, :], "G_out"
+        series, kind = (flight.outputs["G_out"],), "G_out"
     else:
         a = instrument.accelerometers
         k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (instrument.radius + a["dR"])))
-        data = design.carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi)[None, :]
+        series = (design.carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
         kind = "channels"
         edge = len(low_pass(r.rate)) // 2  # there our demodulator has not seen enough
         inside = np.zeros(len(r.time), dtype=bool)
         inside[edge : len(r.time) - edge] = True
         r = replace(r, valid=r.valid & inside)
-    valid = r.valid & np.all(np.isfinite(data), axis=0)
+    valid = np.array(r.valid)
+    for x in series:
+        valid &= np.isfinite(x)
     clipped = special.saturation(flight.outputs["G_out"], valid) if "G_out" in flight.outputs else None
     if clipped is not None:
-        valid = valid & ~clipped[1]
-    clean = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.channels.items()}
-    r = replace(r, valid=valid, channels=clean)
-    return Observation(kind, r, np.where(valid, data, 0.0), flight.name)
+        valid &= ~clipped[1]
+    wide = r.wide
+    if len(r.time) <= ROWS:  # longer ones are cleaned part by part
+        wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
+    return Observation(kind, replace(r, valid=valid, wide=wide), series, flight.name)
 
 
+@one_thread
 def fit(
     model: Model,
     instrument: Instrument,
@@ -158,13 +225,14 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
-    works = work.prepare(model, instrument, observations, c)
+    flown = work.prepare(model, instrument, observations, c)
     return Fitted(
         model,
         instrument,
         tuple(observations),
         c,
-        tuple(works),
+        flown,
+        tuple(work.block_triangles(x) for x in flown),
         work.to_nominal(model, instrument, c),
         scale_factor(model.chain, c.p),
     )
@@ -189,30 +257,50 @@ class Remainder:
 def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
-    for w in f.works:
-        Q = w.projection(f.n_base, given)
-        y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
-        o = w.observation
-        weights = np.array([0.25, 0.25, -0.25, -0.25]) if o.kind == "voltages" else np.ones(1)
-        view = partial(design.narrow, r=o.record) if o.kind == "channels" else None
-        dictionary = Dictionary(o.record)
-        found.append(omnibus.search(dictionary, o.record.valid, w.noise, weights, Q, y, view))
+    for x, triangles in zip(f.flown, f.triangles, strict=True):
+        scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
+        for piece in x.pieces():
+            scores.add(piece)
+        found.append(omnibus.choose(scores))
     return Remainder(tuple(found))
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """The result of ``compare``: the interface's JSON, and series for the report."""
+    """The result of ``compare``: the interface's JSON, and what the report draws."""
 
     fitted: Fitted
     nominal: Error
-    calibrated: Error
+    scored: Scored
     holdout: Error
     noise_floor: float
     adequate: bool
     remainder: Remainder
-    residual_nominal: tuple[Array, ...]
-    residual: tuple[Array, ...]
+    nominal_values: Array
+
+    @property
+    def calibrated(self) -> Error:
+        return self.scored.whole
+
+    @cached_property
+    def residual(self) -> list[Array]:
+        """(N,) V of every flight, calibrated."""
+        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+
+    @cached_property
+    def residual_nominal(self) -> list[Array]:
+        """(N,) V of every flight, with the values as they were given."""
+        f = self.fitted
+        return [
+            np.concatenate([nominal_residual(f, self.nominal_values, p) for p in x.pieces(whitened=False)])
+            for x in f.flown
+        ]
+
+    def with_nominal(self, instrument: Instrument) -> Comparison:
+        """The same, ``nominal`` being these values."""
+        p = vector(self.fitted.model, instrument)
+        (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
+        return replace(self, nominal=scored.whole, nominal_values=p)
 
     def as_json(self) -> dict[str, object]:
         f = self.fitted
@@ -230,31 +318,34 @@ class Comparison:
             "noise_floor": {"rms_Eo": self.noise_floor},
             "adequate": self.adequate,
             "where": {
-                "harmonics": self.by_harmonic(),
+                "harmonics": self.harmonics,
                 "time": self.by_time(),
-                "motion": terms_json(self.remainder, self.residual, f),
+                "motion": self.terms(),
             },
         }
 
-    def by_harmonic(self) -> list[dict[str, object]]:
+    @cached_property
+    def harmonics(self) -> list[dict[str, object]]:
         """Slow error at every harmonic of the spin, Eo, largest first (see :func:`harmonic_errors`)."""
-        return harmonic_errors(self.fitted, self.residual)
+        return harmonic_errors(self.fitted, self.fitted.vector(np.zeros(self.fitted.n_base)))
+
+    def terms(self) -> list[dict[str, object]]:
+        """Generic terms in the calibrated residual (see :func:`terms_json`)."""
+        return terms_json(self.remainder, self.scored.mean_square)
 
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
         rows: list[dict[str, object]] = []
-        for w, e in zip(self.fitted.works, self.residual, strict=True):
-            r = w.observation.record
-            for b in range(BLOCKS):
-                part = slice(w.edges[b], w.edges[b + 1])
-                v = r.valid[part]
-                if np.any(v):
-                    rms = float(np.sqrt(np.mean(e[part][v] ** 2))) / self.fitted.k_ggi
+        for x, blocks in zip(self.fitted.flown, self.scored.blocks, strict=True):
+            time = x.observation.record.time
+            for b, volts in enumerate(blocks):
+                if np.isfinite(volts):
+                    rms = float(volts) / self.fitted.k_ggi
                     rows.append(
                         {
-                            "flight": w.observation.name,
-                            "from_s": float(r.time[part][0]),
-                            "to_s": float(r.time[part][-1]),
+                            "flight": x.observation.name,
+                            "from_s": float(time[x.edges[b]]),
+                            "to_s": float(time[x.edges[b + 1] - 1]),
                             "rms_Eo": rms,
                             "over_noise": rms / self.noise_floor,
                         }
@@ -262,37 +353,46 @@ class Comparison:
         return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
 
 
-def harmonic_errors(f: Fitted, residuals: Sequence[Array]) -> list[dict[str, object]]:
-    """Residual demodulated at const, cos k, sin k, as the demodulator would see it."""
-    rows: list[dict[str, object]] = []
-    total: dict[str, float] = {}
-    for w, e in zip(f.works, residuals, strict=True):
-        r = w.observation.record
-        taps = low_pass(r.rate)
-        if len(e) < 2 * len(taps):
+def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
+    """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
+    total = dict.fromkeys(harmonics(), 0.0)
+    counted = 0
+    for x in f.flown:
+        rate = x.observation.record.rate
+        taps = low_pass(rate)
+        if len(x.observation.record.time) < 2 * len(taps):
             continue
-        z = r.cos_phi + 1j * r.sin_phi
-        for h in harmonics():
-            k = 0 if h == "const" else int(h.split()[1])
-            carrier = np.ones(len(e)) if k == 0 else (2 * (z**k).real if h[0] == "c" else 2 * (z**k).imag)
-            low = np.convolve(np.where(r.valid, e, 0.0) * carrier, taps, mode="valid") / f.k_ggi
-            total[h] = total.get(h, 0.0) + float(np.mean(low**2)) / len(f.works)
+        counted += 1
+        squares, samples = dict.fromkeys(total, 0.0), 0
+        tail = np.empty((len(total), 0))
+        for piece in x.pieces(whitened=False):
+            r = piece.observation.record
+            e = np.where(r.valid, piece.left(coefficients[None])[0], 0.0) / f.k_ggi
+            mixed = np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
+            mixed = np.concatenate([tail, mixed], axis=1)
+            if mixed.shape[1] >= len(taps):
+                low = oaconvolve(mixed, taps[None], mode="valid", axes=1)
+                samples += low.shape[1]
+                for h, y in zip(total, low, strict=True):
+                    squares[h] += float(y @ y)
+            tail = mixed[:, -len(taps) + 1 :]
+        for h in total:
+            total[h] += squares[h] / samples
     power = sum(total.values())
-    for h, p in total.items():
-        rows.append({"harmonic": h, "rms_Eo": float(np.sqrt(p)), "share": p / power if power else 0.0})
+    if not counted:
+        return []
+    rows: list[dict[str, object]] = [
+        {"harmonic": h, "rms_Eo": float(np.sqrt(p / counted)), "share": p / power if power else 0.0}
+        for h, p in total.items()
+    ]
     return sorted(rows, key=lambda x: -float(str(x["rms_Eo"])))
 
 
-def terms_json(rem: Remainder, residuals: Sequence[Array], f: Fitted) -> list[dict[str, object]]:
-    """Generic terms in the residual, largest first; ``share`` is of the residual's power."""
+def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, object]]:
+    """Generic terms in residuals of these mean squares, V^2, largest first; ``share`` is of the power."""
     best: dict[tuple[str, str], dict[str, object]] = {}
-    for w, s, e in zip(f.works, rem.searches, residuals, strict=True):
-        d = Dictionary(w.observation.record)
-        r = w.observation.record
-        power = float(np.sum(e[r.valid] ** 2))
+    for s, power in zip(rem.searches, mean_squares, strict=True):
         for t in s.terms:
-            x = t.coefficient * d.series(t.term)[r.valid]
-            share = float(np.sum((x - np.mean(x) * (t.term.harmonic == "const")) ** 2)) / power
             key = (t.term.harmonic, t.term.product)
             row = {
                 "harmonic": t.term.harmonic,
@@ -300,7 +400,7 @@ def terms_json(rem: Remainder, residuals: Sequence[Array], f: Fitted) -> list[di
                 "coefficient": float(t.coefficient),
                 "std": float(t.std),
                 "unit": term_unit(t.term.channels),
-                "share": min(1.0, share),
+                "share": min(1.0, t.mean_square / power),
                 "z": t.z,
             }
             if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
@@ -326,54 +426,38 @@ def channel_unit(name: str) -> str:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    observations = [observe(x, instrument) for x in flights]
-    f = fit(model, instrument, observations)
-    nominal = nominal_residuals(f, instrument)
-    zero = np.zeros(f.n_base)
-    residual = f.residuals(zero, ())
+    f = fit(model, instrument, [observe(x, instrument) for x in flights])
+    p = vector(model, instrument)
     half, _ = f.coefficients((), held_out=True)
-    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+    calibrated, held_out, nominal = f.score(
+        [f.vector(np.zeros(f.n_base)), f.vector(half)], lambda x: nominal_residual(f, p, x)[None], 1
+    )
     rem = remainder(f)
     available = testable_effects(f)
-    field = f.field(available)
-    choice = search.choose(field) if available else None
+    choice = search.choose(f.field(available)) if available else None
     adequate = not rem.significant and not (choice and choice.chosen)
-    return Comparison(
-        f,
-        f.error(nominal),
-        f.error(residual),
-        f.error(f.residuals(half, ()), scored),
-        noise_floor(f),
-        adequate,
-        rem,
-        tuple(nominal),
-        tuple(residual),
-    )
+    return Comparison(f, nominal.whole, calibrated, held_out.held_out, noise_floor(f), adequate, rem, p)
 
 
-def nominal_residuals(f: Fitted, instrument: Instrument) -> list[Array]:
-    """Residual of G_out, (N,) V, of every flight with the instrument's values as they are."""
-    p = vector(f.model, instrument)
-    found = []
-    for o in f.observations:
-        v = voltages(f.model.chain, o.record, p)
-        predicted = design.observe(o, v, None)
-        found.append(as_output(o, np.where(o.record.valid, o.data - predicted, 0.0)))
-    return found
+def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
+    """Residual of G_out, (N,) V, of a piece of a flight with these values."""
+    o = piece.observation
+    predicted = design.observe(o, voltages(f.model.chain, o.record, p), None)
+    return as_output(o, np.where(o.record.valid, o.data - predicted, 0.0))
 
 
 def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
-    for w in f.works:
-        share = design.noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
-        variances.append(share * sum(m.rms**2 for m in w.noise.models))
+    for x in f.flown:
+        share = design.noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
+        variances.append(share * sum(m.rms**2 for m in x.noise.models))
     return float(np.sqrt(np.mean(variances))) / f.k_ggi
 
 
 def testable_effects(f: Fitted) -> list[str]:
     """Deterministic candidates of which every flight has the channels."""
-    have = [set(o.record.channels) for o in f.observations]
+    have = [set(o.record.wide) for o in f.observations]
     return [
         e.id
         for e in f.model.candidates
@@ -384,6 +468,6 @@ def testable_effects(f: Fitted) -> list[str]:
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
     return [
-        channels(e, w.observation.record, f.k_ggi, w.observation.record.valid)
-        for w, e in zip(f.works, residuals, strict=True)
+        channels(e, x.observation.record, f.k_ggi, x.observation.record.valid)
+        for x, e in zip(f.flown, residuals, strict=True)
     ]

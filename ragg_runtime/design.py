@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, linalg, signal
+from scipy import linalg, signal
 
 from ragg_runtime.demodulate import low_pass
-from ragg_runtime.evaluate import GRADIENTS, Record, unit_factor
+from ragg_runtime.evaluate import Record, unit_factor
 from ragg_runtime.instrument import PARAMETERS, Instrument
 from ragg_runtime.load import Chain, Effect, Model
 from ragg_runtime.units import Units, units
@@ -61,7 +62,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Observation:
-    """What of a flight is fitted: m output series over N samples.
+    """What of a flight, or of a part of one, is fitted: m output series over N samples.
 
     ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4) or ``channels``: inline and cross are all that was
     recorded; then the data are the channels put back on their carriers (m = 1, see :func:`narrow`), and
@@ -70,8 +71,24 @@ class Observation:
 
     kind: str
     record: Record
-    data: Array
+    series: tuple[Array, ...]
     name: str
+
+    @cached_property
+    def data(self) -> Array:
+        """(m, N), V; zero where a sample is not valid."""
+        return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
+
+    @property
+    def weights(self) -> Array:
+        """(m,): how much of a common term of G_out each output sees (for voltages each is searched as one)."""
+        return np.array([0.25, 0.25, -0.25, -0.25]) if self.kind == "voltages" else np.ones(1)
+
+    def part(self, rows: slice) -> Observation:
+        """Some of the samples."""
+        if (rows.start, rows.stop) == (0, len(self.record.time)):
+            return self
+        return Observation(self.kind, self.record.part(rows), tuple(x[rows] for x in self.series), self.name)
 
 
 def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
@@ -115,26 +132,32 @@ def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
     return columns
 
 
+CACHED = 2048
+"""Samples at which a generated module is evaluated at a time: its intermediates then stay in the cache."""
+
+
 def derivatives(chain: Chain, r: Record, p: Array) -> tuple[Array, dict[tuple[str, int | None], Array]]:
     """V_j (4, N) and dV_j by every row of the module: (name, accelerometer or None) -> (4, N) or (N,).
 
     A row of one accelerometer's own parameter is (N,): the derivative of its own voltage.
     """
     x = r.inputs(chain)
-    V = np.empty((4, len(r.time)))
-    by: dict[tuple[str, int | None], Array] = {}
-    for name, shared in chain.ROWS:
-        if shared:
-            by[name, None] = np.empty((4, len(r.time)))
+    n = len(r.time)
+    V = np.empty((4, n))
+    rows = np.empty((4, len(chain.ROWS), n))
     for j in range(4):
         q = chain.values_of(j, p)
-        V[j] = chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, q)
-        rows = chain.derivatives(j, r.time, r.cos_phi, r.sin_phi, x, q)
-        for (name, shared), row in zip(chain.ROWS, rows, strict=True):
-            if shared:
-                by[name, None][j] = row
-            else:
-                by[name, j + 1] = row
+        for start in range(0, n, CACHED):
+            at = slice(start, start + CACHED)
+            series = (r.time[at], r.cos_phi[at], r.sin_phi[at], x[:, at])
+            V[j, at] = chain.accelerometer(j, *series, q)
+            rows[j, :, at] = chain.derivatives(j, *series, q)
+    by: dict[tuple[str, int | None], Array] = {}
+    for k, (name, shared) in enumerate(chain.ROWS):
+        if shared:
+            by[name, None] = rows[:, k]
+        else:
+            by.update({(name, j + 1): rows[j, k] for j in range(4)})
     return V, by
 
 
@@ -187,34 +210,18 @@ def orthonormal(columns: Array) -> Array:
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
 
 
-KNOT_SECONDS = 10.0
-"""Distance of the knots of an unknown gradient: it follows periods of half a minute and longer."""
-
-MOST_KNOTS = 400
-"""Most knots of an unknown gradient; on a record longer than an hour they lie further apart."""
-
-
-def gradient_nuisance(observation: Observation, scale: Array) -> Array:
-    """Columns (n, m, N) of an unknown, slowly varying gravity gradient, if none was recorded.
-
-    The gradient enters as T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30) with T_1, T_2 cubic splines of time.
-    ``scale`` (m,) holds its size in each output.
-    """
-    r = observation.record
-    if all(g in r.channels for g in GRADIENTS):
-        return np.empty((0, *observation.data.shape))
-    count = max(4, min(MOST_KNOTS, int(np.ceil(r.time[-1] / KNOT_SECONDS)) + 3))
-    knots = np.concatenate([[0.0] * 3, np.linspace(0.0, r.time[-1], count - 2), [r.time[-1]] * 3])
-    splines = interpolate.BSpline.design_matrix(r.time, knots, 3).toarray().T
-    double = np.stack([2 * r.sin_phi * r.cos_phi, r.cos_phi**2 - r.sin_phi**2])
-    series = (splines[:, None, :] * double[None]).reshape(-1, 1, len(r.time))
-    return np.asarray(series * scale[None, :, None])
+CHUNK = 8192
+"""Rows that enter a triangle at a time."""
 
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
-    n = columns.shape[0]
-    R = linalg.qr(columns.T, mode="r", overwrite_a=True, check_finite=False)[0][:n]
+    n, rows = columns.shape
+    R = np.zeros((n, n))
+    for start in range(0, rows, CHUNK):
+        part = columns[:, start : start + CHUNK].T
+        stacked = np.concatenate([R, part]) if start else np.array(part)
+        R = linalg.qr(np.asfortranarray(stacked), mode="r", overwrite_a=True, check_finite=False)[0][:n]
     if R.shape[0] < n:
         R = np.vstack([R, np.zeros((n - R.shape[0], n))])
     return np.asarray(np.triu(R))

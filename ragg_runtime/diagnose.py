@@ -12,24 +12,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import compare, design
-from ragg_runtime.compare import FITTED_BLOCKS, Fitted, Remainder
+from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
-from ragg_runtime.evidence import likelihood, search, special
+from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.search import Choice, Field
-from ragg_runtime.evidence.work import BLOCKS
+from ragg_runtime.evidence.work import Flown
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error
+from ragg_runtime.segments import BLOCKS
 from ragg_runtime.threads import one_thread
-from ragg_runtime.whiten import whiten
 
 Array = NDArray[np.float64]
 
@@ -114,13 +115,37 @@ class Diagnosis:
     not_testable: tuple[NotTestable, ...]
     remainder: Remainder
     remainder_share: float
-    residual: tuple[Array, ...]
-    residual_after: tuple[Array, ...]
     before: Error
-    after: Error
+    scored: Scored
     noise_floor: float
     sizes: tuple[tuple[str, str], ...]
-    final: Fitted | None = None
+    target: Fitted
+    coefficients: Array
+
+    @property
+    def after(self) -> Error:
+        """Error with the effects chosen (claimed or not) in the model."""
+        return self.scored.whole
+
+    @property
+    def final(self) -> Fitted | None:
+        """The model with the chosen effects derived into it, if that was done."""
+        return None if self.target is self.fitted else self.target
+
+    @cached_property
+    def residual(self) -> list[Array]:
+        """(N,) V of every flight, calibrated, as the model is."""
+        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+
+    @cached_property
+    def residual_after(self) -> list[Array]:
+        """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
+        v = self.coefficients[None]
+        return [np.concatenate([p.left(v)[0] for p in x.pieces(whitened=False)]) for x in self.target.flown]
+
+    def terms(self) -> list[dict[str, object]]:
+        """Generic terms in what remains (see :func:`ragg_runtime.compare.terms_json`)."""
+        return compare.terms_json(self.remainder, self.scored.mean_square)
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
@@ -133,7 +158,6 @@ class Diagnosis:
         return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
 
     def as_json(self) -> dict[str, object]:
-        target = self.final or self.fitted
         return {
             "verdict": self.verdict,
             "ranking": [r.as_json() for r in self.ranking],
@@ -142,7 +166,7 @@ class Diagnosis:
             "unexplained": {
                 "share": self.remainder_share,
                 "log10_p": float(self.remainder.log_p / np.log(10.0)),
-                "terms": compare.terms_json(self.remainder, self.residual_after, target),
+                "terms": self.terms(),
                 "expression": self.expression(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
@@ -193,47 +217,45 @@ def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None 
     output = _output_effects(f, flights)
     field, f, instants = _with_steps(f)
     choice = search.choose(field)
-    chosen, given, final, rem = _confirmed(f, field, choice, extend)
-    random = {} if rem.significant else _random_tests(f, given)
-    count = len(field.candidates) + len(random)
-    random_found = [e for e, t in random.items() if search.significant(t, count)]
-    if random_found and not rem.significant:
-        rivals = sorted(random_found, key=lambda e: random[e].log_p)[:1]
+    chosen = list(choice.chosen)
+    given = [n for e in chosen for n, _ in field.candidates[e]]
+    ranking, before = _ranking(f, field, choice, instants, output)
+    final = _confirmed(f, chosen, extend)
+    if final is None:
+        rem, random = _remainder(f, given)
     else:
-        rivals = []
+        rem, random = compare.remainder(final), {}
+        if not rem.significant:
+            random = _random_tests(f, given)
+    if rem.significant:
+        random = {}
+    count = len(field.candidates) + len(random)
+    random_found = sorted((t.log_p, e) for e, t in random.items() if search.significant(t, count))
     if rem.significant:
         verdict, found = "unexplained", []
     else:
-        found = [*chosen, *rivals, *output]
+        found = [*chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
 
-    residual = f.residuals(np.zeros(f.n_base), ())
-    before = f.error(residual)
-    ranking = _ranking(f, field, choice, instants, random, output, residual, before)
-    if final is not None:
-        after_residual = final.residuals(np.zeros(final.n_base), ())
-    else:
-        c, _ = f.coefficients(given)
-        after_residual = f.residuals(c, given)
-    after = f.error(after_residual)
-    power = sum(float(np.sum(e**2)) for e in after_residual)
+    target = f if final is None else final
+    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
+    (after,) = target.score([v])
     explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
-    whitened = sum(float(np.sum(s.residual**2)) for s in rem.searches)
+    whitened = sum(s.square for s in rem.searches)
     return Diagnosis(
         verdict,
         f,
-        tuple(ranking),
+        tuple(sorted([*ranking, *_ranked_random(f, random, before)], key=_place(choice))),
         tuple(found),
         tuple(_not_testable(f, field)),
         rem if rem.significant else _without_terms(rem),
-        explained / whitened if power else 0.0,
-        tuple(residual),
-        tuple(after_residual),
+        explained / whitened if whitened else 0.0,
         before,
         after,
         compare.noise_floor(f),
         tuple(_sizes(f, field)),
-        final,
+        target,
+        v,
     )
 
 
@@ -241,17 +263,12 @@ def _without_terms(rem: Remainder) -> Remainder:
     return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
 
 
-def _confirmed(
-    f: Fitted, field: Field, choice: Choice, extend: Extend | None
-) -> tuple[list[str], list[int], Fitted | None, Remainder]:
-    """The chosen effects put into the model and fitted again; what then remains."""
-    chosen = list(choice.chosen)
-    given = [n for e in chosen for n, _ in field.candidates[e]]
+def _confirmed(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
-        return chosen, given, None, compare.remainder(f, given)
-    final = compare.fit(extend(f.model, chosen), f.instrument, f.observations, f.calibration.noise)
-    return chosen, given, final, compare.remainder(final)
+        return None
+    return compare.fit(extend(f.model, chosen), f.instrument, f.observations, f.calibration.noise)
 
 
 def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
@@ -261,79 +278,107 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
     """
     available = compare.testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
-    if len(f.works) != 1 or not steps:
+    if len(f.flown) != 1 or not steps:
         return f.field(available), f, {}
-    w = f.works[0]
+    x, triangles = f.flown[0], f.triangles[0]
+    time = x.observation.record.time
     columns = design.candidate_columns(f.model, f.instrument)
     plain = f.field(available)
-    penalties: dict[str, float] = {}
+    first = [n for e in search.choose(plain).chosen for n, _ in plain.candidates[e]]
     instants: dict[str, float] = {}
-    lin, whitened_columns = w.lin, w.columns.copy()
-    candidates = lin.candidates.copy()
-    first = search.choose(plain)
+    exact: dict[str, float] = {}
+    stepped = list(triangles)
     for e in steps:
         own = [(n, c) for n, c in enumerate(columns) if c.effect == e.id]
-        best = None
-        for given in ([], [n for x in first.chosen for n, _ in plain.candidates[x]]):
-            scan = special.best_step(f.works, f.n_base, given, own, f.to_nominal)
-            if scan is not None and (best is None or scan.test.log_p < best[0].test.log_p - 20.0):
-                best = (scan, given)
-        if best is None:
-            continue
-        scan, given = best
-        Q = w.projection(f.n_base, given)
-        y = w.columns[-1] - Q @ (Q.T @ w.columns[-1])
-        rows = lin.candidates[[n for n, _ in own], 0]
-        instant = scan.instant
-        if scan.test.log_p < -7.0 and w.observation.kind != "voltages":
-            width = float(w.observation.record.time[-1]) / BLOCKS
-            instant = special.refine_step(w, Q, y, rows, instant, width)
-        on = w.observation.record.time >= instant
-        for n, _ in own:
-            candidates[n] = np.where(on, lin.candidates[n], 0.0)
-            parts = [
-                whiten(candidates[n][m][None], taps, w.observation.record.valid)[0]
-                for m, taps in enumerate(w.noise.filters)
-            ]
-            column = np.concatenate(parts)
-            if w.nuisance is not None:
-                column -= w.nuisance @ (w.nuisance.T @ column)
-            whitened_columns[f.n_base + n] = column
-        penalties[e.id] = float(np.log(scan.variants))
-        available = [*available, e.id]
-        instants[e.id] = instant
-    block = np.clip(np.searchsorted(w.edges, w.sample, side="right") - 1, 0, BLOCKS - 1)
-    triangles = tuple(design.triangle(whitened_columns[:, block == b]) for b in range(BLOCKS))
-    work = replace(w, lin=replace(lin, candidates=candidates), columns=whitened_columns, triangles=triangles)
-    f = replace(f, works=(work,))
-    return replace(f.field(available), penalty=penalties), f, instants
+        edges = [int(k) for k in x.edges[1:-1]]
+        scans = [
+            (special.best_step(triangles, edges, f.n_base, given, own, f.to_nominal), given)
+            for given in ([[], first] if first else [[]])
+        ]
+        # By itself, unless it explains far more beside the first choice.
+        step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - 20.0 else scans[0]
+        found = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
+        field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
+        if e.id in search.choose(field).chosen:
+            step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
+            exact[e.id] = float(time[step.sample])
+        instants[e.id] = float(time[step.sample])
+        stepped = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
+    if exact:  # the columns themselves, to the sample, and through the filter
+        x = replace(x.released(), at=replace(x.at, instants=exact))
+        stepped = list(work.block_triangles(x))
+    elif instants:
+        x = replace(x, at=replace(x.at, instants=instants))
+    f = replace(f, flown=(x,), triangles=(tuple(stepped),))
+    return _with_penalty(f, [*available, *instants]), f, instants
+
+
+def _stepped(triangles: Sequence[Array], x: Flown, step: special.Step, places: Sequence[int]) -> list[Array]:
+    """Block triangles with the columns at ``places`` put to zero before a step on the edge of a block."""
+    found = [t.copy() for t in triangles]
+    for b in range(BLOCKS):
+        if x.edges[b] < step.sample:
+            found[b][:, list(places)] = 0.0
+    return found
+
+
+def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant."""
+    steps = [e.id for e in f.model.candidates if e.kind == "step"]
+    return replace(f.field(effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+
+
+def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
+    """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
+    searches, counted = [], []
+    for x, triangles in zip(f.flown, f.triangles, strict=True):
+        projector = work.projector(triangles, f.n_base, given)
+        scores = omnibus.Scores(x, projector)
+        variances = _variances(f)
+        for piece in x.pieces():
+            scores.add(piece)
+            y = projector.left(piece, projector.basis(piece))
+            for v in variances.values():
+                v.add(piece, y)
+        counted.append(variances)
+        searches.append(omnibus.choose(scores))
+    tests = {e: special.pooled([v[e] for v in counted]).test() for e in counted[0]}
+    return Remainder(tuple(searches)), tests
 
 
 def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
     """Tests of random effects: is the residual larger where the output is more sensitive to them?"""
-    columns = design.candidate_columns(f.model, f.instrument)
-    tests: dict[str, Test] = {}
+    counted = []
+    if not _variances(f):
+        return {}
+    for x, triangles in zip(f.flown, f.triangles, strict=True):
+        projector = work.projector(triangles, f.n_base, given)
+        variances = _variances(f)
+        for piece in x.pieces():
+            y = projector.left(piece, projector.basis(piece))
+            for v in variances.values():
+                v.add(piece, y)
+        counted.append(variances)
+    return {e: special.pooled([v[e] for v in counted]).test() for e in counted[0]}
+
+
+def _variances(f: Fitted) -> dict[str, special.Variance]:
     if any(o.kind == "channels" for o in f.observations):
-        return tests  # neighbouring samples of a demodulated channel are not independent
+        return {}  # neighbouring samples of a demodulated channel are not independent
+    columns = design.candidate_columns(f.model, f.instrument)
+    found = {}
     for e in f.model.candidates:
         own = [n for n, c in enumerate(columns) if c.effect == e.id]
-        if e.kind != "random" or not own:
-            continue
-        sensitivities, residuals = [], []
-        for w in f.works:
-            n = f.n_base
-            Q = w.projection(n, given)
-            residuals.append(w.columns[-1] - Q @ (Q.T @ w.columns[-1]))
-            sensitivities.append(w.columns[n + own[0]])
-        tests[e.id] = special.random_test(np.concatenate(sensitivities), np.concatenate(residuals))
-    return tests
+        if e.kind == "random" and own:
+            found[e.id] = special.Variance(f.n_base + own[0])
+    return found
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Saturation and quantisation of a recorded output, recognised in its values."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
-    for x, w in zip(flights, f.works, strict=True):
+    for x, w in zip(flights, f.flown, strict=True):
         for name, series in x.outputs.items():
             if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
                 continue
@@ -347,31 +392,26 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
 
 
 def _ranking(
-    f: Fitted,
-    field: Field,
-    choice: Choice,
-    instants: dict[str, float],
-    random: dict[str, Test],
-    output: Sequence[str],
-    residual: Sequence[Array],
-    before: Error,
-) -> list[Ranked]:
+    f: Fitted, field: Field, choice: Choice, instants: dict[str, float], output: Sequence[str]
+) -> tuple[list[Ranked], Error]:
+    """Every testable effect with the evidence for it alone, and the error without any."""
     rivals = search.rivals(field, choice)
-    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
-    ranked = []
-    for e, t in choice.tests.items():
-        if not t.rank:
-            continue
-        extra = field.testable(e)
-        c, covariance = f.coefficients(extra)
+    tested = [(e, t, field.testable(e)) for e, t in choice.tests.items() if t.rank]
+    fits = [f.coefficients(extra) for _, _, extra in tested]
+    vectors = [f.vector(np.zeros(f.n_base))]
+    for (_, _, extra), (c, _) in zip(tested, fits, strict=True):
         half, _ = f.coefficients(extra, held_out=True)
+        vectors += [f.vector(c, extra), f.vector(half, extra)]
+    first, *scored = f.score(vectors)
+    before = first.whole
+    ranked = []
+    for n, ((e, t, extra), (c, covariance)) in enumerate(zip(tested, fits, strict=True)):
         own = dict(field.candidates[e])
-        mine = [own[n] for n in extra]
+        mine = [own[k] for k in extra]
         values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
         parameters = parameter_values(mine, values, spread)
         if e in instants:
             parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
-        bic = t.chi2 - t.rank * np.log(f.calibration.rows)
         twins = rivals.get(e, ())
         for main, others in rivals.items():
             if e in others:
@@ -382,22 +422,32 @@ def _ranking(
                 t.log_p,
                 t.chi2,
                 t.rank,
-                float(bic),
+                float(t.chi2 - t.rank * np.log(f.calibration.rows)),
                 before,
-                f.error(f.residuals(c, extra)),
-                f.error(f.residuals(half, extra), scored),
+                scored[2 * n].whole,
+                scored[2 * n + 1].held_out,
                 tuple(parameters),
                 tuple(visible_combinations(mine, values, spread)),
                 twins,
             )
         )
-    for e, t in random.items():
-        bic = t.chi2 - np.log(f.calibration.rows)
-        ranked.append(Ranked(e, t.log_p, t.chi2, t.rank, float(bic), before, before, before, (), (), ()))
     for e in output:
         ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), (), ()))
+    return ranked, before
+
+
+def _ranked_random(f: Fitted, random: dict[str, Test], before: Error) -> list[Ranked]:
+    rows = np.log(f.calibration.rows)
+    return [
+        Ranked(e, t.log_p, t.chi2, t.rank, float(t.chi2 - rows), before, before, before, (), (), ())
+        for e, t in random.items()
+    ]
+
+
+def _place(choice: Choice) -> Callable[[Ranked], tuple[int, float, str]]:
+    """Order of the ranking: chosen effects as they were chosen, then by significance."""
     order = {e: n for n, e in enumerate(choice.chosen)}
-    return sorted(ranked, key=lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect))
+    return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
 
 
 def parameter_values(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:

@@ -6,8 +6,9 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import oaconvolve
 
-from ragg_runtime.demodulate import CUTOFF, demodulate
+from ragg_runtime.demodulate import CUTOFF, demodulate, low_pass
 from ragg_runtime.evaluate import EOTVOS, Record
 from ragg_runtime.whiten import stretches
 
@@ -56,8 +57,6 @@ def channels(
 
 def shortest_demodulated(rate: float) -> int:
     """Samples that a stretch must have for the demodulator's low-pass to fit, and leave something."""
-    from ragg_runtime.demodulate import low_pass
-
     return len(low_pass(rate)) + int(2 * rate)
 
 
@@ -90,3 +89,50 @@ def pooled(errors: list[Error], weights: list[float]) -> Error:
     squares = np.sum(counted * np.nan_to_num(values) ** 2, axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         return Error(*(float(v) for v in np.sqrt(squares / total)))
+
+
+class Tally:
+    """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
+
+    ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass
+    has seen nothing but selected samples.
+    """
+
+    def __init__(self, k: int, groups: int, rate: float) -> None:
+        self._taps = low_pass(rate)
+        self._tail = np.empty((k, 0))
+        self._tail_selected = np.empty((groups, 0), dtype=np.bool_)
+        self._tail_phi = np.empty(0)
+        self.samples = np.zeros(groups)
+        self.squares = np.zeros((groups, k))
+        self.demodulated = np.zeros(groups)
+        self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
+
+    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_]) -> None:
+        """Count in the next segment: residuals (k, N), V, disc angle (N,), selections (groups, N)."""
+        self.samples += np.sum(selected, axis=1)
+        self.squares += np.where(selected, 1.0, 0.0) @ (e**2).T
+        e = np.concatenate([self._tail, e], axis=1)
+        chosen = np.concatenate([self._tail_selected, selected], axis=1)
+        angle = np.concatenate([self._tail_phi, phi])
+        n = len(self._taps)
+        if e.shape[1] >= n:
+            seen = np.cumsum(np.pad(chosen.astype(np.int64), ((0, 0), (1, 0))), axis=1)
+            whole = np.where(seen[:, n:] - seen[:, :-n] == n, 1.0, 0.0)
+            self.demodulated += np.sum(whole, axis=1)
+            for c, carrier in enumerate((4 * np.sin(2 * angle), -2 * np.cos(2 * angle))):
+                x = oaconvolve(e * carrier, self._taps[None], mode="valid", axes=1)
+                self._sums[0, :, c] += whole @ x.T
+                self._sums[1, :, c] += whole @ (x**2).T
+        self._tail, self._tail_selected, self._tail_phi = e[:, -n + 1 :], chosen[:, -n + 1 :], angle[-n + 1 :]
+
+    def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
+        """The error object of one series; ``k_ggi`` in V/Eo."""
+        n, m = self.samples[group], self.demodulated[group]
+        rms = float(np.sqrt(self.squares[group, series] / n)) if n else float("nan")
+        i = c = float("nan")
+        if m > 1:
+            mean, square = self._sums[:, group, :, series] / m
+            i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
+        root = float(np.sqrt(CUTOFF))
+        return Error(rms, rms / k_ggi, i, c, i / root, c / root)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.evaluate import GRADIENTS, Record
+from ragg_runtime.segments import segments
 
 Array = NDArray[np.float64]
 
@@ -22,6 +23,7 @@ HIGHEST = 4
 
 _MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
+_RATES = tuple(f"d_a_{k}" for k in "xyz")
 _NOT_A_CHANNEL = frozenset({"spin_angle", *GRADIENTS})
 
 
@@ -39,23 +41,19 @@ class Term:
 
 
 class Dictionary:
-    """The terms that a record allows, and their series."""
+    """The terms that a flight allows, and their series over the flight or a part of it.
+
+    Of auxiliary channels and of time only the changes are physics here (their means are in the base), so
+    these enter less their means.
+    """
 
     def __init__(self, r: Record) -> None:
-        self._record = r
-        self._series: dict[str, Array] = {n: r.channels[n] for n in _MOTION if n in r.channels}
-        auxiliary = sorted(n for n in r.channels if n not in _MOTION and n not in _NOT_A_CHANNEL)
-        for name in auxiliary:  # only changes of an auxiliary are physics here: its mean is in the base
-            x = r.channels[name]
-            self._series[name] = x - np.mean(x[r.valid])
-        self._series["time"] = r.time - np.mean(r.time)
-        derivatives = [f"d_a_{k}" for k in "xyz"]
-        for name in derivatives:
-            rate = r.series(name)
-            if rate is not None:
-                self._series[name] = rate
-        self._series = {n: x for n, x in self._series.items() if np.ptp(x[r.valid]) > 0.0}
-        names = tuple(self._series)
+        centred = sorted(n for n in r.wide if n not in _MOTION and n not in _NOT_A_CHANNEL)
+        names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *_RATES]
+        found = _statistics(r, [n for n in names if n[:2] != "d_" or n[2:] in r.wide])
+        self._centre = {n: found[n].mean for n in (*centred, "time")}
+        self._size = {n: s.rms if n not in self._centre else s.spread for n, s in found.items() if s.varies}
+        names = [n for n in names if n in self._size]
         motion = [n for n in names if n in _MOTION]
         other = [n for n in names if n not in _MOTION]
         products: list[tuple[str, ...]] = [(), *((n,) for n in names)]
@@ -66,40 +64,86 @@ class Dictionary:
             Term(h, c) for c in products for h in harmonics() if h != "const" or c
         )
 
-    def series(self, term: Term) -> Array:
-        """(N,), SI (auxiliary channels less their mean)."""
-        x = _carrier(self._record, term.harmonic)
+    def size(self, term: Term) -> float:
+        """A fixed size of the term's series, SI: the product of its channels' root mean squares."""
+        return float(np.prod([self._size[n] for n in term.channels])) if term.channels else 1.0
+
+    def series(self, term: Term, r: Record) -> Array:
+        """(N,), SI, over a record of this flight."""
+        x = carrier(r, term.harmonic)
         for name in term.channels:
-            x = x * self._series[name]
+            x = x * self._channel(name, r)
         return x
 
-    def chunks(self, size: int = 128) -> Iterator[tuple[Sequence[Term], NDArray[np.float32]]]:
-        """The dictionary in pieces: terms and their series to unit rms, (len(terms), N)."""
-        products: dict[tuple[str, ...], Array] = {}
-        carriers = {h: _carrier(self._record, h) for h in harmonics()}
-        for start in range(0, len(self.terms), size):
-            part = self.terms[start : start + size]
-            x = np.empty((len(part), len(self._record.time)), dtype=np.float32)
+    def chunks(
+        self, r: Record, terms: Sequence[Term] | None = None, most: int = 128
+    ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
+        """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
+        chosen = self.terms if terms is None else terms
+        carriers = {h: carrier(r, h) for h in harmonics()}
+        channels = {n: np.where(r.valid, self._channel(n, r), 0.0) / self._size[n] for n in self._size}
+        product = np.ones(len(r.time))
+        of: tuple[str, ...] = ()
+        for start in range(0, len(chosen), most):
+            part = chosen[start : start + most]
+            x = np.empty((len(part), len(r.time)), dtype=np.float32)
             for n, t in enumerate(part):
-                if t.channels not in products:
-                    products = {t.channels: self.series(Term("const", t.channels))}
-                product = products[t.channels] * carriers[t.harmonic]
-                x[n] = product / self._rms(product)
-            yield part, x
+                if t.channels != of or not of:
+                    product, of = np.where(r.valid, 1.0, 0.0), t.channels
+                    for name in of:
+                        product = product * channels[name]
+                np.multiply(product, carriers[t.harmonic], out=x[n], casting="same_kind")
+            yield slice(start, start + len(part)), x
 
-    def _rms(self, x: Array) -> float:
-        return float(np.sqrt(np.mean(x[self._record.valid] ** 2))) or 1.0
+    def _channel(self, name: str, r: Record) -> Array:
+        x = r.time if name == "time" else r.series(name)
+        assert x is not None
+        return np.asarray(x - self._centre.get(name, 0.0))
 
-    def rms(self, term: Term) -> float:
-        """Root mean square of a term's series over the valid samples, SI."""
-        return self._rms(self.series(term))
+
+@dataclass(frozen=True)
+class _Statistics:
+    mean: float
+    rms: float
+    spread: float
+    varies: bool
+
+
+def _statistics(r: Record, names: Sequence[str]) -> dict[str, _Statistics]:
+    """Over the valid samples of a flight, a segment at a time."""
+    count = 0.0
+    first: dict[str, float] = {}
+    sums = {n: np.zeros(2) for n in names}
+    ends = {n: np.array([np.inf, -np.inf]) for n in names}
+    for s in segments(len(r.time)):
+        part = r.part(s.rows)
+        count += float(np.sum(part.valid))
+        for n in names:
+            x = part.time if n == "time" else part.series(n)
+            assert x is not None
+            x = x[part.valid]
+            if not len(x):
+                continue
+            y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost
+            sums[n] += (np.sum(y), y @ y)
+            ends[n] = np.array([min(ends[n][0], np.min(x)), max(ends[n][1], np.max(x))])
+    found = {}
+    for n in names:
+        mean, square = sums[n] / max(count, 1.0)
+        origin = first.get(n, 0.0)
+        spread = float(np.sqrt(max(0.0, square - mean**2)))
+        mean = float(mean + origin)
+        varies = bool(ends[n][1] > ends[n][0])
+        found[n] = _Statistics(mean, float(np.hypot(mean, spread)) or 1.0, spread or 1.0, varies)
+    return found
 
 
 def harmonics() -> tuple[str, ...]:
     return ("const", *(f"{f} {k}" for k in range(1, HIGHEST + 1) for f in ("cos", "sin")))
 
 
-def _carrier(r: Record, harmonic: str) -> Array:
+def carrier(r: Record, harmonic: str) -> Array:
+    """(N,): 1, cos(k phi) or sin(k phi)."""
     if harmonic == "const":
         return np.ones(len(r.time))
     kind, k = harmonic.split()

@@ -3,7 +3,10 @@
 With 1/f noise taken for white, a nominal 5 % test raises false alarms on nearly every effect-free record;
 so every column of every fit passes through the same whitening filter as the data. The filter is causal and
 finite: linear, hence exact on the columns however much larger than the noise they are, and a long record
-can be streamed through it.
+can be streamed through it. Samples that are not valid are put to zero, in data and columns alike, before
+they are filtered, and the filter starts from rest: both are linear and the same for all columns, so that
+what the model explains it explains before and after; only the noise next to a gap or to the start is not
+perfectly white.
 """
 
 from __future__ import annotations
@@ -18,6 +21,9 @@ from scipy import fft, interpolate, optimize, signal
 
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
+
+GROUP = 32
+"""Columns that are filtered at a time: enough for the threads, few enough for the cache's and memory's sake."""
 
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
@@ -139,20 +145,23 @@ def stretches(valid: NDArray[np.bool_], shortest: int) -> list[slice]:
     return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]
 
 
-def whiten(columns: Floats, taps: Array, valid: NDArray[np.bool_]) -> Floats:
-    """Filter columns (n, N) and keep the valid samples: (n, rows), in the columns' own precision.
+def filtered(columns: Floats, taps: Array, tail: Floats | None = None) -> Floats:
+    """Columns (n, N) through a causal FIR filter, in their own precision: (n, N).
 
-    Invalid samples are put to zero, in data and columns alike, before they are filtered, and the filter
-    starts from rest: both are linear and the same for all columns, so that what the model explains it
-    explains before and after; only the noise next to a gap or to the start is not perfectly white.
+    ``tail`` (n, T) holds the samples before them (none: the filter starts from rest).
     """
     n = columns.shape[1]
-    size = fft.next_fast_len(n + min(n, len(taps)) - 1, real=True)
-    gain = fft.rfft(taps[:n].astype(columns.dtype), size)
-    masked = columns
-    if not valid.all():
-        masked = columns.copy()
-        masked[:, ~valid] = 0.0
-    y = fft.irfft(fft.rfft(masked, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
-    kept = y[:, :n] if valid.all() else y[:, :n][:, valid]
-    return kept.astype(columns.dtype, copy=False)
+    before = 0 if tail is None else tail.shape[1]
+    if len(taps) == 1:
+        return np.asarray(columns * columns.dtype.type(taps[0]))
+    reach = min(before + n, len(taps))
+    size = fft.next_fast_len(max(before + n, n + reach - 1), real=True)
+    gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
+    result = np.empty_like(columns)
+    for start in range(0, len(columns), GROUP):
+        part = columns[start : start + GROUP]
+        if tail is not None:
+            part = np.concatenate([tail[start : start + GROUP], part], axis=1)
+        y = fft.irfft(fft.rfft(part, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
+        result[start : start + GROUP] = y[:, before : before + n]
+    return result

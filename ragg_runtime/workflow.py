@@ -173,8 +173,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
             extended,
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
-        nominal = _compare.nominal_residuals(after.fitted, with_values)
-        after = replace(after, nominal=after.fitted.error(nominal), residual_nominal=tuple(nominal))
+        after = after.with_nominal(with_values)
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",

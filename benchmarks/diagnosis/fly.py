@@ -16,10 +16,9 @@ from benchmarks.diagnosis import inject, outside, peers
 from benchmarks.diagnosis.inject import Bench, Hidden
 from benchmarks.diagnosis.plan import STRENGTH, Spec, scenario_of
 from ragg_runtime import compare, diagnose, extend, load
-from ragg_runtime.compare import FITTED_BLOCKS, Fitted
+from ragg_runtime.compare import Fitted
 from ragg_runtime.diagnose import Diagnosis
 from ragg_runtime.evaluate import output, record, vector
-from ragg_runtime.evidence.work import BLOCKS
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import EffectSetting, Instrument
 from ragg_runtime.load import Model
@@ -129,7 +128,7 @@ def prepared(spec: Spec) -> Prepared:
         sim = s.simulate(values, record_gradient=spec.gradient[1] == "recorded")
         flight = _with_sensor_noise(spec, s, sim)
     if spec.kind == "outside":
-        r = bench.work.observation.record
+        r = bench.piece.observation.record
         phi = np.arctan2(r.sin_phi, r.cos_phi)
         name = outside.NAMES[spec.index % len(outside.NAMES)]
         term = outside.drawn(bench, s, name, STRENGTH[spec.kind], phi)
@@ -189,7 +188,7 @@ def _two(spec: Spec, bench: Bench) -> tuple[tuple[Hidden, ...], tuple[str, ...]]
     for _ in range(_TRIES):
         first = str(rng.choice(inject.MOTION_RECORD if spec.index % 3 == 0 else known))
         second = str(rng.choice([e for e in known if e != first]))
-        instants = {e: float(bench.work.observation.record.time[-1] * 0.4) for e in (first, second)}
+        instants = {e: float(bench.piece.observation.record.time[-1] * 0.4) for e in (first, second)}
         pair = [
             inject.drawn(bench, e, strength, rng, bench.block(o, instants[o] if kinds[o] == "step" else None))
             for e, o in ((first, second), (second, first))
@@ -238,7 +237,6 @@ def _with_instants(sheet: Instrument, instants: Mapping[str, float]) -> Instrume
 
 def scored(f: Fitted) -> tuple[float, float]:
     """rms error, Eo, of a fitted model: calibrated, and on the blocks of time that a fit left out."""
-    rest = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
-    calibrated = f.error(f.residuals(np.zeros(f.n_base), ()))
     half, _ = f.coefficients((), held_out=True)
-    return calibrated.rms_Eo, f.error(f.residuals(half, ()), rest).rms_Eo
+    calibrated, held_out = f.score([np.zeros(f.size), f.vector(half)])
+    return calibrated.whole.rms_Eo, held_out.held_out.rms_Eo

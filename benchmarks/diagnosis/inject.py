@@ -18,12 +18,13 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design
+from ragg_runtime import design, gradient
 from ragg_runtime.compare import Fitted
 from ragg_runtime.design import Column
+from ragg_runtime.evidence import work
 from ragg_runtime.reference.effects import CATALOGUE
 from ragg_runtime.reference.simulate import Simulation
-from ragg_runtime.whiten import whiten
+from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
 
@@ -76,9 +77,15 @@ class Bench:
     def __init__(self, fitted: Fitted, simulation: Simulation) -> None:
         self.fitted = fitted
         self.simulation = simulation
-        self.work = fitted.works[0]
+        self.noise = fitted.flown[0].noise
+        (self.piece,) = fitted.flown[0].pieces()  # short flights are one piece
         self.columns = design.candidate_columns(fitted.model, fitted.instrument)
-        self._base = self.work.projection(fitted.n_base, ())
+        self._base = self.basis(())
+
+    def basis(self, given: Sequence[int]) -> Array:
+        """(rows, k): orthonormal basis of base and ``given`` candidate columns."""
+        f = self.fitted
+        return work.projector(f.triangles[0], f.n_base, given).basis(self.piece)
 
     def of(self, effect: str) -> list[int]:
         """Positions of an effect's columns among the candidates."""
@@ -90,17 +97,19 @@ class Bench:
 
     def whitened(self, series: Array) -> Array:
         """A change of G_out (N,) V as a row of the fit, base and unknown gradient projected out."""
-        w = self.work
-        row = whiten(series[None], w.noise.filters[0], w.observation.record.valid)
+        valid = self.piece.observation.record.valid
+        row = filtered(np.where(valid, series, 0.0)[None], self.noise.filters[0])[:, valid]
+        gradient.project(row, self.piece.windows)
         return self.projected(row)[0]
 
     def block(self, effect: str, instant: float | None = None) -> Array:
         """(n, rows): projected columns of an effect; of a step from its instant on."""
         at = self.of(effect)
         if instant is None:
-            return self.projected(self.work.columns[[self.fitted.n_base + n for n in at]])
-        on = self.work.observation.record.time >= instant
-        return np.stack([self.whitened(np.where(on, self.work.lin.candidates[n, 0], 0.0)) for n in at])
+            return self.projected(self.piece.white[[self.fitted.n_base + n for n in at]])
+        on = self.piece.observation.record.time >= instant
+        rows = self.piece.columns[self.fitted.n_base :, 0]
+        return np.stack([self.whitened(np.where(on, rows[n], 0.0)) for n in at])
 
 
 def drawn(
@@ -118,10 +127,10 @@ def drawn(
         return _jitter(bench, effect, strength)
     instant = None
     if kind == "step":
-        duration = bench.work.observation.record.time[-1]
+        duration = bench.piece.observation.record.time[-1]
         instant = float(duration * rng.uniform(0.15, 0.85))
     block = bench.block(effect, instant)
-    whole = bench.work.columns[[bench.fitted.n_base + n for n in bench.of(effect)]]
+    whole = bench.piece.white[[bench.fitted.n_base + n for n in bench.of(effect)]]
     own = [bench.columns[n] for n in bench.of(effect)]
     for _ in range(DIRECTIONS):
         weights = _direction(effect, own, rng)
@@ -186,7 +195,7 @@ def _values(effect: str, own: Sequence[Column], coefficients: Array) -> dict[str
 def _jitter(bench: Bench, effect: str, strength: float) -> Hidden | None:
     at = bench.of(effect)[0]
     c = bench.columns[at]
-    s2 = (bench.work.columns[bench.fitted.n_base + at] / c.scale) ** 2
+    s2 = (bench.piece.white[bench.fitted.n_base + at] / c.scale) ** 2
     sigma = float(np.sqrt(strength * np.sqrt(2.0 / np.sum((s2 - np.mean(s2)) ** 2))))
     size = design.EFFECT_PRIOR * sigma / c.scale
     return None if size > LARGEST else Hidden(effect, {"sigma_phi": sigma}, size, strength)
@@ -194,7 +203,7 @@ def _jitter(bench: Bench, effect: str, strength: float) -> Hidden | None:
 
 def _quantised(bench: Bench, strength: float) -> Hidden:
     rows = bench.fitted.calibration.rows
-    noise = bench.work.noise.models[0].rms
+    noise = bench.noise.models[0].rms
     q = float(noise * np.sqrt(12 * strength * np.sqrt(2 / rows)))
     return Hidden("quantisation", {"q": q}, float("nan"), strength)
 

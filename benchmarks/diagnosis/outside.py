@@ -137,7 +137,7 @@ def drawn(bench: Bench, scenario: Scenario, name: str, strength: float, phi: Arr
         k = scenario.instrument.accelerometers
         unit = combine((k["k_VI"] * k["K1"])[:, None] * TERMS[name](world))
     row = bench.whitened(unit)
-    everything = bench.work.projection(bench.fitted.n_base, range(len(bench.columns)))
+    everything = bench.basis(range(len(bench.columns)))
     alone = float(np.linalg.norm(row - everything @ (everything.T @ row)))
     factor = strength / alone
     return Outside(name, factor * unit, factor, strength, factor * float(np.linalg.norm(row)))

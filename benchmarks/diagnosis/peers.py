@@ -39,19 +39,19 @@ class Columns:
 
 def columns(f: Fitted, kinds: Sequence[str] = ("deterministic", "step")) -> Columns:
     """The candidate columns and the residual of one flight, base projected out, not whitened."""
-    w = f.works[0]
-    valid = w.observation.record.valid
-    base = w.lin.base[:, 0, valid]
-    if len(w.lin.nuisance):
-        base = np.concatenate([base, w.lin.nuisance[:, 0, valid]])
+    (piece,) = f.flown[0].pieces()  # short flights are one piece
+    valid = piece.observation.record.valid
+    whole_columns = piece.columns[:, 0, valid]
+    for w in piece.windows:  # an unknown gradient is projected out of everything
+        whole_columns[:, w.places] -= (whole_columns[:, w.places] @ w.raw) @ w.raw.T
+    base, y = whole_columns[: f.n_base], whole_columns[-1] / f.k_ggi
     norms = np.linalg.norm(base, axis=1)
     U, s, _ = np.linalg.svd((base[norms > 0] / norms[norms > 0, None]).T, full_matrices=False)
     U = U[:, s > 1e-9 * s[0]]
     usable = {e.id for e in f.model.candidates if e.kind in kinds}
     found = design.candidate_columns(f.model, f.instrument)
-    X = w.lin.candidates[:, 0, valid] / f.k_ggi
+    X = whole_columns[f.n_base : -1] / f.k_ggi
     whole = np.linalg.norm(X, axis=1)
-    y = w.lin.residual[0, valid] / f.k_ggi
     for _ in range(2):  # twice, for the rounding
         X = X - (X @ U) @ U.T
         y = y - U @ (U.T @ y)

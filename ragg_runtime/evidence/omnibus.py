@@ -2,28 +2,39 @@
 
 After the model and the chosen effects are projected out, every term of the dictionary is scored against
 what remains. The largest score of an effect-free record is known, so its significance is; terms are taken
-one by one (orthogonal matching pursuit) while the largest is significant.
+one by one (orthogonal matching pursuit) while the largest is significant. Scores and inner products are sums
+over the segments of a flight.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.calibrate import Noise
+from ragg_runtime import design, gradient
+from ragg_runtime.evidence.work import Flown, Projector
+from ragg_runtime.passes import Piece
 from ragg_runtime.terms import Dictionary, Term
-from ragg_runtime.whiten import whiten
+from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
 
 FAMILY = 0.01
 """Probability with which the whole dictionary of an effect-free record may raise a false alarm."""
 
 MOST_TERMS = 8
+
+SHORTLIST = 400
+"""Terms among which several are sought: those with the largest scores."""
+
+MEMORY = 16384
+"""Most taps of the filter that the dictionary is whitened with: a direction need not be the best one for its
+score to be a standard normal deviate, and slower memory than this buys little."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +43,14 @@ class Found:
 
     Attributes
     ----------
-    coefficient
+    coefficient, std
         V per SI unit of the product of channels.
     z
         Its significance when it was taken, in standard deviations.
     chi2
         What it explained then.
+    mean_square
+        Of the term in the residual, V^2 (about its mean, for const terms).
     """
 
     term: Term
@@ -45,98 +58,133 @@ class Found:
     std: float
     z: float
     chi2: float
+    mean_square: float
 
 
 @dataclass(frozen=True)
 class Omnibus:
-    """The search over one flight's dictionary: p-value of the largest score, and the terms taken."""
+    """The search over one flight's dictionary.
+
+    ``log_p`` belongs to the largest score of ``tried``; ``chi2`` is what the ``terms`` taken explain of
+    ``square``, the whitened residual's sum of squares.
+    """
 
     log_p: float
     tried: int
     terms: tuple[Found, ...]
     chi2: float
-    residual: Array
+    square: float
 
     @property
     def significant(self) -> bool:
         return bool(self.log_p < np.log(FAMILY))
 
 
-def search(
-    dictionary: Dictionary,
-    valid: NDArray[np.bool_],
-    noise: Noise,
-    weights: Array,
-    Q: Array,
-    residual: Array,
-    view: Callable[[Array], Array] | None = None,
-    most: int = MOST_TERMS,
-) -> Omnibus:
-    """Score the dictionary against a whitened residual.
+class Scores:
+    """Sums over segments of what the search needs of every term."""
 
-    Parameters
-    ----------
-    weights
-        (m,): how much of a term each output sees (for voltages every output is searched as one).
-    Q
-        (rows, k): what is projected out.
-    residual
-        (rows,): whitened, already projected.
-    view
-        What the recorder made of G_out before it was recorded (a demodulator), if anything.
-    """
-    series: list[tuple[Term, float]] = []
-    pieces: list[NDArray[np.float32]] = []
-    basis32 = Q.astype(np.float32)
-    for terms, x in dictionary.chunks():
-        if view is not None:
-            x = view(x.astype(np.float64)).astype(np.float32)
-        parts = []
-        for w, taps in zip(weights, noise.filters, strict=True):
-            parts.append(np.float32(w) * whiten(x, taps, valid))
-        X = np.concatenate(parts, axis=1)
-        before = np.linalg.norm(X, axis=1)
-        X -= (X @ basis32) @ basis32.T
-        after = np.linalg.norm(X, axis=1)
-        # in single precision a column that is nearly all in the base has no direction of its own left
-        good = after > 1e-3 * before
-        scale = np.where(good, after, np.float32(np.inf))
-        pieces.append((X / scale[:, None]).astype(np.float32))
-        series += list(zip(terms, scale, strict=True))
-    X = np.concatenate(pieces)
-    pieces.clear()
-    scales = np.array([s for _, s in series])
-    tried = int(np.sum(np.isfinite(scales)))
-    e = residual.astype(np.float32)
+    def __init__(self, flown: Flown, projector: Projector) -> None:
+        self.flown, self.projector = flown, projector
+        self.dictionary = Dictionary(flown.observation.record)
+        count = len(self.dictionary.terms)
+        self.dot = np.zeros(count)
+        self.along = np.zeros((count, len(projector.along)))
+        self.norm2 = np.zeros(count)
+        self.raw = np.zeros((2, count))
+        self.samples = 0
+        self.square = 0.0
+
+    def add(self, piece: Piece) -> None:
+        """Count one segment in."""
+        Q = self.projector.basis(piece)
+        y = self.projector.left(piece, Q)
+        self.square += float(y @ y)
+        self.samples += int(np.sum(piece.observation.record.valid))
+        right = np.column_stack([y, Q])
+        for at, x, X in self._whitened(piece, None):
+            inner = X.astype(np.float64) @ right
+            self.dot[at] += inner[:, 0]
+            self.along[at] += inner[:, 1:]
+            self.norm2[at] += np.einsum("ij,ij->i", X, X, dtype=np.float64)
+            self.raw[0, at] += np.sum(x, axis=1, dtype=np.float64)
+            self.raw[1, at] += np.einsum("ij,ij->i", x, x, dtype=np.float64)
+
+    def gram(self, places: Sequence[int]) -> Array:
+        """Inner products of some whitened terms, base projected out, by another pass over the flight."""
+        terms = [self.dictionary.terms[k] for k in places]
+        G = np.zeros((len(terms), len(terms)))
+        for piece in self.flown.pieces():
+            X = np.concatenate([X for _, _, X in self._whitened(piece, terms)])
+            G += X @ X.T
+        A = self.along[list(places)]
+        return G - A @ A.T
+
+    def _whitened(
+        self, piece: Piece, terms: Sequence[Term] | None
+    ) -> Iterator[tuple[slice, Singles, Singles]]:
+        """Places of some terms, their series over the piece, and these whitened, the unknown gradient projected out."""
+        o, whole = piece.observation, self.flown.observation
+        rows = piece.segment.rows
+        filters = [taps[:MEMORY] for taps in self.flown.noise.filters]
+        lead = min(rows.start, max(len(t) for t in filters) - 1)
+        wide = whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
+        valid = o.record.valid
+        for at, x in self.dictionary.chunks(wide, terms):
+            if o.kind == "channels":  # what the recorder made of G_out before it was recorded
+                x = design.narrow(x.astype(np.float64), wide).astype(np.float32)
+                x[:, ~wide.valid] = 0.0
+            parts = [
+                np.float32(w) * filtered(x, taps)[:, lead:][:, valid]
+                for w, taps in zip(o.weights, filters, strict=True)
+            ]
+            X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+            gradient.project(X, piece.windows)
+            yield at, x[:, lead:], X
+
+
+def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+    """The largest scores, one by one, while they are significant."""
+    left2 = s.norm2 - np.einsum("ij,ij->i", s.along, s.along)
+    # in single precision a column that is nearly all in the base has no direction of its own left
+    good = left2 > 1e-6 * s.norm2
+    norm = np.sqrt(np.where(good, left2, np.inf))
+    tried = int(np.sum(good))
+    z = s.dot / norm
+    first = _log_p(z, tried)
+    if first >= np.log(FAMILY):
+        return Omnibus(first, tried, (), 0.0, s.square)
+    places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
+    G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
+    score, left = z[places].copy(), np.ones(len(places))
+    directions: list[Array] = []  # components of every term along each direction taken
     taken: list[Found] = []
-    directions: list[Array] = []
-    left = np.ones(len(X))  # squared norm that remains of every unit column
-    score = (X @ e).astype(float)
-    log_p_first = 0.0
     chi2 = 0.0
-    for round_ in range(most + 1):
-        z = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
-        k = int(np.argmax(np.abs(z)))
-        log_p = min(0.0, float(stats.norm.logsf(abs(z[k]))) + np.log(2 * max(tried, 1)))
-        if round_ == 0:
-            log_p_first = log_p
-        if log_p >= np.log(FAMILY) or round_ == most:
+    while len(taken) < most:
+        now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
+        if _log_p(now, tried) >= np.log(FAMILY):
             break
-        q = X[k].astype(float)
-        for d in directions:
-            q -= d * (d @ q)
-        norm = float(np.linalg.norm(q))
-        q /= norm
-        directions.append(q)
-        along = (X @ q.astype(np.float32)).astype(float)
-        amount = float(q @ residual)
-        score -= along * amount
-        left -= along**2
+        k = int(np.argmax(np.abs(now)))
+        length = float(np.sqrt(left[k]))
+        along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
+        amount = float(score[k]) / length
+        directions.append(along)
+        score = score - along * amount
+        left = left - along**2
         chi2 += amount**2
-        term = series[k][0]
-        std = 1.0 / (float(scales[k]) * norm * dictionary.rms(term))
-        taken.append(Found(term, amount * std, std, float(z[k]), amount**2))
-    return Omnibus(log_p_first, tried, tuple(taken), chi2, residual)
+        place = int(places[k])
+        term = s.dictionary.terms[place]
+        std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
+        mean, square = s.raw[:, place] / max(s.samples, 1)
+        spread = square - mean**2 if term.harmonic == "const" else square
+        size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
+        taken.append(Found(term, amount * std, std, float(now[k]), amount**2, size2))
+    return Omnibus(first, tried, tuple(taken), chi2, s.square)
+
+
+def _log_p(z: Array, tried: int) -> float:
+    """p-value, as a logarithm, of the largest of so many standard normal deviates."""
+    top = float(np.max(np.abs(z), initial=0.0))
+    return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1))))
 
 
 def strongest(found: Sequence[Found]) -> list[Found]:

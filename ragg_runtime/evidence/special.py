@@ -15,8 +15,9 @@ from ragg_runtime import design
 from ragg_runtime.design import Column
 from ragg_runtime.evidence import likelihood
 from ragg_runtime.evidence.likelihood import Test
-from ragg_runtime.evidence.work import BLOCKS, Work
-from ragg_runtime.whiten import whiten
+from ragg_runtime.evidence.work import Flown
+from ragg_runtime.passes import Piece
+from ragg_runtime.segments import BLOCKS
 
 Array = NDArray[np.float64]
 
@@ -29,87 +30,118 @@ COARSE = 0.5
 
 @dataclass(frozen=True)
 class Step:
-    """The most likely instant of a step, s since the first sample, and its test."""
+    """The first sample after the most likely instant of a step, and its test, chosen from so many variants."""
 
-    instant: float
+    sample: int
     test: Test
     variants: int
 
 
 def best_step(
-    works: Sequence[Work],
+    triangles: Sequence[Array],
+    edges: Sequence[int],
     n_base: int,
     given: Sequence[int],
     columns: Sequence[tuple[int, Column]],
     prior: Array,
-) -> Step | None:
-    """Scan a step effect over the edges of the blocks of one flight.
+) -> Step:
+    """The edge between two stretches of time, of which each has a triangle, where a step explains most.
 
     ``columns`` are those of the effect acting all the time (positions after the base); ``given`` those of
-    effects already chosen; ``prior`` (n_base,) the prior's centre.
+    effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
     """
-    if len(works) != 1 or not columns:
-        return None
     fixed = [*range(n_base), *(n_base + n for n in given)]
     moving = [n_base + n for n, _ in columns]
-    picked = [design.triangle(t[:, [*fixed, *moving, t.shape[1] - 1]].T) for t in works[0].triangles]
-    k = len(fixed)
+    k, m = len(fixed), len(moving)
+    picked = [t[:, [*fixed, *moving, t.shape[1] - 1]] for t in triangles]
+    # The stretches after an edge count with the step's columns, those before it without.
+    after: list[Array] = [np.zeros((0, k + m + 1))]
+    for t in reversed(picked[1:]):
+        after.append(design.join([after[-1], t]))
+    before = np.zeros((0, k + m + 1))
     best: Step | None = None
-    for edge in range(1, BLOCKS):
-        stacked = []
-        for b, t in enumerate(picked):
-            if b < edge:
-                t = t.copy()
-                t[:, k : k + len(moving)] = 0.0
-            stacked.append(t)
-        T = likelihood.with_prior(np.vstack(stacked), n_base, prior)
-        P = likelihood.project(T, k)
-        own = [(n, c) for n, (_, c) in enumerate(columns)]
-        floor = np.full(len(own) + 1, likelihood.TESTABLE)
-        test = likelihood.test(P, own, floor, float(np.log(2 * BLOCKS)))
+    own = [(n, c) for n, (_, c) in enumerate(columns)]
+    floor = np.full(m + 1, likelihood.TESTABLE)
+    for n, edge in enumerate(edges):
+        off = picked[n].copy()
+        off[:, k : k + m] = 0.0
+        before = design.join([before, off])
+        T = likelihood.with_prior(np.vstack([before, after[len(edges) - n]]), n_base, prior)
+        test = likelihood.test(likelihood.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
         if best is None or test.log_p < best.test.log_p:
-            w = works[0]
-            best = Step(float(w.observation.record.time[w.edges[edge]]), test, 2 * BLOCKS)
+            best = Step(edge, test, 2 * BLOCKS)
+    assert best is not None
     return best
 
 
-def refine_step(
-    w: Work, Q: Array, residual: Array, rows: Array, instant: float, width: float, rounds: int = 4
-) -> float:
-    """Move the instant of a step to where it explains most.
-
-    ``rows`` (n, N) are the effect's columns in volts acting all the time; ``Q`` and ``residual`` the
-    projected-out basis and the whitened residual.
-    """
-    r = w.observation.record
-    taps = w.noise.filters[0]
-
-    def gain(t: float) -> float:
-        X = whiten(np.where(r.time >= t, rows, 0.0), taps, r.valid)
-        X = X - (X @ Q) @ Q.T
-        U, s, _ = np.linalg.svd(X.T, full_matrices=False)
-        U = U[:, s > 1e-6 * s[0]] if s[0] > 0 else U[:, :0]
-        return float(np.sum((U.T @ residual) ** 2))
-
-    for _ in range(rounds):
-        grid = np.linspace(instant - width, instant + width, 13)
-        instant = float(grid[int(np.argmax([gain(t) for t in grid]))])
-        width /= 5.0
-    return instant
+FINE = 192
+"""Stretches into which the neighbourhood of a step is divided in each round that looks for its instant."""
 
 
-def random_test(sensitivity: Array, residual: Array) -> Test:
-    """Whether the residual is larger where ``sensitivity`` is: a score test of the variance.
+def refined(
+    flown: Flown,
+    step: Step,
+    n_base: int,
+    given: Sequence[int],
+    columns: Sequence[tuple[int, Column]],
+    prior: Array,
+) -> Step:
+    """Move the instant of a step to the sample where it explains most."""
+    length = len(flown.observation.record.time)
+    reach = max(1, length // BLOCKS)
+    places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
+    moved = list(range(n_base + len(given), len(places)))
+    named = [(n - n_base, c) for n, (_, c) in zip(moved, columns, strict=True)]
+    while reach > 1:
+        low, high = max(1, step.sample - reach), min(length - 1, step.sample + reach)
+        edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
+        cuts = np.array([0, *edges, length])
+        triangles: list[Array | None] = [None] * (len(cuts) - 1)
+        for piece in flown.pieces():
+            X = piece.white[[*places, -1]]
+            which = np.searchsorted(cuts, piece.sample, side="right") - 1
+            for k in np.unique(which):
+                T = design.triangle(X[:, which == k])
+                before = triangles[k]
+                triangles[k] = T if before is None else design.join([before, T])
+        empty = np.zeros((len(places) + 1, len(places) + 1))
+        known = [empty if t is None else t for t in triangles]
+        step = best_step(known, [int(e) for e in edges], n_base, range(len(given)), named, prior)
+        reach = int(np.max(np.diff(edges), initial=1))
+    return step
 
-    Both (rows,) whitened; ``residual`` with model and chosen effects projected out.
-    """
-    s2 = sensitivity**2
-    s2 = s2 - np.mean(s2)
-    e2 = residual**2 / np.mean(residual**2) - 1.0
-    # the fourth moment of the residual itself, so that heavy tails raise no alarm
-    z = float(np.sum(s2 * e2) / np.sqrt(np.sum(s2**2) * np.mean(e2**2)))
-    log_p = float(stats.norm.logsf(z))
-    return Test(max(z, 0.0) ** 2, 1, log_p, (0,))
+
+class Variance:
+    """Sums over segments for a score test of a random effect: is the residual larger where it would show?"""
+
+    def __init__(self, place: int) -> None:
+        self.place = place
+        self.count = 0
+        self.sums = np.zeros(5)
+
+    def add(self, piece: Piece, residual: Array) -> None:
+        """Count in a segment; ``residual`` (rows,) is whitened, model and chosen effects projected out."""
+        s2, e2 = piece.white[self.place] ** 2, residual**2
+        self.count += len(e2)
+        self.sums += (np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2)
+
+    def test(self) -> Test:
+        """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
+        s2, e2, s4, e4, s2e2 = self.sums / max(self.count, 1)
+        spread, ratio = s4 - s2**2, e4 / e2**2 - 1.0
+        if spread <= 0.0 or ratio <= 0.0:
+            return Test(0.0, 0, 0.0, (0,))
+        z = float(np.sqrt(self.count) * (s2e2 / e2 - s2) / np.sqrt(spread * ratio))
+        return Test(max(z, 0.0) ** 2, 1, float(stats.norm.logsf(z)), (0,))
+
+
+def pooled(parts: Sequence[Variance]) -> Variance:
+    """The sums of several flights."""
+    whole = Variance(parts[0].place)
+    for p in parts:
+        whole.count += p.count
+        whole.sums += p.sums
+    return whole
 
 
 def saturation(G: Array, valid: NDArray[np.bool_]) -> tuple[float, NDArray[np.bool_]] | None:

@@ -1,114 +1,124 @@
-"""A flight prepared for diagnosis: whitened columns of model and candidates, and their triangles in time."""
+"""Flights prepared for diagnosis: triangles of whitened columns in blocks of time, and passes over the columns."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import design
-from ragg_runtime.calibrate import Calibration, Linearised, Noise, linearise, nuisance_basis, whitened
+from ragg_runtime.calibrate import Calibration
 from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
+from ragg_runtime.passes import Noise, Piece, Point, pieces
+from ragg_runtime.segments import BLOCKS, ROWS, block_edges
 
 Array = NDArray[np.float64]
 
-BLOCKS = 24
-"""Stretches of time of which each keeps a triangle of its own: for held-out time and for steps."""
-
 
 @dataclass(frozen=True)
-class Work:
+class Flown:
     """One flight about the calibrated parameters.
 
-    Attributes
-    ----------
-    lin
-        Residual and columns in volts.
-    columns
-        (n, rows): whitened base, candidates, residual.
-    sample
-        (rows,): the sample of the record that a whitened row ends at.
-    triangles
-        One triangle a block of time, of the same columns.
-    edges
-        (BLOCKS + 1,): samples at which the blocks begin and end.
-    nuisance
-        (rows, k): orthonormal basis of what was projected out of all columns, if anything was.
+    A short flight keeps its columns in memory; those of a longer one are computed anew in every pass.
     """
 
-    lin: Linearised
+    observation: Observation
     noise: Noise
-    columns: Array
-    sample: NDArray[np.intp]
-    triangles: tuple[Array, ...]
-    edges: NDArray[np.intp]
-    nuisance: Array | None
-
-    @cached_property
-    def gradient(self) -> Array | None:
-        """(m N valid, k): orthonormal basis of the unknown gradient before whitening, if there is one."""
-        if not len(self.lin.nuisance):
-            return None
-        valid = self.observation.record.valid
-        X = self.lin.nuisance[:, :, valid].reshape(len(self.lin.nuisance), -1)
-        return design.orthonormal(X)
-
-    def without_gradient(self, e: Array) -> Array:
-        """Take the fitted unknown gradient out of a residual (m, N): it is signal, not error."""
-        Q = self.gradient
-        if Q is None:
-            return e
-        valid = self.observation.record.valid
-        y = e[:, valid].reshape(-1)
-        left = e.copy()
-        left[:, valid] = (y - Q @ (Q.T @ y)).reshape(e.shape[0], -1)
-        return left
-
-    def projection(self, n_base: int, given: Sequence[int]) -> Array:
-        """(rows, k): basis of all that is projected out: unknown gradient, base, ``given`` candidates."""
-        taken = [*range(n_base), *(n_base + n for n in given)]
-        Q = basis(self.columns[taken])
-        return Q if self.nuisance is None else np.hstack([self.nuisance, Q])
+    at: Point
+    _kept: list[Piece] = field(default_factory=list, repr=False)
 
     @property
-    def observation(self) -> Observation:
-        return self.lin.observation
+    def edges(self) -> NDArray[np.intp]:
+        """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
+        return block_edges(len(self.observation.record.time))
+
+    def pieces(self, *, whitened: bool = True) -> Iterator[Piece]:
+        """One pass: the segments in order. Those of a long flight are only whitened if that is wanted."""
+        if self._kept:
+            yield from self._kept
+            return
+        keep = len(self.observation.record.time) <= ROWS
+        for piece in pieces(self.at, self.observation, self.noise if whitened or keep else self._unwhitened):
+            if keep:
+                self._kept.append(piece)
+            yield piece
+
+    @property
+    def _unwhitened(self) -> Noise:
+        return Noise(self.noise.models, (np.ones(1),) * len(self.noise.filters))
+
+    def released(self) -> Flown:
+        """The same without the columns."""
+        return replace(self, _kept=[])
 
 
-def basis(columns: Array) -> Array:
-    """(rows, k): orthonormal basis of whitened columns (n, rows) as far as the data determine them.
-
-    A direction that the data see worse than its prior of unit width is shrunk away by the prior: it
-    absorbs nothing, and is left out.
-    """
-    norms = np.linalg.norm(columns, axis=1)
-    U, s, _ = np.linalg.svd(columns[norms > 0].T, full_matrices=False)
-    return np.asarray(U[:, s > 1.0])
+def block_triangles(flown: Flown) -> tuple[Array, ...]:
+    """Triangles (n + 1, n + 1) of the whitened columns [base | candidates | residual], one a block of time."""
+    found: list[Array | None] = [None] * BLOCKS
+    size = 1
+    for piece in flown.pieces():
+        size = len(piece.white)
+        for b, rows in piece.segment.blocks:
+            inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
+            T = design.triangle(piece.white[:, inside])
+            before = found[b]
+            found[b] = T if before is None else design.join([before, T])
+    return tuple(np.zeros((size, size)) if t is None else t for t in found)
 
 
 def prepare(
     model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
-) -> list[Work]:
-    """Linearise and whiten every flight about the calibrated parameters."""
-    works = []
-    for o, noise in zip(observations, c.noise, strict=True):
-        lin = linearise(model, instrument, o, c.p, with_candidates=True)
-        Q = nuisance_basis(lin.nuisance, noise, o.record.valid)
-        w = whitened(lin, noise, Q)
-        edges = np.linspace(0, len(o.record.time), BLOCKS + 1).astype(np.intp)
-        block = np.clip(np.searchsorted(edges, w.sample, side="right") - 1, 0, BLOCKS - 1)
-        triangles = tuple(design.triangle(w.columns[:, block == k]) for k in range(BLOCKS))
-        works.append(Work(lin, noise, w.columns, w.sample, triangles, edges, Q))
-    return works
+) -> tuple[Flown, ...]:
+    """Every flight about the calibrated parameters."""
+    at = Point(model, instrument, c.p, with_candidates=True)
+    return tuple(Flown(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
 
 
 def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
     """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
     scale = np.array([q.scale for q in c.columns])
     return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
+
+
+@dataclass(frozen=True)
+class Projector:
+    """Takes whatever base and given columns can explain out of whitened rows.
+
+    Directions that the data see worse than their prior of unit width are shrunk away by the prior: they
+    absorb nothing, and are left out.
+
+    Attributes
+    ----------
+    taken
+        Places of the columns that are projected out.
+    to_basis
+        (len(taken), k): whitened columns (rows, len(taken)) times it are orthonormal over all rows.
+    along
+        (k,): the residual's components along the basis.
+    """
+
+    taken: NDArray[np.intp]
+    to_basis: Array
+    along: Array
+
+    def basis(self, piece: Piece) -> Array:
+        """(rows, k): the piece's rows of the orthonormal basis."""
+        return np.asarray(piece.white[self.taken].T @ self.to_basis)
+
+    def left(self, piece: Piece, Q: Array) -> Array:
+        """(rows,): the whitened residual less its components along the basis."""
+        return np.asarray(piece.white[-1] - Q @ self.along)
+
+
+def projector(triangles: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
+    """The projector onto base and ``given`` candidate columns, from the block triangles of a flight."""
+    taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
+    T = design.join([t[:, [*taken, t.shape[1] - 1]] for t in triangles])
+    U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
+    seen = s > 1.0
+    return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]))

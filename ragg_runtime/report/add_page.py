@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ragg_runtime import compare
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis
 from ragg_runtime.report import (
@@ -199,8 +198,6 @@ def _budget(after: Comparison) -> dict[str, Any]:
 
 
 def _still(after: Comparison) -> dict[str, Any]:
-    rows = panels.terms(
-        compare.terms_json(after.remainder, after.residual, after.fitted), after.calibrated.rms_Eo
-    )
+    rows = panels.terms(after.terms(), after.calibrated.rms_Eo)
     text = "No motion term stands out of what is left." if not rows else ""
     return {"text": text, "terms": rows, "figures": page.figures(panels.where_it_fails(after, "still"))}

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ragg_runtime import compare
 from ragg_runtime.compare import Comparison
 from ragg_runtime.report import figures, page, panels, parameters, series, words
 from ragg_runtime.report.page import Origin
@@ -78,7 +77,7 @@ def lead(c: Comparison) -> list[str]:
             f" the noise alone would give {words.number(noise.inline_Eo_per_rtHz)} and"
             f" {words.number(noise.cross_Eo_per_rtHz)}."
         )
-    found = compare.terms_json(c.remainder, c.residual, f)
+    found = c.terms()
     if found:
         t = found[0]
         z = abs(float(str(t["z"])))
@@ -90,7 +89,7 @@ def lead(c: Comparison) -> list[str]:
     if blocks and float(str(blocks[0]["over_noise"])) > 1.15:
         b = blocks[0]
         digits = 0 if float(str(b["to_s"])) - float(str(b["from_s"])) > 10.0 else 1
-        where = f" of {words.clean(str(b['flight']))}" if len(f.works) > 1 else ""
+        where = f" of {words.clean(str(b['flight']))}" if len(f.flown) > 1 else ""
         said.append(
             f"The worst stretch is from {words.fixed(float(str(b['from_s'])), digits)} to {words.fixed(float(str(b['to_s'])), digits)} s"
             f"{where}, with {words.number(float(str(b['rms_Eo'])))} Eo."
@@ -122,8 +121,8 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
             " with the noise’s one sigma dashed. Below: rms in each of 24 blocks of time.",
         )
     ]
-    if len(chosen) < len(f.works):
-        drawn[0]["caption"] += f" The {len(chosen)} worst of {len(f.works)} flights are drawn."
+    if len(chosen) < len(f.flown):
+        drawn[0]["caption"] += f" The {len(chosen)} worst of {len(f.flown)} flights are drawn."
     found.append({"title": "In time", "text": [], "figures": drawn})
     if spectra := panels.spectrum_panels(f, lines, chosen):
         svg = figures.spectra(spectra, "spectrum", "spectrum of the calibrated residual")
@@ -133,7 +132,7 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
         )
         found.append({"title": "Spectrum", "text": [], "figures": [page.figure(svg, caption)]})
     rest = panels.where_it_fails(c, "where")
-    rows = panels.terms(compare.terms_json(c.remainder, c.residual, f), c.calibrated.rms_Eo)
+    rows = panels.terms(c.terms(), c.calibrated.rms_Eo)
     text = [] if rows else ["No motion term stands out of the residual."]
     found.append({"title": "Where it fails", "text": text, "figures": page.figures(rest), "terms": rows})
     if shown := panels.channel_panels(f, c.residual, chosen):

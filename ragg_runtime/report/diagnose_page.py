@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime import compare
 from ragg_runtime.compare import Fitted
 from ragg_runtime.diagnose import Diagnosis, Ranked
 from ragg_runtime.evidence import search
@@ -218,12 +217,12 @@ def physics(d: Diagnosis) -> list[dict[str, str]]:
 def unexplained(d: Diagnosis) -> dict[str, Any]:
     """Where the remainder lives, in no effect's name."""
     f = d.final or d.fitted
-    rows = panels.terms(compare.terms_json(d.remainder, d.residual_after, f), d.after.rms_Eo)
+    rows = panels.terms(d.terms(), d.after.rms_Eo)
     return {
         "share": words.percent(d.remainder_share),
         "p": words.probability(d.remainder.log_p),
         "terms": rows,
-        "figures": page.figures(panels.remainder_figures(f, d.residual_after, rows, "remainder")),
+        "figures": page.figures(panels.remainder_figures(f, d.coefficients, rows, "remainder")),
     }
 
 
@@ -255,8 +254,8 @@ def _sections(d: Diagnosis) -> list[dict[str, Any]]:
         drawn.append(page.figure(svg, caption))
     svg = figures.in_blocks(panels.time_panels(f, lines, chosen), "blocks", "error in blocks of time")
     caption = "Error in 24 blocks of time before demodulation."
-    if len(chosen) < len(f.works):
-        caption += f" The {len(chosen)} worst of {len(f.works)} flights are drawn."
+    if len(chosen) < len(f.flown):
+        caption += f" The {len(chosen)} worst of {len(f.flown)} flights are drawn."
     drawn.append(page.figure(svg, caption))
     title = "The residual before and after" if changed else "The residual"
     return [{"title": title, "text": [], "figures": drawn}]

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import compare
-from ragg_runtime.compare import FITTED_BLOCKS, Comparison, Fitted
+from ragg_runtime.compare import Comparison, Fitted
 from ragg_runtime.demodulate import CUTOFF, WIDTH
-from ragg_runtime.evidence.work import BLOCKS
 from ragg_runtime.metrics import Error
 from ragg_runtime.report import barcharts, draw, series, words
 from ragg_runtime.report.barcharts import Bar
@@ -40,7 +39,7 @@ def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequ
     """Envelope of the last residual of ``lines``, blocks of time of all."""
     found = []
     for n in chosen:
-        w = f.works[n]
+        w = f.flown[n]
         r = w.observation.record
         rows, edges = [], r.time
         for line, residuals in lines:
@@ -57,7 +56,7 @@ def spectrum_panels(
     """Spectra of each residual, and the noise of ``f``; flights without a long enough stretch are left out."""
     found = []
     for n in chosen:
-        w = f.works[n]
+        w = f.flown[n]
         r = w.observation.record
         drawn = []
         for line, residuals in lines:
@@ -77,10 +76,10 @@ def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> li
     series_of = compare.demodulated(f, residuals)
     for n in chosen:
         time, *both = series_of[n]
-        w = f.works[n]
+        w = f.flown[n]
         if not len(time):
             continue
-        several = f" — {w.observation.name}" if len(f.works) > 1 else ""
+        several = f" — {w.observation.name}" if len(f.flown) > 1 else ""
         for title, x, amplitude in (("inline", both[0], 4.0), ("cross", both[1], 2.0)):
             noise = series.demodulated_noise(w, f.k_ggi, f.instrument.spin_frequency, 2, amplitude)
             # four samples a cycle of the low-pass's edge draw the whole of it
@@ -90,12 +89,12 @@ def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> li
     return found
 
 
-def harmonic_bars(f: Fitted, residuals: Residuals) -> list[Bar]:
+def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
-    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in compare.harmonic_errors(f, residuals)}
+    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in compare.harmonic_errors(f, coefficients)}
     noise = series.harmonic_noise(f) if rows else {}
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
-    seconds = sum(float(w.observation.record.time[-1]) for w in f.works)
+    seconds = sum(float(w.observation.record.time[-1]) for w in f.flown)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
     return [Bar(words.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows]
 
@@ -142,8 +141,7 @@ def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> E
 def holdout_before(f: Fitted) -> Error:
     """Held-out error of the model without further effects, as :func:`ragg_runtime.compare.compare` makes it."""
     half, _ = f.coefficients((), held_out=True)
-    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
-    return f.error(f.residuals(half, ()), scored)
+    return f.score([f.vector(half)])[0].held_out
 
 
 def facts(f: Fitted) -> list[tuple[str, str]]:
@@ -170,19 +168,19 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
 
 def where_it_fails(c: Comparison, key: str) -> list[dict[str, str]]:
     """Figures of harmonics and of motion terms of a comparison's residual; ``key`` begins their ids."""
-    return remainder_figures(c.fitted, c.residual, terms(_terms_of(c), c.calibrated.rms_Eo), key)
+    return remainder_figures(c.fitted, np.zeros(c.fitted.size), terms(_terms_of(c), c.calibrated.rms_Eo), key)
 
 
 def _terms_of(c: Comparison) -> list[dict[str, object]]:
-    return compare.terms_json(c.remainder, c.residual, c.fitted)
+    return c.terms()
 
 
 def remainder_figures(
-    f: Fitted, residuals: Residuals, rows: Sequence[Mapping[str, Any]], key: str
+    f: Fitted, coefficients: Array, rows: Sequence[Mapping[str, Any]], key: str
 ) -> list[dict[str, str]]:
     """The same of any residual."""
     found = []
-    bars = harmonic_bars(f, residuals)
+    bars = harmonic_bars(f, coefficients)
     if bars:
         label = "error by harmonic of the spin"
         caption = (

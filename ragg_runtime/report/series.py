@@ -12,7 +12,8 @@ from scipy import signal
 from ragg_runtime.compare import Fitted
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import noise_gain
-from ragg_runtime.evidence.work import BLOCKS, Work
+from ragg_runtime.evidence.work import Flown
+from ragg_runtime.segments import BLOCKS
 from ragg_runtime.terms import harmonics
 from ragg_runtime.whiten import stretches
 
@@ -87,12 +88,12 @@ def _binned(f: Array, psd: Array, points: int) -> Spectrum:
     return Spectrum(mean[:, 0], np.sqrt(mean[:, 1]))
 
 
-def noise_density(w: Work, k_ggi: float, spin: float, f: Array) -> Array:
+def noise_density(w: Flown, k_ggi: float, spin: float, f: Array) -> Array:
     """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
     return np.asarray(np.sqrt(_noise_psd(w, spin, f)) / k_ggi)
 
 
-def _noise_psd(w: Work, spin: float, f: Array) -> Array:
+def _noise_psd(w: Flown, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
     psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
     if w.observation.kind != "channels":
@@ -102,13 +103,13 @@ def _noise_psd(w: Work, spin: float, f: Array) -> Array:
     return np.asarray(psd * np.abs(H) ** 2)
 
 
-def noise_rms(w: Work, k_ggi: float) -> float:
+def noise_rms(w: Flown, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
     share = noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
     return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 
-def demodulated_noise(w: Work, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
+def demodulated_noise(w: Flown, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
     """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise), as the demodulator makes it.
 
     A one-sided density S of the noise moves by the carrier to both sides, a quarter of amplitude^2 each.
@@ -126,7 +127,7 @@ def demodulated_noise(w: Work, k_ggi: float, spin: float, multiple: int, amplitu
 def channel_noise(f: Fitted) -> tuple[float, float]:
     """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
     spin = f.instrument.spin_frequency
-    values = [[demodulated_noise(w, f.k_ggi, spin, 2, a) for a in (4.0, 2.0)] for w in f.works if _long(w)]
+    values = [[demodulated_noise(w, f.k_ggi, spin, 2, a) for a in (4.0, 2.0)] for w in f.flown if _long(w)]
     if not values:
         return float("nan"), float("nan")
     inline, cross = np.sqrt(np.mean(np.square(values), axis=0))
@@ -136,7 +137,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
 def harmonic_noise(f: Fitted) -> dict[str, float]:
     """The same at every harmonic of :func:`ragg_runtime.compare.harmonic_errors`, Eo."""
     spin = f.instrument.spin_frequency
-    works = [w for w in f.works if _long(w)]
+    works = [w for w in f.flown if _long(w)]
     found = {}
     for h in harmonics():
         k = 0 if h == "const" else int(h.split()[1])
@@ -145,12 +146,12 @@ def harmonic_noise(f: Fitted) -> dict[str, float]:
     return found
 
 
-def _long(w: Work) -> bool:
+def _long(w: Flown) -> bool:
     r = w.observation.record
     return len(r.time) >= 2 * len(low_pass(r.rate))
 
 
-def blocks(w: Work, residual: Array, k_ggi: float) -> tuple[Array, Array]:
+def blocks(w: Flown, residual: Array, k_ggi: float) -> tuple[Array, Array]:
     """Edges (BLOCKS + 1,) s and rms (BLOCKS,) Eo of a residual in the blocks of time (NaN: no valid sample)."""
     r = w.observation.record
     edges = r.time[np.minimum(w.edges, len(r.time) - 1)]
@@ -180,7 +181,7 @@ def runs(x: Array) -> list[slice]:
 def worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
     ratio = []
-    for w, e in zip(f.works, residuals, strict=True):
+    for w, e in zip(f.flown, residuals, strict=True):
         v = w.observation.record.valid
         ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / noise_rms(w, 1.0))
     return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])

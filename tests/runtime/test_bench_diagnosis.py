@@ -58,10 +58,10 @@ def test_what_is_outside_keeps_its_strength_beyond_the_catalogue(
     name: str, flown: tuple[Scenario, Bench]
 ) -> None:
     s, bench = flown
-    r = bench.work.observation.record
+    r = bench.piece.observation.record
     term = outside.drawn(bench, s, name, 10.0, np.arctan2(r.sin_phi, r.cos_phi))
     row = bench.whitened(term.change)
-    Q = bench.work.projection(bench.fitted.n_base, range(len(bench.columns)))
+    Q = bench.basis(range(len(bench.columns)))
     assert np.linalg.norm(row - Q @ (Q.T @ row)) == pytest.approx(10.0, rel=1e-6)
     assert term.strength_with_mimics >= 10.0
 

@@ -278,12 +278,12 @@ def test_missing_effect_is_named_with_its_size_and_its_ambiguity(cubic: Case) ->
 
 def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     d = replace(cubic.diagnosis, verdict="unexplained", found=(), remainder=cubic.comparison.remainder)
-    d = replace(d, residual_after=d.residual, after=d.before, final=None)
+    d = replace(d, target=d.fitted, coefficients=np.zeros(d.fitted.size), scored=cubic.comparison.scored)
     assert d.remainder.significant
     page = Page(report.diagnose_html(d, **ORIGIN))
     assert "no known effect accounts for" in page.text
     assert "The model lacks" not in page.text
-    best = compare.terms_json(d.remainder, d.residual, d.fitted)[0]
+    best = d.terms()[0]
     assert words.product(str(best["term"])) in page.text
 
 
@@ -361,7 +361,7 @@ def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
 def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> None:
     """Against the demodulator itself, on noise drawn with the estimated density."""
     f = clean.comparison.fitted
-    w = f.works[0]
+    w = f.flown[0]
     rng = np.random.default_rng(5)
     n = 1 << 17
     frequency = np.fft.rfftfreq(n, 1 / RATE)
@@ -379,9 +379,9 @@ def test_clean_residual_has_the_noise_of_the_bars_at_every_harmonic(clean: Case)
     f = clean.comparison.fitted
     expected = series.harmonic_noise(f)
     assert len(expected) == 9
-    for row in compare.harmonic_errors(f, clean.comparison.residual):
+    for row in compare.harmonic_errors(f, np.zeros(f.size)):
         assert float(str(row["rms_Eo"])) == pytest.approx(expected[str(row["harmonic"])], rel=0.3)
-    assert not any(b.strong for b in panels.harmonic_bars(f, clean.comparison.residual))
+    assert not any(b.strong for b in panels.harmonic_bars(f, np.zeros(f.size)))
 
 
 def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> None:
@@ -430,7 +430,7 @@ def test_no_line_is_drawn_over_a_gap() -> None:
 
 def test_blocks_are_those_of_the_comparison(cubic: Case) -> None:
     c = cubic.comparison
-    _, rms = series.blocks(c.fitted.works[0], c.residual[0], c.fitted.k_ggi)
+    _, rms = series.blocks(c.fitted.flown[0], c.residual[0], c.fitted.k_ggi)
     assert np.nanmax(rms) == pytest.approx(float(str(c.by_time()[0]["rms_Eo"])))
 
 

@@ -1,0 +1,59 @@
+"""A flight in pieces that fit into memory: whatever its length, work is done on one segment after the other.
+
+A flight is divided into ``BLOCKS`` blocks of time (for held-out time and for steps). Segments are whole
+blocks, or equal parts of a long one, of at most ``ROWS`` samples; what a filter remembers of the segment
+before is carried over, so that the division leaves no trace in any figure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+BLOCKS = 24
+"""Stretches of time of which each keeps a triangle of its own."""
+
+ROWS = 32768
+"""Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Samples ``rows`` of a flight, in runs of the blocks of time: (block, its rows in the flight)."""
+
+    rows: slice
+    blocks: tuple[tuple[int, slice], ...]
+
+
+def block_edges(samples: int) -> NDArray[np.intp]:
+    """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
+    return np.linspace(0, samples, BLOCKS + 1).astype(np.intp)
+
+
+def segments(samples: int, most: int = ROWS) -> list[Segment]:
+    """The segments of a flight, in order."""
+    edges = [int(e) for e in block_edges(samples)]
+    found: list[Segment] = []
+    waiting: list[tuple[int, slice]] = []
+    for b in range(BLOCKS):
+        for part in _parts(edges[b], edges[b + 1], most):
+            if waiting and part.stop - waiting[0][1].start > most:
+                found.append(_joined(waiting))
+                waiting = []
+            waiting.append((b, part))
+    return [*found, _joined(waiting)]
+
+
+def _parts(start: int, stop: int, most: int) -> Iterator[slice]:
+    count = max(1, -(-(stop - start) // most))
+    edges = np.linspace(start, stop, count + 1).astype(np.intp)
+    for a, b in pairwise(edges):
+        yield slice(int(a), int(b))
+
+
+def _joined(parts: list[tuple[int, slice]]) -> Segment:
+    return Segment(slice(parts[0][1].start, parts[-1][1].stop), tuple(parts))
