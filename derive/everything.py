@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from derive import audit, pages, tree
+import sympy
+
+from derive import audit, pages, pipeline, tree
 from derive.pipeline import derive_base
 from derive.simplify.page import page as simplified_page
 
-GENERATED = "generated"
+GENERATED, MANIFEST = "generated", "manifest.json"
 
 
 def folders() -> Mapping[str, Mapping[str, str]]:
@@ -26,13 +29,43 @@ def below(root: Path) -> Mapping[str, Mapping[str, str]]:
 
 
 def difference(root: Path) -> str:
-    """Empty if everything below ``root`` is as derived; else the diff."""
+    """Empty if everything below ``root`` is as derived; else the diff.
+
+    The version of SymPy in the manifest does not count: another one may well yield the same code.
+    """
     parts = []
     for folder, files in below(root).items():
+        if folder == GENERATED:
+            files = {**files, MANIFEST: _with_version(files[MANIFEST], committed_with(root))}
         found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
         if found:
             parts.append(f"{folder}/ differs from the derivation:\n{found}")
     return "\n".join(parts)
+
+
+def committed_with(root: Path) -> str:
+    """The version of SymPy that the code below ``root`` was derived with; that of this machine if none is told."""
+    try:
+        found = json.loads((root / GENERATED / MANIFEST).read_text("utf-8"))["sympy"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return str(sympy.__version__)
+    return found if isinstance(found, str) else str(sympy.__version__)
+
+
+def about_versions(root: Path) -> str | None:
+    """What to know where SymPy is another than the one that the code below ``root`` was derived with."""
+    here, there = str(sympy.__version__), committed_with(root)
+    if here == there:
+        return None
+    return (
+        f"SymPy is {here} here, and the code was derived with {there}: another SymPy may write the same terms in "
+        "another order. Whether it is only that, the 50-digit gate says: ragg derive, then "
+        "python -m pytest tests/generated. For the same bytes install the versions of requirements.lock"
+    )
+
+
+def _with_version(manifest: str, version: str) -> str:
+    return pipeline.manifest_text(json.loads(manifest) | {"sympy": version})
 
 
 def _concerns(root: Path, folder: str) -> bool:

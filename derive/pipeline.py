@@ -86,5 +86,10 @@ def _complete(
         "models": {m.name: ir.manifest_of_model(m) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }
-    files["manifest.json"] = json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+    files["manifest.json"] = manifest_text(manifest)
     return dict(sorted(files.items()))
+
+
+def manifest_text(manifest: Mapping[str, object]) -> str:
+    """A manifest as it stands in the file."""
+    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"

@@ -88,16 +88,20 @@ def derive(out: Path | None, check: bool) -> None:
     root = out if out is not None else Path(str(everything.__file__)).parents[1]
     settle(root)
     if check:
-        found = everything.difference(root)
+        found, versions = everything.difference(root), everything.about_versions(root)
         if found:
             raise UserError(
                 "the committed code does not match the derivation",
                 where=root,
                 found="\n" + found,
                 expected="the same files, byte for byte",
-                remedy="run: make derive   (or: ragg derive), look at the change, and commit it",
+                remedy=versions or "run: make derive   (or: ragg derive), look at the change, and commit it",
             )
         click.echo("The committed code is what the derivation yields, byte for byte.")
+        if versions:
+            click.echo(
+                f"note: it was derived with SymPy {everything.committed_with(root)}, and is the same here"
+            )
         return
     changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
     for name in changed:
