@@ -1,20 +1,64 @@
-"""Measurements of speed: every module with a function ``run() -> list[Row]`` is one.
+"""Measurements of speed. A benchmark is a module of this package with a function ``run() -> list[Row]``.
 
-``python -m benchmarks`` runs all of them, prints a table and writes JSON to ``benchmarks/results/``;
-``python -m benchmarks derivation`` runs one. Ratios are taken within one run, on one machine.
+To add one, write ``benchmarks/<name>.py``::
+
+    from benchmarks import Row
+    from benchmarks.timing import against_fixed_peer
+
+    def run() -> list[Row]:
+        flight = ...                                       # set up, not timed
+        return against_fixed_peer({"diagnose, 30 min": lambda: diagnose(flight)}, repeats=3)
+
+Nothing has to be registered. ``python -m benchmarks [NAME ...]`` runs all benchmarks or those named, each in a
+process of its own (so import heavy things inside ``run``; ``ENVIRONMENT``, a mapping, adds to the
+environment of that process), prints tables, and keeps ``build/bench.json``; a run of all of them writes
+``docs/benchmarks.md`` too. All together must stay below 10 minutes (``make bench``).
+
+What a row should be: a time or a rate, with its spread, and beside it the *ratio to something fixed, measured
+interleaved in the same run* (``timing.interleaved``): a peer, or ``timing.fixed_peer``. Ratios (unit "x") are
+what is compared from run to run, since machines and their load differ: ``benchmarks/last.json`` holds those
+of the last run that was committed, and every run prints the change.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+RATIO = "x"
+"""The unit of a ratio: what is compared from one run to the next."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """One measured number. ``target``: what it is held against, in words; ``None`` if nothing."""
+    """One measured number.
+
+    Attributes
+    ----------
+    name, value, unit
+        ``value`` is the median over repetitions, if there are any; ``unit`` is "x" (or empty) for a ratio.
+    note
+        How it was measured, if the name does not say it.
+    target
+        What it is held against, in words; ``None`` if nothing.
+    low, high
+        Spread over the repetitions (lower and upper quartile).
+    better
+        Whether a lower or a higher value is better: then a change for the worse is marked.
+    met
+        Whether the target is met, where that can be said.
+    """
 
     name: str
     value: float
     unit: str
     note: str = ""
     target: str | None = None
+    low: float | None = None
+    high: float | None = None
+    better: Literal["lower", "higher"] | None = None
+    met: bool | None = None
+
+    @property
+    def ratio(self) -> bool:
+        return self.unit in ("", RATIO)
