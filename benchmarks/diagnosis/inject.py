@@ -7,7 +7,8 @@ effect-free flight of the same seed. Effects that are no column of a fit:
 - gain-step: the column of the scale factor, from a random instant on;
 - spin-rate-jitter: the expected score, in sigmas, of the test of the variance;
 - quantisation: the growth of the residual's variance by q^2/12, in sigmas of its estimate;
-- saturation: the norm of the whitened and projected change of G_out, the limit found by bisection.
+- saturation: the norm of the whitened and projected change of G_out, the limit found by bisection; but at least
+  ten samples are clipped (a single one may stand ten sigmas high).
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ LONGEST_LAG = 0.03
 
 DIRECTIONS = 6
 """Directions of an effect's parameters that are tried before it counts as untestable on a flight."""
+
+CLIPPED = 10
+"""Least number of samples that a hidden saturation clips."""
 
 MOTION_RECORD = ("time-offset", "imu-lever-arm", "imu-misalignment", "gyro-scale")
 
@@ -210,12 +214,14 @@ def _quantised(bench: Bench, strength: float) -> Hidden:
 
 def _saturated(bench: Bench, strength: float) -> Hidden:
     G = bench.simulation.G_out
-    low, high = 0.0, float(np.max(np.abs(G)))
+    low, high = 0.0, float(np.sort(np.abs(G))[-CLIPPED])
     for _ in range(40):
         middle = (low + high) / 2
         change = float(np.linalg.norm(bench.whitened(np.clip(G, -middle, middle) - G)))
         low, high = (middle, high) if change > strength else (low, middle)
-    return Hidden("saturation", {"V_max": (low + high) / 2}, float("nan"), strength)
+    limit = (low + high) / 2
+    reached = float(np.linalg.norm(bench.whitened(np.clip(G, -limit, limit) - G)))
+    return Hidden("saturation", {"V_max": limit}, float("nan"), reached)
 
 
 def twins(bench: Bench, hidden: Hidden, chi2: float = 9.0) -> list[str]:

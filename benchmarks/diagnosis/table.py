@@ -130,8 +130,8 @@ the derivation of the extended model and its nonlinear check.
 
 - stepwise BIC: forward ordinary least squares.
 - lasso: `sklearn.linear_model.LassoLarsIC(criterion="bic")`; effects ranked by coefficient.
-- PySINDy: `SINDy(optimizer=SSR(alpha=10), feature_library=IdentityLibrary())`, its sparsity chosen by BIC. (`STLSQ` did worse:
-  it begins with all columns at once, which are nearly collinear.)
+- PySINDy: `SINDy(optimizer=SSR(alpha=10), feature_library=IdentityLibrary())` on the triangular factor of the columns (the same normal
+  equations), its sparsity chosen by BIC. (`STLSQ` did worse: it begins with all columns at once, which are nearly collinear.)
 - FROLS: `sysidentpy.model_structure_selection.FROLS`, degree 1, no lags, order by BIC.
 """
     )
@@ -269,6 +269,6 @@ def _conditions(lines: Sequence[Line]) -> str:
   effects one of them is.
 - Strength of effects that are no column: gain-step by its column from a random instant on; spin-rate-jitter by the expected score of the
   test of the variance; quantisation by the growth of the residual's variance (q^2/12) in sigmas of its estimate; saturation by the
-  whitened change of G_out.
+  whitened change of G_out, with at least ten samples clipped.
 - Versions of the sources (digest: flights): {", ".join(f"{k}: {n}" for k, n in sorted(versions.items()))}.
 """
