@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import signal
 import time
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from types import MappingProxyType
+from types import FrameType, MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,15 +35,35 @@ _SENSORS = {"a": 1e-6, "omega": 1e-7, "omegadot": 1e-6}
 
 _TRIES = 60
 
+LONGEST = 60.0
+"""s of processor time for one flight; usual are three."""
+
 
 def fly(spec: Spec) -> dict[str, object]:
     """The record of one flight; a crash is a result too."""
     begin = time.perf_counter()
     try:
-        found = _flown(spec)
+        with _limited(LONGEST):
+            found = _flown(spec)
     except Exception:
         found = {"crash": traceback.format_exc()}
     return found | {"total_seconds": round(time.perf_counter() - begin, 2)}
+
+
+@contextmanager
+def _limited(seconds: float) -> Iterator[None]:
+    """Raise TimeoutError once this process has used so much time of its processor."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise TimeoutError(f"no end after {seconds:g} s of processor time")
+
+    old = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, old)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from benchmarks.diagnosis import __main__ as command
-from benchmarks.diagnosis import inject, outside, peers, plan, score, table
+from benchmarks.diagnosis import fly, inject, outside, peers, plan, score, table
 from benchmarks.diagnosis.inject import Bench
 from ragg_runtime import compare, load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -195,6 +195,16 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
     assert not command.finished(iter(lines), specs, "another version")
     assert not command.finished(iter([x | {"plan": "changed"} for x in lines]), specs, None)
     assert not (tmp_path / "page.md").exists()  # not complete
+
+
+def test_a_flight_without_end_is_a_crash(monkeypatch: pytest.MonkeyPatch) -> None:
+    def endless(spec: plan.Spec) -> dict[str, object]:
+        while True:
+            pass
+
+    monkeypatch.setattr(fly, "_flown", endless)
+    monkeypatch.setattr(fly, "LONGEST", 0.2)
+    assert "TimeoutError" in str(fly.fly(plan.spec("two", 0))["crash"])
 
 
 def test_the_plan_is_large_enough_and_always_the_same() -> None:
