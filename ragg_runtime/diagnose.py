@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
@@ -149,7 +150,7 @@ class Diagnosis:
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
-        found = [t for s in self.remainder.searches for t in s.terms]
+        found = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
         if not found:
             return None
         term = max(found, key=lambda t: abs(t.z)).term
@@ -176,20 +177,19 @@ class Diagnosis:
 
 
 def _carrier_text(harmonic: str) -> tuple[str, ...]:
-    """A harmonic of the disc angle as polynomials in cos_phi and sin_phi."""
+    """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
     if harmonic == "const":
         return ()
-    kind, k = harmonic.split()
-    return {
-        ("cos", "1"): ("cos_phi",),
-        ("sin", "1"): ("sin_phi",),
-        ("cos", "2"): ("(cos_phi**2 - sin_phi**2)",),
-        ("sin", "2"): ("2", "sin_phi", "cos_phi"),
-        ("cos", "3"): ("(4*cos_phi**3 - 3*cos_phi)",),
-        ("sin", "3"): ("(3*sin_phi - 4*sin_phi**3)",),
-        ("cos", "4"): ("(8*cos_phi**4 - 8*cos_phi**2 + 1)",),
-        ("sin", "4"): ("4", "sin_phi", "cos_phi", "(cos_phi**2 - sin_phi**2)"),
-    }[kind, k]
+    kind, multiple = harmonic.split()
+    k = int(multiple)
+    terms = []
+    for n in range(
+        0 if kind == "cos" else 1, k + 1, 2
+    ):  # powers of i sin phi: real for cos, imaginary for sin
+        factor = comb(k, n) * (-1) ** (n // 2)
+        powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
+        terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))
+    return (terms[0],) if len(terms) == 1 else (f"({' + '.join(terms)})",)
 
 
 @one_thread

@@ -21,9 +21,12 @@ Array = NDArray[np.float64]
 HIGHEST = 4
 """Highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)."""
 
+HIGHEST_OF_ONE = 6
+"""The same of constants and single channels, which are few."""
+
 _MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
-_RATES = tuple(f"d_a_{k}" for k in "xyz")
+_RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
 _NOT_A_CHANNEL = frozenset({"spin_angle", *GRADIENTS})
 
 
@@ -49,8 +52,9 @@ class Dictionary:
 
     def __init__(self, r: Record) -> None:
         centred = sorted(n for n in r.wide if n not in _MOTION and n not in _NOT_A_CHANNEL)
-        names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *_RATES]
-        found = _statistics(r, [n for n in names if n[:2] != "d_" or n[2:] in r.wide])
+        rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
+        names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
+        found = _statistics(r, names)
         self._centre = {n: found[n].mean for n in (*centred, "time")}
         self._size = {n: s.rms if n not in self._centre else s.spread for n, s in found.items() if s.varies}
         names = [n for n in names if n in self._size]
@@ -58,11 +62,18 @@ class Dictionary:
         other = [n for n in names if n not in _MOTION]
         products: list[tuple[str, ...]] = [(), *((n,) for n in names)]
         products += list(combinations_with_replacement(motion, 2))
-        products += [(m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o[:2] != "d_"]
+        products += [
+            (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self._centre
+        ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         self.terms: tuple[Term, ...] = tuple(
-            Term(h, c) for c in products for h in harmonics() if h != "const" or c
+            Term(h, c)
+            for c in products
+            for h in harmonics(HIGHEST if len(c) > 1 else HIGHEST_OF_ONE)
+            if h != "const" or c
         )
+        self.first_order = sum(len(t.channels) <= 1 for t in self.terms)
+        """Constants and single channels: so many of the terms, the first."""
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""
@@ -80,7 +91,7 @@ class Dictionary:
     ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
         """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
         chosen = self.terms if terms is None else terms
-        carriers = {h: carrier(r, h) for h in harmonics()}
+        carriers = {h: carrier(r, h) for h in harmonics(HIGHEST_OF_ONE)}
         channels = {n: np.where(r.valid, self._channel(n, r), 0.0) / self._size[n] for n in self._size}
         product = np.ones(len(r.time))
         of: tuple[str, ...] = ()
@@ -138,8 +149,9 @@ def _statistics(r: Record, names: Sequence[str]) -> dict[str, _Statistics]:
     return found
 
 
-def harmonics() -> tuple[str, ...]:
-    return ("const", *(f"{f} {k}" for k in range(1, HIGHEST + 1) for f in ("cos", "sin")))
+def harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
+    """const, cos 1, sin 1 ... up to a multiple of the spin rate."""
+    return ("const", *(f"{f} {k}" for k in range(1, highest + 1) for f in ("cos", "sin")))
 
 
 def carrier(r: Record, harmonic: str) -> Array:

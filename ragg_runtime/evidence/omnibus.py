@@ -9,23 +9,27 @@ over the segments of a flight.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime import design, gradient
+from ragg_runtime.evidence.irregular import BlockScores, Periodogram
 from ragg_runtime.evidence.work import Flown, Projector
-from ragg_runtime.passes import Piece
+from ragg_runtime.passes import Piece, flight_segments
 from ragg_runtime.terms import Dictionary, Term
 from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-FAMILY = 0.01
-"""Probability with which the whole dictionary of an effect-free record may raise a false alarm."""
+FAMILY = 0.004
+"""Probability with which anything at all may seem left of an effect-free record."""
+
+SHARES = (0.5, 0.25, 0.25)
+"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
 MOST_TERMS = 8
 
@@ -40,6 +44,9 @@ score to be a standard normal deviate, and slower memory than this buys little."
 @dataclass(frozen=True)
 class Found:
     """A generic term in a residual.
+
+    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of
+    time) or ``line`` (not of a multiple of the spin rate; the harmonic then names the frequency).
 
     Attributes
     ----------
@@ -59,14 +66,15 @@ class Found:
     z: float
     chi2: float
     mean_square: float
+    kind: str = "steady"
 
 
 @dataclass(frozen=True)
 class Omnibus:
     """The search over one flight's dictionary.
 
-    ``log_p`` belongs to the largest score of ``tried``; ``chi2`` is what the ``terms`` taken explain of
-    ``square``, the whitened residual's sum of squares.
+    ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
+    of ``square``, the whitened residual's sum of squares.
     """
 
     log_p: float
@@ -93,6 +101,14 @@ class Scores:
         self.raw = np.zeros((2, count))
         self.samples = 0
         self.square = 0.0
+        self.blocks = BlockScores(self.dictionary.first_order)
+        o = flown.observation
+        excluded = None
+        if gradient.unknown(o):  # there nothing is left of the noise either
+            double = 2 * o.record.spin_frequency
+            excluded = (double - 2 / gradient.KNOT_SECONDS, double + 2 / gradient.KNOT_SECONDS)
+        longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self.spectrum = Periodogram(longest, o.record.rate, excluded)
 
     def add(self, piece: Piece) -> None:
         """Count one segment in."""
@@ -101,11 +117,14 @@ class Scores:
         self.square += float(y @ y)
         self.samples += int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
+        self.blocks.level(piece, y)
+        self.spectrum.add(piece, y)
         for at, x, X in self._whitened(piece, None):
             inner = X.astype(np.float64) @ right
             self.dot[at] += inner[:, 0]
             self.along[at] += inner[:, 1:]
             self.norm2[at] += np.einsum("ij,ij->i", X, X, dtype=np.float64)
+            self.blocks.add(piece, y, at, X)
             self.raw[0, at] += np.sum(x, axis=1, dtype=np.float64)
             self.raw[1, at] += np.einsum("ij,ij->i", x, x, dtype=np.float64)
 
@@ -142,7 +161,55 @@ class Scores:
             yield at, x[:, lead:], X
 
 
-def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+def choose(s: Scores) -> Omnibus:
+    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
+    steady = _steady(s)
+    further = [t for t in (_varying(s), _line(s)) if t is not None]
+    log_p = min([steady.log_p, *(p for p, _ in further)])
+    significant = [(p, found) for p, found in further if p < np.log(FAMILY)]
+    if steady.terms or not significant:
+        return replace(steady, log_p=log_p)
+    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+
+
+def _varying(s: Scores) -> tuple[float, Found] | None:
+    left2 = s.norm2 - np.einsum("ij,ij->i", s.along, s.along)
+    good = (left2 > 1e-6 * s.norm2) & (s.norm2 > 0.0)
+    v = s.blocks.best(good)
+    if v is None:
+        return None
+    term = s.dictionary.terms[v.place]
+    size = s.dictionary.size(term)
+    mean_square = v.coefficient**2 * float(s.raw[1, v.place]) / max(s.samples, 1)
+    z = float(np.sqrt(v.chi2))
+    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying")
+    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+
+
+def _line(s: Scores) -> tuple[float, Found] | None:
+    if s.flown.observation.kind == "channels":
+        return None  # their noise is only white within the demodulator's band
+    line = s.spectrum.best()
+    if line is None:
+        return None
+    # back from the whitened residual: the noise's own density at the line
+    volts2 = sum(float(m.psd(np.array([line.frequency]))[0]) for m in s.flown.noise.models)
+    mean_square = line.share * volts2 * s.flown.observation.record.rate / 2
+    chi2 = line.share * s.square
+    found = Found(
+        Term(f"line {line.frequency:.5g} Hz", ()),
+        float(np.sqrt(2 * mean_square)),
+        float(np.sqrt(2 * mean_square / max(chi2, 1.0))),
+        float(np.sqrt(chi2)),
+        chi2,
+        mean_square,
+        "line",
+    )
+    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
+
+
+def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
     left2 = s.norm2 - np.einsum("ij,ij->i", s.along, s.along)
     # in single precision a column that is nearly all in the base has no direction of its own left
@@ -184,7 +251,7 @@ def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
 def _log_p(z: Array, tried: int) -> float:
     """p-value, as a logarithm, of the largest of so many standard normal deviates."""
     top = float(np.max(np.abs(z), initial=0.0))
-    return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1))))
+    return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1) / SHARES[0])))
 
 
 def strongest(found: Sequence[Found]) -> list[Found]:

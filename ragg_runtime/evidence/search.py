@@ -14,7 +14,7 @@ from ragg_runtime.evidence.likelihood import Test
 
 Array = NDArray[np.float64]
 
-FAMILY = 0.01
+FAMILY = 0.03
 """Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
 
 MOST = 4

@@ -152,6 +152,8 @@ def with_unit(text: str, unit_: str) -> str:
 def harmonic(name: str) -> str:
     """``cos 2`` as cos 2Ωt."""
     kind, _, k = name.partition(" ")
+    if kind == "line":
+        return f"line at {k}"
     return "constant" if not k else f"{kind} {'' if k == '1' else k}Ωt"
 
 
