@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.flight.record import (
@@ -77,6 +78,7 @@ class Layout:
             notes=tuple(notes),
             valid=valid,
             units=self.si_units,
+            written={c.name: c.unit for c in self.columns},
         )
 
     def step(self, rows: Batch) -> float:
@@ -226,13 +228,27 @@ def _derive_acceleration(
     if not missing:
         return
     for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-        derived = differentiate(placed[rate_name], 1 / grid.step)
+        derived = _differentiated(placed[rate_name], grid)
         # A sample that stands alone between two gaps has no derivative.
         valid &= np.isfinite(derived)
         channels[name] = _filled(derived, name)
     notes.append(
         "omegadot_x, omegadot_y, omegadot_z are derived from omega, good to 40 % of the Nyquist frequency"
     )
+
+
+def _differentiated(x: Array, grid: Grid) -> Array:
+    """Time derivative at the samples' own instants; where they jitter, by way of the even grid."""
+    if not grid.jitters:
+        return differentiate(x, 1 / grid.step)
+    even = np.polyval(np.polyfit(np.arange(len(x)), grid.time, 1), np.arange(len(x)))
+    there = np.isfinite(x)
+    if np.sum(there) < 8:
+        return differentiate(x, 1 / grid.step)
+    resampled = np.where(there, make_interp_spline(grid.time[there], x[there], 5)(even), np.nan)
+    slope = differentiate(resampled, 1 / grid.step)
+    there = np.isfinite(slope)
+    return np.where(there, make_interp_spline(even[there], slope[there], 5)(grid.time), np.nan)
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:

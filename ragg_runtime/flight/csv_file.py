@@ -17,6 +17,9 @@ from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of
 
+LONGEST_LINE = 1 << 20
+"""Characters of a line from which a file is no table."""
+
 _MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
 # Of damaged or cut off files, compressed ones among them.
 _UNREADABLE = (UnicodeDecodeError, OSError, EOFError, zlib.error)
@@ -55,11 +58,27 @@ def _open(path: Path, compressed: bool) -> io.TextIOWrapper:
     return io.TextIOWrapper(raw, "utf-8-sig", newline=None)
 
 
+def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
+    """The lines of a text; UserError at one too long to be a row of a table."""
+    number = 0
+    while line := stream.readline(LONGEST_LINE):
+        number += 1
+        if len(line) == LONGEST_LINE:
+            raise UserError(
+                _NOT_CSV,
+                where=at(path, f"line {number}"),
+                found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
+                expected="one row a line, a number for each column",
+                remedy="the file may be damaged, not fully copied, or not a text file",
+            )
+        yield line
+
+
 def _header(path: Path, compressed: bool) -> tuple[int, str]:
     """Number of comment or empty lines before the header, and the header."""
     try:
-        with _open(path, compressed) as lines:
-            for number, line in enumerate(lines):
+        with _open(path, compressed) as stream:
+            for number, line in enumerate(_lines(stream, path)):
                 if line.strip() and not line.startswith("#"):
                     return number, line.rstrip("\n")
     except _UNREADABLE as error:
@@ -95,7 +114,8 @@ def _fault(
 ) -> UserError:
     """Say in which line and column the reader stumbled."""
     try:
-        with _open(path, compressed) as lines:
+        with _open(path, compressed) as stream:
+            lines = _lines(stream, path)
             for _ in range(skip):
                 next(lines)
             rows = csv.reader(lines, delimiter=delimiter)

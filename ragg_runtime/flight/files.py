@@ -19,6 +19,9 @@ from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_con
 from ragg_runtime.timeseries import WINDOW
 from ragg_runtime.units import Units, units
 
+MOST_BYTES = 2 << 30
+"""Most memory, bytes, that the columns of a flight may take when it is read whole."""
+
 _HALO = WINDOW
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
 
@@ -47,9 +50,24 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
     path = Path(path)
     source = open_source(path)
     plan = layout(path, source.columns, g0, need_output=need_output)
-    batches = list(source.batches())
+    batches, held = [], 0
+    for batch in source.batches():
+        held += sum(v.nbytes for v in batch.values())
+        if held > MOST_BYTES:
+            raise _too_long(path, held, len(source.columns))
+        batches.append(batch)
     rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
     return plan.flight(rows, name=flight_name(path), digest=file_digest(path))
+
+
+def _too_long(path: Path, held: int, columns: int) -> UserError:
+    return UserError(
+        "the flight is too long to be held in memory",
+        where=path,
+        found=f"{path.stat().st_size / 1e9:.3g} GB on disk, more than {held // 8 // columns} rows",
+        expected=f"at most {MOST_BYTES // 8 // columns} rows of {columns} columns",
+        remedy="cut it into several files of one instrument; ragg diagnose and add take them together",
+    )
 
 
 def iter_flight_chunks(

@@ -64,6 +64,8 @@ class Flight:
         Name -> SI unit of every column.
     digest
         SHA-256 of the file, hexadecimal; empty if the flight comes from no file.
+    written
+        Name -> unit that the file gives, of every column of the file; empty if the flight comes from none.
     notes
         What was derived, filled in or looks odd, in sentences.
     """
@@ -77,6 +79,7 @@ class Flight:
     notes: tuple[str, ...] = ()
     valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
     units: Mapping[str, str] = field(default_factory=dict)
+    written: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)

@@ -15,7 +15,10 @@ JITTER_NOTED = 1e-3
 """Deviation from uniform sampling, in steps, that is worth a note."""
 
 JITTER_REFUSED = 0.25
-"""Deviation, in steps, from which a record is not uniformly sampled any more."""
+"""Error of one step, in steps, from which the samples have to follow a steady clock instead."""
+
+JITTER_TRACKED = 0.48
+"""Deviation from a steady clock, in steps, from which a record is not uniformly sampled any more."""
 
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
@@ -34,12 +37,15 @@ class Grid:
         Sampling interval, s.
     notes
         Gaps and jitter, in sentences.
+    jitters
+        Whether the instants leave the uniform grid by more than ``JITTER_NOTED``.
     """
 
     index: NDArray[np.int64]
     time: Array
     step: float
     notes: tuple[str, ...]
+    jitters: bool = False
 
 
 def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | None = None) -> Grid:
@@ -63,7 +69,12 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
         step = _step(steps)
     jumps = np.rint(steps / step).astype(np.int64)
     deviation = np.abs(steps - jumps * step) / step
-    if np.any(jumps < 1) or np.any(deviation[jumps == 1] > JITTER_REFUSED):
+    tracked = None
+    if np.any(jumps < 1) or np.any(deviation > JITTER_REFUSED):
+        tracked = _tracked(time, step)
+        if tracked is not None:
+            jumps, deviation = np.diff(tracked[0]), tracked[1]
+    if np.any(jumps < 1) or (np.any(deviation[jumps == 1] > JITTER_REFUSED) and tracked is None):
         row = int(np.argmax(np.where(jumps <= 1, deviation, 0.0)))
         raise UserError(
             "the record is not uniformly sampled",
@@ -82,7 +93,36 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
             remedy="split the record at its gaps into one file each",
         )
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
-    return Grid(index, whole, step, tuple(_notes(time, steps, jumps, deviation, step)))
+    jitters = bool(np.max(deviation) > JITTER_NOTED)
+    return Grid(index, whole, step, tuple(_notes(time, steps, jumps, deviation, step)), jitters)
+
+
+def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
+    """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,).
+
+    A line through the first instants is carried on, doubling its length; ``None`` if they do not follow one.
+    """
+    size = 128
+    whole = (time[-1] - time[0]) / (len(time) - 1)
+    if abs(whole / step - 1) < 0.05:  # no gaps: the mean step is exact, the median of jittering ones is not
+        step = float(whole)
+    lag = np.angle(np.mean(np.exp(2j * np.pi * (time[:size] - time[0]) / step))) / (2 * np.pi)
+    first = float(time[0] + lag * step)
+    while True:
+        t = time[:size]
+        k = np.rint((t - first) / step)
+        if np.any(np.diff(k) < 1):
+            return None
+        if len(t) > 2:
+            step, first = (float(c) for c in np.polyfit(k, t, 1))
+        if size >= len(time):
+            break
+        size *= 2
+    k = np.rint((time - first) / step)
+    off = np.abs(time - first - k * step) / step
+    if np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
+        return None
+    return (k - k[0]).astype(np.int64), off[1:]
 
 
 def _step(steps: Array) -> float:
@@ -107,7 +147,8 @@ def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array
     if deviation[worst] > JITTER_NOTED:
         notes.append(
             f"sampling jitters by up to {deviation[worst]:.2g} of the step of {step:.6g} s "
-            f"(after t = {time[worst]:.10g} s); the record is taken as uniform"
+            f"(after t = {time[worst]:.10g} s); every sample counts at its own instant, derivatives and "
+            "spectra are made on the even grid"
         )
     return notes
 

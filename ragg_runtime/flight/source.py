@@ -67,6 +67,13 @@ def format_of(path: Path) -> str:
 
 def check_content(path: Path, expected: str) -> bool:
     """Compare the first bytes of an existing file with its format; True if it is compressed (gzip)."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise UserError(
+            "a flight file is needed here, not a device or a pipe",
+            where=path,
+            expected="a regular file",
+            remedy="write the record to a file first",
+        )
     try:
         with path.open("rb") as stream:
             head = stream.read(8)

@@ -14,6 +14,7 @@ from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECI
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.plausibility import checks
+from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.likely import Likely, derived_rates, likely
 from ragg_runtime.plausibility.linear import explain
 from ragg_runtime.plausibility.rows import Picker, picker
@@ -44,6 +45,11 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     p = picker(flight, instrument, tuple(model.chain.INPUTS))
     if not p.usable.any():
         return dataclasses.replace(flight, notes=(*flight.notes, *notes))
+    clock = steadied(model, instrument, p)
+    if clock is not None:
+        flight, note = clock
+        notes.append(note)
+        p = picker(flight, instrument, tuple(model.chain.INPUTS))
     notes += _saturated(p)
     found = likely(model, instrument, p)
     if found is not None:

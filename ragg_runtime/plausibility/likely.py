@@ -82,7 +82,7 @@ def likely(model: Model, instrument: Instrument, p: Picker) -> Likely | None:
     rough = explain(model, instrument, few)
     screened = [
         (m, explain(model, instrument, m.undo(few)))
-        for m in mistakes(rows, instrument.g0, rates_derived=derived_rates(p.flight))
+        for m in mistakes(rows, instrument.units, p.flight.written, rates_derived=derived_rates(p.flight))
     ]
     promising = [(m, left) for m, left in screened if _explains(rough, left, 0.5)]
     promising.sort(key=lambda t: (t[1].share, t[1].surprise))
@@ -125,6 +125,8 @@ def _explains(before: Explained, after: Explained, factor: float = 1.0, *, calmi
 
 def derived_rates(x: Flight) -> bool:
     """Whether the angular acceleration is the derivative of the rate: then it has the rate's mistakes."""
+    if x.written:
+        return ANGULAR_ACCELERATION[0] not in x.written
     part = slice(0, min(len(x), 4096))
     for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
         if change not in x.channels:

@@ -6,7 +6,7 @@ explains it then. Nothing is inferred from sizes alone; a platform may be quiet 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import permutations, product
@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.flight.record import VOLTAGES
 from ragg_runtime.plausibility.rows import Rows
+from ragg_runtime.units import Units
 
 Array = NDArray[np.float64]
 
 AXES = "xyz"
-_DEGREE = np.pi / 180
 
 
 @dataclass(frozen=True)
@@ -45,14 +45,23 @@ class Mistake:
     plainness: int = 0
 
 
-def mistakes(rows: Rows, g0: float, *, rates_derived: bool) -> Iterator[Mistake]:
+def mistakes(
+    rows: Rows, units_: Units, written: Mapping[str, str], *, rates_derived: bool
+) -> Iterator[Mistake]:
     """Every mistake of units, signs, axes and order that such rows may hold.
 
-    ``rates_derived``: the angular acceleration was derived from the rate, so that both share its mistakes.
+    Parameters
+    ----------
+    rows
+        The record.
+    units_, written
+        Units with the model's g0; the unit that the file gives to each column (none: SI).
+    rates_derived
+        Whether the angular acceleration was derived from the rate, so that both share its mistakes.
     """
-    yield from _outputs(rows)
-    yield from _units_of_a(g0)
-    yield from _units_of_omega(rates_derived)
+    yield from _outputs(rows, units_, written)
+    yield from _units_of_a(units_, written)
+    yield from _units_of_omega(units_, written, rates_derived)
     if rows.gradient_recorded:
         yield from _gradients()
     yield from _axes(rates_derived)
@@ -71,7 +80,7 @@ def _stem(name: str) -> str:
     return name.removeprefix("d_").removeprefix("d2_").rsplit("_", 1)[0]
 
 
-def _outputs(rows: Rows) -> Iterator[Mistake]:
+def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[Mistake]:
     what = {"G_out": "G_out", "voltages": "V_1 ... V_4", "channels": "inline and cross"}[rows.kind]
 
     def scaled(factor: float) -> Callable[[Rows], Rows]:
@@ -92,15 +101,10 @@ def _outputs(rows: Rows) -> Iterator[Mistake]:
             1,
         )
         return
-    for factor, unit, given in (
-        (1e-3, "mV", "V"),
-        (1e3, "V", "mV"),
-        (1e-6, "uV", "V"),
-        (1e6, "V", "uV"),
-    ):
+    given = written.get(VOLTAGES[0] if rows.kind == "voltages" else "G_out", "V")
+    for unit, factor in _meant(units_, given, ("V", "mV", "uV", "kV")):
         yield Mistake(
-            f"{what} {'are' if rows.kind == 'voltages' else 'is'} in {unit} where the header says {given}"
-            f" (or in another unit {1 / factor:g} times off)",
+            f"{what} {'are' if rows.kind == 'voltages' else 'is'} in {unit}, not in {given}",
             f"write the unit [{unit}]",
             scaled(factor),
         )
@@ -127,17 +131,20 @@ def _reordered(order: tuple[int, ...]) -> Callable[[Rows], Rows]:
     return lambda rows: replace(rows, data=rows.data[list(order)])
 
 
-def _units_of_a(g0: float) -> Iterator[Mistake]:
-    for factor, unit, given in (
-        (g0, "g", "m/s^2"),
-        (1 / g0, "m/s^2", "g"),
-        (1e-3 * g0, "mg", "m/s^2"),
-        (1e-3, "mg", "g"),
-        (1e3, "g", "mg"),
-        (1e3 / g0, "m/s^2", "mg"),
-        (1e-5, "mGal", "m/s^2"),
-        (1e5, "m/s^2", "mGal"),
-    ):
+def _meant(units_: Units, given: str, possible: Sequence[str]) -> list[tuple[str, float]]:
+    """(unit, factor): what may be meant instead of ``given``, and by how much the numbers then change."""
+    found: list[tuple[str, float]] = []
+    here = float(units_.to_si(1.0, given, possible[0]))
+    for unit in possible:
+        factor = float(units_.to_si(1.0, unit, possible[0])) / here
+        if abs(factor - 1) > 1e-9 and not any(abs(factor / f - 1) < 1e-9 for _, f in found):
+            found.append((unit, factor))
+    return found
+
+
+def _units_of_a(units_: Units, written: Mapping[str, str]) -> Iterator[Mistake]:
+    given = written.get("a_x", "m/s^2")
+    for unit, factor in _meant(units_, given, ("m/s^2", "g", "mg", "mGal")):
         yield Mistake(
             f"a_x, a_y, a_z are in {unit}, not in {given}",
             f"write the unit [{unit}]",
@@ -145,21 +152,10 @@ def _units_of_a(g0: float) -> Iterator[Mistake]:
         )
 
 
-def _units_of_omega(rates_derived: bool) -> Iterator[Mistake]:
+def _units_of_omega(units_: Units, written: Mapping[str, str], rates_derived: bool) -> Iterator[Mistake]:
     both, rate, change = ("omega", "omegadot"), ("omega",), ("omegadot",)
-    known = (
-        (3600.0, "deg/s", "deg/h"),
-        (1 / 3600.0, "deg/h", "deg/s"),
-        (_DEGREE, "deg/s", "rad/s"),
-        (1 / _DEGREE, "rad/s", "deg/s"),
-        (_DEGREE / 3600, "deg/h", "rad/s"),
-        (3600 / _DEGREE, "rad/s", "deg/h"),
-        (1e-3, "mrad/s", "rad/s"),
-        (1e3, "rad/s", "mrad/s"),
-        (1e-6, "urad/s", "rad/s"),
-        (1e6, "rad/s", "urad/s"),
-    )
-    for factor, unit, given in known:
+    given = written.get("omega_x", "rad/s")
+    for unit, factor in _meant(units_, given, ("rad/s", "deg/s", "deg/h", "mrad/s", "urad/s")):
         text = f"omega_x, omega_y, omega_z are in {unit}, not in {given}"
         write = f"write the unit [{unit}]"
         yield Mistake(text, write, _scaled(both if rates_derived else rate, factor))
@@ -167,11 +163,15 @@ def _units_of_omega(rates_derived: bool) -> Iterator[Mistake]:
             yield Mistake(
                 f"{text}, and omegadot likewise", f"{write}, and that of omegadot", _scaled(both, factor), 1
             )
-            yield Mistake(
-                f"omegadot is in {unit}/s, not in {given}/s",
-                f"write the unit [{unit}/s]",
-                _scaled(change, factor),
-            )
+    if rates_derived:
+        return
+    given = written.get("omegadot_x", "rad/s^2")
+    for unit, factor in _meant(units_, given, ("rad/s^2", "deg/s^2", "deg/h/s", "deg/h^2")):
+        yield Mistake(
+            f"omegadot_x, omegadot_y, omegadot_z are in {unit}, not in {given}",
+            f"write the unit [{unit}]",
+            _scaled(change, factor),
+        )
 
 
 def _gradients() -> Iterator[Mistake]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -142,7 +143,7 @@ class Picker:
         x = self.flight
         time = x.time[rows] - x.time[0]
         if even:
-            time = rows / x.rate
+            time = rows * self.even[1]
         f = self.instrument.spin_frequency if spin_frequency is None else spin_frequency
         if "spin_angle" in x.channels and spin_frequency is None:
             phi = np.asarray(x.channels["spin_angle"][rows])
@@ -153,6 +154,22 @@ class Picker:
         channels |= {name: v[moved] for name, v in self.derived.items()}
         data = np.stack([v[rows + output_shift] for v in self._output()])
         return Rows(self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps)
+
+    @cached_property
+    def even(self) -> tuple[float, float]:
+        """First instant, s, and interval, s, of the steady clock that the file's instants follow."""
+        k = np.flatnonzero(self.flight.valid)
+        time = self.flight.time[k]
+        step, first = (float(c) for c in np.polyfit(k, time, 1))
+        scatter = float(np.std(time - first - step * k))
+        # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
+        error = 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0])
+        for digits in range(1, 10):
+            rounded = 1 / float(f"{1 / step:.{digits}g}")
+            if abs(rounded - step) < error:
+                step = rounded
+                break
+        return float(np.mean(time - step * k)), step
 
     def _output(self) -> list[Array]:
         outputs = self.flight.outputs
