@@ -86,7 +86,7 @@ TERMS: Mapping[str, Callable[[World], Array]] = {
     "omegadot_z a_x": lambda w: _first(w["omegadot_z"] * w["a_x"]),
     "a_x omega_y": lambda w: _first(w["a_x"] * w["omega_y"]),
     "f_i omega_z (scale by rate)": lambda w: _first(w.f_i[0] * w["omega_z"]),
-    "f_i |omega|^2 (scale by rate squared)": lambda w: _first(
+    "f_i omega^2 (scale by rate squared)": lambda w: _first(
         w.f_i[0] * (w["omega_x"] ** 2 + w["omega_y"] ** 2 + w["omega_z"] ** 2)
     ),
     "a_x pressure": lambda w: _first(w["a_x"] * w.change("pressure")),
@@ -97,7 +97,7 @@ TERMS: Mapping[str, Callable[[World], Array]] = {
     "sin 5 phi": lambda w: _first(np.sin(5 * w.phi)),
     "a_z cos 6 phi": lambda w: _first(w["a_z"] * np.cos(6 * w.phi)),
     "f_i^4": lambda w: _first(w.f_i[0] ** 4),
-    "|f_o|": lambda w: _first(np.abs(w.f_o[0])),
+    "abs(f_o)": lambda w: _first(np.abs(w.f_o[0])),
     "f_i^2 sign(da_z/dt) (friction)": lambda w: _first(w.f_i[0] ** 2 * np.sign(np.gradient(w["a_z"]))),
     "d^2 f_i/dt^2 (resonance)": lambda w: _first(np.gradient(np.gradient(w.f_i[0])) * w.rate**2),
     "creep of f_p over 20 s": lambda w: _first(_creep(w["a_z"] - w["a_z"][0], w.rate, 20.0)),

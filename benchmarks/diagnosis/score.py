@@ -39,8 +39,8 @@ class Share:
 
 
 def share(lines: Iterable[Line], test: Callable[[Line], bool]) -> Share:
-    """How many of the lines pass a test."""
-    passed = [test(x) for x in lines]
+    """How many of the lines pass a test; those that crashed do not."""
+    passed = ["crash" not in x and test(x) for x in lines]
     return Share(sum(passed), len(passed))
 
 
@@ -147,9 +147,9 @@ def remainder_p(x: Line) -> float:
     return float(np.exp(x["remainder_log_p"]))
 
 
-def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
-    """Lines of these kinds that did not crash."""
-    return [x for x in lines if x["kind"] in kinds and "crash" not in x]
+def of_kind(lines: Iterable[Line], *kinds: str, crashed: bool = False) -> list[Line]:
+    """Lines of these kinds; with ``crashed`` also those that hold nothing but a crash."""
+    return [x for x in lines if x["kind"] in kinds and (crashed or "crash" not in x)]
 
 
 def crashes(lines: Iterable[Line]) -> list[Line]:

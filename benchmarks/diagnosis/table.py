@@ -54,11 +54,12 @@ def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def _targets(lines: Sequence[Line]) -> str:
-    free, ten, five = (of_kind(lines, k) for k in ("effect-free", "single-10", "single-5"))
-    two, out = of_kind(lines, "two"), of_kind(lines, "outside")
-    hidden = [*ten, *five, *two]
+    free, ten, five, two, out = (of_kind(lines, k, crashed=True) for k in plan.COUNTS)
+    quiet = share(free, lambda x: not score.alarmed(x))
+    alarms = Share(quiet.total - quiet.hits, quiet.total)
+    hidden = of_kind(lines, "single-10", "single-5", "two")
     rows = [
-        ["false alarms on effect-free flights", _percent(share(free, score.alarmed)), "at most 5 %"],
+        ["false alarms on effect-free flights", _percent(alarms), "at most 5 %"],
         ["right effect first, strength 10", _percent(share(ten, score.right_first)), "at least 95 %"],
         ["... and nothing else claimed", _percent(share(ten, score.right_alone)), ""],
         ["right effect first, strength 5", _percent(share(five, score.right_first)), "at least 80 %"],
@@ -269,6 +270,6 @@ def _conditions(lines: Sequence[Line]) -> str:
   effects one of them is.
 - Strength of effects that are no column: gain-step by its column from a random instant on; spin-rate-jitter by the expected score of the
   test of the variance; quantisation by the growth of the residual's variance (q^2/12) in sigmas of its estimate; saturation by the
-  whitened change of G_out, with at least ten samples clipped.
+  whitened change of G_out, but at least ten samples are clipped (which is far stronger: a single one may stand ten sigmas high).
 - Versions of the sources (digest: flights): {", ".join(f"{k}: {n}" for k, n in sorted(versions.items()))}.
 """
