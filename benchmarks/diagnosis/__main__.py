@@ -42,8 +42,11 @@ SOURCES = (
             "design",
             "diagnose",
             "evaluate",
+            "gradient",
             "metrics",
             "noise",
+            "passes",
+            "segments",
             "terms",
             "whiten",
         )
