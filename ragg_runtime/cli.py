@@ -209,6 +209,49 @@ def diagnose(
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Let the workers of a Dask cluster do it.")
+@click.option(
+    "--resume",
+    type=DIRECTORY,
+    metavar="FILE",
+    help="Results file: continue what stands in it, add what is done.",
+)
+@_json
+@_report
+def survey(
+    model_dir: Path,
+    flights: Sequence[Path],
+    jobs: int | None,
+    scheduler: str | None,
+    resume: Path | None,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
+    """Diagnose many flights, each by itself, and sum them up."""
+    from ragg_runtime import texts, workflow
+    from ragg_runtime.survey import progress, text
+
+    m = workflow.load(model_dir)
+    with progress.results_file(resume) as file, progress.shown() as show:
+        s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
+    read = [(r["flight"], r["sha256"]) for r in s.done]
+    sources = [*workflow.sources(m, []), *read]
+
+    def page() -> str:
+        from ragg_runtime.survey.page import survey_html
+
+        title = f"{m.name} and {len(s.records)} flights"
+        return survey_html(s, title=title, command=_command(), digest=m.model.digest, sources=sources)
+
+    _write_report(report_file, page)
+    origin = texts.origin(m, [], _command()) | {"sources": [{"name": n, "sha256": d} for n, d in sources]}
+    _emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
 @click.argument("effect")
 @click.argument("flights", type=DIRECTORY, nargs=-1)
 @_json

@@ -31,6 +31,9 @@ from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.plausibility import examined
+from ragg_runtime.survey import Survey
+from ragg_runtime.survey import survey as _survey
+from ragg_runtime.survey.run import Progress
 from ragg_runtime.units import RawQuantity
 
 
@@ -123,6 +126,25 @@ def diagnose(m: Loaded, flights: Sequence[Flight]) -> Diagnosis:
     """Which physical effect the model lacks."""
     return _diagnose.diagnose(
         m.model, m.instrument, flights, lambda model, ids: extend.with_effects(m.instrument, model, ids)
+    )
+
+
+def survey(
+    m: Loaded,
+    flights: Sequence[Path | str],
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+) -> Survey:
+    """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
+
+    The arguments are those of :func:`ragg_runtime.survey.run.survey`.
+    """
+    place = m.directory.path / "model.toml"
+    return _survey(
+        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
     )
 
 

@@ -1,0 +1,173 @@
+"""An existing Dask cluster, given by its scheduler's address.
+
+The scheduler hands flights to workers by path; those of a worker that dies go to another one. Whoever can
+reach a scheduler can run code on its workers: that is how Dask works, and why it belongs behind a wall or TLS
+(``distributed.comm`` in Dask's own configuration, which is honoured).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import logging
+import queue
+import time
+from collections.abc import Generator, Iterator, Sequence
+from functools import partial
+from typing import Any
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey.local import ATTEMPTS, lost
+from ragg_runtime.survey.task import Job, Record, examine, fingerprint
+
+PATIENCE = 5.0
+"""How long the scheduler, and then its first worker, is waited for, s."""
+
+WITHOUT_WORKERS = 60.0
+"""How long a survey waits for a worker when all are gone, s."""
+
+
+def examined(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
+    """(file, record) of every flight, in the order in which they are done.
+
+    Raises UserError if the cluster cannot be used, or is lost on the way.
+    """
+    with _client(address) as client:
+        _check(client, address)
+        done: queue.Queue[tuple[str, Any]] = queue.Queue()
+        futures = client.map(
+            partial(examine, job), list(files), pure=False, retries=ATTEMPTS - 1, key="ragg-survey"
+        )
+        try:
+            for file, future in zip(files, futures, strict=True):
+                future.add_done_callback(lambda f, file=file: done.put((file, f)))
+            for _ in files:
+                file, future = _next(client, address, done)
+                yield file, _record(client, address, file, future)
+        finally:
+            with contextlib.suppress(Exception):
+                if client.status == "running":
+                    client.cancel(futures, force=True)
+
+
+def _record(client: Any, address: str, file: str, future: Any) -> Record:
+    if future.status == "finished":
+        record: Record = future.result()
+        return record
+    if future.status == "error":
+        error = future.exception()
+        if type(error).__name__ == "KilledWorker":
+            return lost_worker(file)
+        return lost(file, error)
+    raise _gone(address)  # cancelled: the scheduler has forgotten it
+
+
+def lost_worker(file: str) -> Record:
+    """The record of a flight at which worker after worker died."""
+    return lost(file, RuntimeError("every worker that was given the flight died (out of memory, or killed)"))
+
+
+def _next(client: Any, address: str, done: queue.Queue[tuple[str, Any]]) -> tuple[str, Any]:
+    since = None
+    while True:
+        with contextlib.suppress(queue.Empty):
+            return done.get(timeout=1.0)
+        if client.status != "running":
+            raise _gone(address)
+        try:
+            workers = client.nthreads()
+        except Exception:
+            raise _gone(address) from None
+        now = time.monotonic()
+        since = None if workers else (since or now)
+        if since is not None and now - since > WITHOUT_WORKERS:
+            raise UserError(
+                "all workers of the cluster are gone",
+                where=address,
+                remedy="start workers and survey again with the same --resume file: what is done is kept",
+            )
+
+
+def _gone(address: str) -> UserError:
+    return UserError(
+        "the connection to the scheduler is lost",
+        where=address,
+        remedy="survey again with the same --resume file: what is done is kept",
+    )
+
+
+@contextlib.contextmanager
+def _client(address: str) -> Iterator[Any]:
+    try:
+        distributed: Any = importlib.import_module("distributed")
+    except ImportError:
+        raise UserError(
+            "a survey on a cluster needs Dask",
+            where="--scheduler",
+            found="no package distributed",
+            remedy="pip install 'ragg[cluster]'; or leave --scheduler out: the survey then runs on this machine",
+        ) from None
+    rest = address.partition("://")[2]
+    if not rest or not rest.rpartition(":")[2].rstrip("/").isdecimal():
+        raise UserError(
+            "not the address of a scheduler",
+            where="--scheduler",
+            found=repr(address),
+            expected="tcp://host:port, as the scheduler prints it",
+        )
+    log = logging.getLogger("distributed")
+    level = log.level
+    log.setLevel(logging.CRITICAL)  # what it has to say is said here, in one message
+    try:
+        try:
+            client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
+        except Exception as error:
+            raise UserError(
+                "the scheduler cannot be reached",
+                where=address,
+                found=f"{type(error).__name__}: {error}".split("\n")[0][:300],
+                expected=f"a dask.distributed scheduler that answers within {PATIENCE:g} s",
+                remedy="check the address and that the scheduler runs; Dask must be of the same version there",
+            ) from None
+        try:
+            yield client
+        finally:
+            with contextlib.suppress(Exception):
+                client.close(timeout=PATIENCE)
+    finally:
+        log.setLevel(level)
+
+
+def _check(client: Any, address: str) -> None:
+    """Every worker runs this very program, or the figures would not be the same."""
+    with contextlib.suppress(Exception):
+        client.wait_for_workers(1, timeout=PATIENCE)
+    try:
+        answers: dict[str, Any] = client.run(fingerprint, on_error="return")
+    except Exception as error:
+        raise UserError(
+            "the workers of the cluster do not answer",
+            where=address,
+            found=f"{type(error).__name__}: {error}".split("\n")[0][:300],
+            expected="workers with this version of ragg and of Dask",
+            remedy="install the same versions on all workers",
+        ) from None
+    if not answers:
+        raise UserError("the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS")
+    own = dict(fingerprint())
+    for worker, answer in sorted(answers.items()):
+        if isinstance(answer, BaseException):
+            found: object = f"{type(answer).__name__}: {answer}"
+        else:
+            theirs = dict(answer)
+            different = {n: theirs.get(n) for n in own if theirs.get(n) != own[n]}
+            if not different:
+                continue
+            found = ", ".join(f"{n} {v}" for n, v in different.items())
+        raise UserError(
+            "a worker of the cluster does not run this version of the program",
+            where=worker,
+            found=found,
+            expected=", ".join(f"{n} {v}" for n, v in own.items()),
+            remedy="install the same versions of ragg, NumPy, SciPy and SymPy on all workers",
+        )

@@ -1,0 +1,164 @@
+"""The file that an interrupted survey continues from: one line of JSON for every flight that is done.
+
+The first line says what was asked (digest of model.toml, versions). A line is written by one call, so that
+it is there or not; what a killed process left of a line is cut off by the next one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey.task import Job, Record
+
+KIND = "ragg survey"
+
+
+def head(job: Job) -> Record:
+    """The first line: figures under the same head may stand in one table."""
+    text = hashlib.sha256(job.text.encode()).hexdigest()
+    return {"kind": KIND, "model": text, "program": dict(job.program)}
+
+
+def sha256(path: Path) -> str | None:
+    """Digest of a file, as a flight's; ``None`` if it cannot be read."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
+
+
+class Journal:
+    """Records of flights in a file, appended one by one; use :func:`journal`."""
+
+    def __init__(self, path: Path, handle: int) -> None:
+        self.path = path
+        self._handle = handle
+
+    def append(self, record: Record) -> None:
+        """Add a record; on return it is on the disc."""
+        line = (json.dumps(record, allow_nan=False, separators=(",", ":")) + "\n").encode()
+        try:
+            end = os.lseek(self._handle, 0, os.SEEK_END)
+            try:
+                written = os.write(self._handle, line)
+                if written < len(line):  # a full disc
+                    raise OSError(28, "No space left on device")
+                os.fsync(self._handle)
+            except OSError:
+                os.ftruncate(self._handle, end)
+                raise
+        except OSError as error:
+            raise UserError(
+                "the results file cannot be written", where=self.path, found=error.strerror
+            ) from None
+
+    def read(self, job: Job, files: Sequence[str]) -> dict[str, Record]:
+        """Records that still hold, by file: of the same model, program and content; errors do not.
+
+        Raises UserError if the file is another survey's, or no survey's.
+        """
+        with open(self._handle, "rb", closefd=False) as stream:
+            stream.seek(0)
+            text = stream.read()
+        whole = text[: text.rfind(b"\n") + 1]
+        if not whole and KIND.encode() not in text[:80] and text:
+            raise self._foreign("no line of JSON")
+        os.ftruncate(self._handle, len(whole))
+        lines = whole.splitlines()
+        if not lines:
+            self.append(head(job))
+            return {}
+        self._compare(lines[0], job)
+        wanted = dict.fromkeys(files)
+        found: dict[str, Record] = {}
+        for number, line in enumerate(lines[1:], 2):
+            record = self._parsed(line, number)
+            if record.get("file") in wanted:
+                found[record["file"]] = record
+        return {
+            file: r for file, r in found.items() if "verdict" in r and r.get("sha256") == sha256(Path(file))
+        }
+
+    def _compare(self, line: bytes, job: Job) -> None:
+        found, asked = self._parsed(line, 1), head(job)
+        if found.get("kind") != KIND:
+            raise self._foreign(line[:80].decode(errors="replace"))
+        for key, what in (("model", "model.toml"), ("program", "version of the program")):
+            if found.get(key) != asked[key]:
+                raise UserError(
+                    f"these results are of another {what}",
+                    where=self.path,
+                    found=found.get(key),
+                    expected=asked[key],
+                    remedy="name another results file: the figures of both would not fit together",
+                )
+
+    def _parsed(self, line: bytes, number: int) -> Record:
+        try:
+            record = json.loads(line)
+        except (ValueError, RecursionError):
+            record = None
+        if not isinstance(record, dict):
+            raise self._foreign(f"line {number}: {line[:80].decode(errors='replace')}")
+        return record
+
+    def _foreign(self, found: str) -> UserError:
+        return UserError(
+            "not a results file of a survey",
+            where=self.path,
+            found=found,
+            expected="a file that `ragg survey --resume` has written, or none",
+            remedy="name another file",
+        )
+
+
+@contextlib.contextmanager
+def journal(path: Path) -> Iterator[Journal]:
+    """Open or make a results file; UserError if that cannot be done or another survey is writing to it."""
+    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
+    try:
+        handle = os.open(path, flags, 0o666)
+    except OSError as error:
+        raise UserError(
+            "the results file cannot be written",
+            where=path,
+            found=error.strerror,
+            remedy="name a file in a folder that exists and that you may write to",
+        ) from None
+    try:
+        _claim(handle, path)
+        yield Journal(path, handle)
+    finally:
+        os.close(handle)
+
+
+def _claim(handle: int, path: Path) -> None:
+    if sys.platform == "win32":
+        return
+    import fcntl
+
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise UserError(
+            "another survey is writing to this results file",
+            where=path,
+            remedy="wait until it has ended, or name another file",
+        ) from None
+    except OSError:
+        return  # a file system without locks
+
+
+def lines_of(path: Path) -> list[Any]:
+    """Every complete line of a results file."""
+    text = path.read_bytes()
+    return [json.loads(line) for line in text[: text.rfind(b"\n") + 1].splitlines()]

@@ -1,0 +1,170 @@
+"""A pool of processes on this machine.
+
+Every worker is a pool of one: if it dies (out of memory, killed, a fault in a library) it is plain which
+flight it was at, the others go on, and the flight is done again by a new one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import queue
+import signal
+import threading
+from collections import deque
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey.task import Job, Record, examine
+
+ATTEMPTS = 3
+"""How often a flight is tried whose worker dies or runs out of memory."""
+
+_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+
+
+def processors() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def examined(job: Job, files: Sequence[str], jobs: int) -> Generator[tuple[str, Record]]:
+    """(file, record) of every flight, in the order in which they are done.
+
+    Raises UserError if no worker can be started. Closing the iterator ends the workers.
+    """
+    waiting = deque((file, 1) for file in files)
+    done: queue.Queue[tuple[_Worker, str, int, Future[Record]]] = queue.Queue()
+    workers = [_Worker() for _ in range(min(jobs, len(files)))]
+    busy = 0
+    try:
+        for w in workers:
+            if waiting:
+                w.give(job, *waiting.popleft(), done)
+                busy += 1
+        while busy:
+            w, file, attempt, future = done.get()
+            busy -= 1
+            error = future.exception()
+            if error is None:
+                yield file, future.result()
+            elif attempt < ATTEMPTS and not isinstance(error, UserError):
+                waiting.append((file, attempt + 1))
+            else:
+                yield file, lost(file, error)
+            if isinstance(error, BrokenProcessPool):
+                w.renew()
+            if waiting:
+                w.give(job, *waiting.popleft(), done)
+                busy += 1
+    finally:
+        for w in workers:
+            w.end()
+
+
+def lost(file: str, error: BaseException) -> Record:
+    """The record of a flight on which every attempt failed."""
+    what = (
+        "the worker process died (out of memory, or killed)"
+        if isinstance(error, BrokenProcessPool)
+        else f"{type(error).__name__}: {error}"
+    )
+    message = f"{file}: {what}, {ATTEMPTS} times"
+    return {"flight": os.path.basename(file), "file": file, "error": {"kind": "lost", "message": message}}
+
+
+class _Worker:
+    """A pool of one process."""
+
+    def __init__(self) -> None:
+        self.starts = 0
+        self.renew()
+
+    def renew(self) -> None:
+        """A new process in place of a dead one. It is started by the first call."""
+        context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
+        self.pool = ProcessPoolExecutor(1, context, initializer=_begin)
+        self.ready: Future[int] | None = None
+
+    def give(self, job: Job, file: str, attempt: int, done: queue.Queue[Any]) -> None:
+        """Let the process look at a flight; ``done`` gets (worker, file, attempt, future)."""
+        while True:
+            try:
+                if self.ready is None:
+                    self._start()
+                future = self.pool.submit(examine, job, file)
+                break
+            except BrokenProcessPool:  # died while it had nothing to do
+                self.renew()
+        future.add_done_callback(lambda f: done.put((self, file, attempt, f)))
+
+    def _start(self) -> None:
+        with _inherited():
+            self.ready = self.pool.submit(_pid)
+        try:
+            self.ready.result()
+            self.starts = 0
+        except BrokenProcessPool:
+            self.starts += 1
+            if self.starts >= ATTEMPTS:
+                raise UserError(
+                    "no worker process can be started",
+                    expected="a program that can be imported: workers begin by importing it",
+                    remedy="in a script of your own, call survey below `if __name__ == '__main__':`",
+                ) from None
+            raise
+
+    def end(self) -> None:
+        """End the process, whatever it is at."""
+        processes: dict[int, Any] = dict(getattr(self.pool, "_processes", None) or {})
+        idle = not getattr(self.pool, "_pending_work_items", None)
+        if not idle:
+            for p in processes.values():
+                with contextlib.suppress(ValueError, OSError):
+                    p.kill()
+        self.pool.shutdown(wait=True, cancel_futures=True)
+
+
+@contextlib.contextmanager
+def _inherited() -> Iterator[None]:
+    """What a new process inherits: linear algebra on one thread, and no Ctrl-C (that is the parent's)."""
+    old = {name: os.environ.get(name) for name in _ONE_THREAD}
+    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
+    mask = (
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        if hasattr(signal, "pthread_sigmask")
+        else None
+    )
+    try:
+        yield
+    finally:
+        if mask is not None:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for name, value in old.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _begin() -> None:
+    """First call in a worker: Ctrl-C is the parent's; a worker does not outlive its parent."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_follow, args=(parent,), daemon=True).start()
+
+
+def _follow(parent: Any) -> None:
+    parent.join()
+    os._exit(1)
+
+
+def _pid() -> int:
+    return os.getpid()

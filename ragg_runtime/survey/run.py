@@ -1,0 +1,125 @@
+"""A survey: every flight diagnosed by itself, on this machine or on a cluster, and what they say together."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Generator, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey import cluster, local, summary
+from ragg_runtime.survey.journal import Journal, journal
+from ragg_runtime.survey.summary import Summary
+from ragg_runtime.survey.task import Job, Record, job
+
+Progress = Callable[[int, int, Record | None], None]
+"""Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
+
+
+@dataclass(frozen=True)
+class Survey:
+    """The result: one record a flight, in the order of the flights' names, and their summary.
+
+    ``records`` are JSON: ``flight``, ``file`` and either ``error`` (``kind``, ``message``) or what
+    :func:`ragg_runtime.survey.task.examine` tells of a flight.
+    """
+
+    records: tuple[Record, ...]
+
+    @property
+    def done(self) -> tuple[Record, ...]:
+        """Records of the flights that could be diagnosed."""
+        return tuple(r for r in self.records if "verdict" in r)
+
+    @property
+    def failed(self) -> tuple[Record, ...]:
+        """Records of the others."""
+        return tuple(r for r in self.records if "verdict" not in r)
+
+    @cached_property
+    def summary(self) -> Summary:
+        return summary.summarised(self.records)
+
+    def as_json(self) -> dict[str, object]:
+        return {**self.summary.as_json(), "flights": list(self.records)}
+
+
+def survey(
+    text: str,
+    path: Path,
+    flights: Sequence[Path | str],
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+) -> Survey:
+    """Diagnose flights one by one.
+
+    Parameters
+    ----------
+    text, path
+        model.toml and where it stands.
+    flights
+        Files; the order does not matter, a file named twice counts once.
+    jobs
+        Worker processes on this machine (default: one a processor).
+    scheduler
+        Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead.
+    resume
+        Results file: what stands in it is not done again (flights in error are), what is done is added.
+
+    Raises
+    ------
+    UserError
+        For bad input to the survey as a whole. A single flight that fails has its error in its record.
+    """
+    if not flights:
+        raise UserError("a survey needs flights", expected="one file or more")
+    if jobs is not None and scheduler is not None:
+        raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
+    if jobs is not None and jobs < 1:
+        raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
+    given = job(text, path, cluster=scheduler is not None)
+    files = ordered(flights)
+    records: dict[str, Record] = {}
+    with _kept(resume) as kept:
+        if kept is not None:
+            records |= kept.read(given, files)
+        if progress is not None:
+            progress(len(records), len(files), None)
+        left = [f for f in files if f not in records]
+        if left:
+            with contextlib.closing(_examined(given, left, jobs, scheduler)) as found:
+                for file, record in found:
+                    records[file] = record
+                    if kept is not None:
+                        kept.append(record)
+                    if progress is not None:
+                        progress(len(records), len(files), record)
+    return Survey(tuple(records[f] for f in files))
+
+
+def ordered(flights: Sequence[Path | str]) -> list[str]:
+    """Absolute paths, each once, sorted by file name (then by folder)."""
+    paths = {str(Path(f).resolve()) for f in flights}
+    return sorted(paths, key=lambda f: (Path(f).name, f))
+
+
+def _examined(
+    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None
+) -> Generator[tuple[str, Record]]:
+    if scheduler is not None:
+        return cluster.examined(given, files, scheduler)
+    return local.examined(given, files, jobs or local.processors())
+
+
+@contextlib.contextmanager
+def _kept(resume: Path | None) -> Iterator[Journal | None]:
+    if resume is None:
+        yield None
+    else:
+        with journal(resume) as kept:
+            yield kept

@@ -1,0 +1,249 @@
+"""What many flights say together: verdicts, effects, how the parameters behave from flight to flight."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from ragg_runtime.evidence.search import FAMILY
+
+FALSE_ALARMS = 0.05
+"""Share of flights without any effect that may seem to have one: what the diagnosis promises to stay below."""
+
+CERTAIN = -30.0
+"""Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
+
+VERDICTS = ("adequate", "missing-effect", "unexplained")
+
+
+@dataclass(frozen=True)
+class EffectCount:
+    """How often an effect was found.
+
+    Attributes
+    ----------
+    found
+        Flights in which it is claimed.
+    perhaps
+        Further flights in which it would do as well as what is claimed.
+    testable
+        Flights whose record could have shown it.
+    """
+
+    effect: str
+    found: int
+    perhaps: int
+    testable: int
+
+
+@dataclass(frozen=True)
+class Advice:
+    """An effect to add, and the flights that ask for it.
+
+    Attributes
+    ----------
+    effect
+        The effect that accounts for most of the flights not yet accounted for.
+    flights
+        Their names.
+    log10_chance
+        Logarithm of the probability of as many false alarms, if :data:`FALSE_ALARMS` of all flights give one.
+    strongest_log10_p
+        That of the least p-value of these flights (``None``: unknown).
+    alternatives
+        Effects that none of these flights can tell from it.
+    """
+
+    effect: str
+    flights: tuple[str, ...]
+    log10_chance: float
+    strongest_log10_p: float | None
+    alternatives: tuple[str, ...]
+
+    @property
+    def firm(self) -> bool:
+        """Whether so many flights, or one with such evidence, can hardly be false alarms."""
+        strong = self.strongest_log10_p is not None and self.strongest_log10_p < CERTAIN
+        return bool(strong or self.log10_chance < np.log10(FAMILY))
+
+
+@dataclass(frozen=True)
+class Trend:
+    """A calibrated parameter over the flights that see it, in the order of their names.
+
+    Attributes
+    ----------
+    name, accelerometer, unit
+        As in a diagnosis; parameters of an effect begin with its id.
+    values, stds
+        By flight; ``None`` where the flight does not see it.
+    mean, scatter
+        Mean weighted by the variances, and standard deviation of the values.
+    chi2, dof
+        Sum of squared deviations from the mean in standard deviations, and values less one.
+    slope_z
+        Slope from flight to flight over its standard deviation, the scatter about the line included (``None``
+        for less than three values).
+    """
+
+    name: str
+    accelerometer: int | None
+    unit: str
+    values: tuple[float | None, ...]
+    stds: tuple[float | None, ...]
+    mean: float
+    scatter: float
+    chi2: float
+    dof: int
+    slope_z: float | None
+
+    @property
+    def label(self) -> str:
+        return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
+
+    @property
+    def varies(self) -> bool:
+        """Whether the values differ by more than their standard deviations let expect (1 %)."""
+        return bool(self.log_p < np.log(FAMILY))
+
+    @property
+    def log_p(self) -> float:
+        """Logarithm of the probability that a constant parameter scatters so much."""
+        return float(stats.chi2.logsf(self.chi2, self.dof)) if self.dof else 0.0
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What all records say together. Tuples are sorted, most telling first."""
+
+    counts: Mapping[str, int]
+    effects: tuple[EffectCount, ...]
+    advice: tuple[Advice, ...]
+    terms: tuple[tuple[str, str, int], ...]
+    trends: tuple[Trend, ...]
+    names: tuple[str, ...]
+    median: Mapping[str, float | None]
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "counts": dict(self.counts),
+            "effects": [asdict(e) for e in self.effects],
+            "recommendation": [asdict(a) | {"firm": a.firm} for a in self.advice],
+            "unexplained_terms": [{"harmonic": h, "term": t, "flights": n} for h, t, n in self.terms],
+            "median_error": dict(self.median),
+            "parameters": [_trend_json(t) for t in self.trends],
+        }
+
+
+def _trend_json(t: Trend) -> dict[str, Any]:
+    whole = asdict(t)
+    return {k: list(v) if isinstance(v, tuple) else v for k, v in whole.items()} | {"varies": t.varies}
+
+
+def summarised(records: Sequence[Mapping[str, Any]]) -> Summary:
+    """Summary of records in the order of their flights' names."""
+    done = [r for r in records if "verdict" in r]
+    counts = {v: sum(r["verdict"] == v for r in done) for v in VERDICTS}
+    counts["error"] = len(records) - len(done)
+    return Summary(
+        counts,
+        tuple(_effects(done)),
+        tuple(_advice(done)),
+        tuple(_terms(done)),
+        tuple(_trends(done)),
+        tuple(str(r["flight"]) for r in done),
+        {k: _median(done, k) for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+        | {"noise_floor": float(np.median([r["noise_floor"]["rms_Eo"] for r in done])) if done else None},
+    )
+
+
+def _median(done: Sequence[Mapping[str, Any]], which: str) -> float | None:
+    values = [r["error"][which]["rms_Eo"] for r in done if r["error"][which]]
+    known = [v for v in values if v is not None]
+    return float(np.median(known)) if known else None
+
+
+def _claims(r: Mapping[str, Any]) -> list[frozenset[str]]:
+    """What a flight asks for: one effect out of each of these."""
+    return [frozenset({e, *r["indistinguishable"].get(e, ())}) for e in r["found"]]
+
+
+def _effects(done: Sequence[Mapping[str, Any]]) -> list[EffectCount]:
+    names = sorted({e for r in done for group in _claims(r) for e in group})
+    found = []
+    for e in names:
+        own = sum(e in r["found"] for r in done)
+        either = sum(any(e in group for group in _claims(r)) for r in done)
+        testable = sum(e not in r["not_testable"] for r in done)
+        found.append(EffectCount(e, own, either - own, testable))
+    return sorted(found, key=lambda x: (-x.found, -x.perhaps, x.effect))
+
+
+def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
+    """Effects that together account for all claims, each the one with most claims still open."""
+    open_claims = [
+        (n, group, e) for n, r in enumerate(done) for group, e in zip(_claims(r), r["found"], strict=True)
+    ]
+    found = []
+    while open_claims:
+        score: dict[str, tuple[int, int]] = {}
+        for _, group, main in open_claims:
+            for e in sorted(group):
+                either, own = score.get(e, (0, 0))
+                score[e] = (either + 1, own + (e == main))
+        best = min(score, key=lambda e: (-score[e][0], -score[e][1], e))
+        mine = [(n, group) for n, group, _ in open_claims if best in group]
+        flights = list(dict.fromkeys(n for n, _ in mine))
+        shared = frozenset.intersection(*(group for _, group in mine)) - {best}
+        chance = float(stats.binom.logsf(len(flights) - 1, len(done), FALSE_ALARMS) / np.log(10.0))
+        names = tuple(str(done[n]["flight"]) for n in flights)
+        evidence = [_log10_p(done[n], best) for n in flights]
+        strongest = min((p for p in evidence if p is not None), default=None)
+        found.append(Advice(best, names, chance, strongest, tuple(sorted(shared))))
+        open_claims = [c for c in open_claims if best not in c[1]]
+    return found
+
+
+def _log10_p(r: Mapping[str, Any], effect: str) -> float | None:
+    return next((x["log10_p"] for x in r["ranking"] if x["effect"] == effect), None)
+
+
+def _terms(done: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, int]]:
+    """Motion terms of the unexplained flights: (harmonic, term, flights), most frequent first."""
+    count: dict[tuple[str, str], int] = {}
+    for r in done:
+        for key in dict.fromkeys((t["harmonic"], t["term"]) for t in r.get("terms", ())):
+            count[key] = count.get(key, 0) + 1
+    return [(h, t, n) for (h, t), n in sorted(count.items(), key=lambda x: (-x[1], x[0]))]
+
+
+def _trends(done: Sequence[Mapping[str, Any]]) -> list[Trend]:
+    """Parameters that two flights or more see; those that vary most come first."""
+    columns: dict[tuple[str, int | None, str], dict[int, tuple[float, float]]] = {}
+    for n, r in enumerate(done):
+        for p in r["parameters"]:
+            if p["value"] is not None and p["std"]:
+                key = (p["name"], p["accelerometer"], p["unit"])
+                columns.setdefault(key, {})[n] = (p["value"], p["std"])
+    found = [_trend(key, seen, len(done)) for key, seen in columns.items() if len(seen) > 1]
+    return sorted(found, key=lambda t: (t.log_p, t.name, t.accelerometer or 0))
+
+
+def _trend(key: tuple[str, int | None, str], seen: Mapping[int, tuple[float, float]], count: int) -> Trend:
+    at = np.array(sorted(seen), dtype=np.float64)
+    v, s = (np.array([seen[int(n)][k] for n in at]) for k in (0, 1))
+    w = 1.0 / s**2
+    centre = float(v[0])  # of values that agree to many digits, only the differences are summed
+    mean = centre + float(np.sum(w * (v - centre)) / np.sum(w))
+    x = at - float(np.sum(w * at) / np.sum(w))
+    values, stds = ([seen[n][k] if n in seen else None for n in range(count)] for k in (0, 1))
+    chi2 = float(np.sum(w * (v - mean) ** 2))
+    line = float(np.sum(w * x * (v - mean)) / np.sum(w * x**2))
+    about = float(np.sum(w * (v - mean - line * x) ** 2))
+    wider = max(1.0, about / max(len(v) - 2, 1)) ** 0.5
+    slope = line * float(np.sqrt(np.sum(w * x**2))) / wider if len(v) > 2 else None
+    return Trend(*key, tuple(values), tuple(stds), mean, float(np.std(v, ddof=1)), chi2, len(v) - 1, slope)

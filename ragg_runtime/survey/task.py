@@ -1,0 +1,285 @@
+"""What is done with one flight of a survey, wherever it is done: diagnose it, and keep the figures.
+
+A job is text and numbers only, so that it can be sent to any process; the model is derived where it arrives,
+once a process. The same job and file give the same record, bit for bit, for any number of workers: linear
+algebra runs on one thread while a flight is looked at.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import platform
+import socket
+import threading
+import traceback
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import threadpoolctl
+
+import ragg_runtime
+from ragg_runtime import compare, extend
+from ragg_runtime.compare import FITTED_BLOCKS, Fitted
+from ragg_runtime.diagnose import (
+    Diagnosis,
+    ParameterValue,
+    diagnose_fitted,
+    parameter_values,
+    visible_combinations,
+)
+from ragg_runtime.errors import UserError
+from ragg_runtime.evidence.work import BLOCKS
+from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.instrument import Instrument, parse_instrument
+from ragg_runtime.load import Model
+from ragg_runtime.metrics import Error
+
+Record = dict[str, Any]
+"""What a survey keeps of a flight: JSON."""
+
+RANKED = 5
+"""Effects of the ranking that are kept."""
+
+SEEN = 0.1
+"""A parameter counts as seen if its standard deviation is below this share of its prior's."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """The model that flights are held against.
+
+    Attributes
+    ----------
+    text, path
+        model.toml, and where it stands (its ``effects_folder`` is looked for from there).
+    program
+        :func:`fingerprint` of the program that asks: one that differs would give other figures.
+    cluster
+        Whether the flight is looked at on another machine.
+    """
+
+    text: str
+    path: str
+    program: tuple[tuple[str, str], ...]
+    cluster: bool = False
+
+
+def job(text: str, path: Path, *, cluster: bool = False) -> Job:
+    return Job(text, str(path.resolve()), fingerprint(), cluster)
+
+
+@cache
+def fingerprint() -> tuple[tuple[str, str], ...]:
+    """(name, version) of everything that figures depend on, the program's own text included."""
+    python = ".".join(platform.python_version_tuple()[:2])
+    versions = [(n, metadata.version(n)) for n in ("numpy", "scipy", "sympy")]
+    return (("python", python), ("ragg", _program()), *versions)
+
+
+def _program() -> str:
+    """Digest of the sources of this program."""
+    total = hashlib.sha256()
+    root = Path(str(ragg_runtime.__file__)).parents[1]
+    for package in ("derive", "generated", "ragg_runtime"):
+        for path in sorted((root / package).rglob("*.py")):
+            text = path.read_bytes()
+            total.update(f"{path.relative_to(root).as_posix()} {len(text)}\n".encode() + text)
+    return total.hexdigest()[:16]
+
+
+def examine(given: Job, file: str) -> Record:
+    """The record of one flight; a flight that cannot be read or diagnosed has an ``error`` instead of figures.
+
+    Raises MemoryError and OSError, which a further attempt may mend.
+    """
+    path = Path(file)
+    record: Record = {"flight": path.name, "file": file}
+    try:
+        _same_program(given)
+        if given.cluster and not path.exists():
+            raise UserError(
+                "the worker does not see the flight file",
+                where=path,
+                found=f"no such file on {socket.gethostname()}",
+                expected="a file system that all workers share, under the same path",
+                remedy="put the flights where every worker can read them, or survey without --scheduler",
+            )
+        with _one_thread():
+            instrument, model = _model(given.text, given.path)
+            flight = read_flight(path, instrument.g0)
+            return record | _figures(model, instrument, flight)
+    except UserError as error:
+        return record | {"error": {"kind": "input", "message": error.message}}
+    except (MemoryError, OSError):
+        raise
+    except Exception as error:
+        return record | {"error": {"kind": "fault", "message": _fault(error)}}
+
+
+def _same_program(given: Job) -> None:
+    own, asked = dict(fingerprint()), dict(given.program)
+    different = [n for n in asked if own.get(n) != asked[n]]
+    if different:
+        raise UserError(
+            "the worker runs another program: its figures would not be the same",
+            where=socket.gethostname(),
+            found=", ".join(f"{n} {own.get(n)}" for n in different),
+            expected=", ".join(f"{n} {asked[n]}" for n in different),
+            remedy="install the same versions on all workers",
+        )
+
+
+def _fault(error: Exception) -> str:
+    frames = traceback.extract_tb(error.__traceback__)
+    place = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
+    return f"{type(error).__name__}: {error}{place}"
+
+
+_deriving = threading.RLock()
+
+
+@lru_cache(maxsize=8)
+def _parsed(text: str, path: str) -> tuple[Instrument, Model]:
+    instrument = parse_instrument(text, Path(path))
+    return instrument, extend.model_of(instrument)
+
+
+def _model(text: str, path: str) -> tuple[Instrument, Model]:
+    with _deriving:  # a worker of a cluster may have several threads, and SymPy knows only one
+        return _parsed(text, path)
+
+
+class _Limit:
+    """One thread for linear algebra as long as anybody in the process needs it so."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self.users = 0
+        self.limit: Any = None
+
+    @contextlib.contextmanager
+    def __call__(self) -> Iterator[None]:
+        with self.lock:
+            self.users += 1
+            if self.users == 1:
+                self.limit = threadpoolctl.threadpool_limits(1)
+        try:
+            yield
+        finally:
+            with self.lock:
+                self.users -= 1
+                if not self.users:
+                    self.limit.restore_original_limits()
+
+
+_one_thread = _Limit()
+
+
+def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
+    def extended(m: Model, ids: Sequence[str]) -> Model:
+        with _deriving:
+            return extend.with_effects(instrument, m, ids)
+
+    f = compare.fit(model, instrument, [compare.observe(flight, instrument)])
+    nominal = f.error(compare.nominal_residuals(f, instrument))
+    d = diagnose_fitted(f, [flight], extended)
+    held = _holdout(f).as_json()
+    record: Record = {
+        "sha256": flight.digest,
+        "samples": len(flight),
+        "duration_s": flight.duration,
+        "rate_Hz": flight.rate,
+        "notes": list(flight.notes),
+        "verdict": d.verdict,
+        "found": list(d.found),
+        "indistinguishable": {
+            r.effect: list(r.indistinguishable_from) for r in d.ranking if r.effect in d.found
+        },
+        "ranking": [
+            {
+                "effect": r.effect,
+                "log10_p": _finite(r.log_p / np.log(10.0)),
+                "delta_bic": _finite(r.delta_bic),
+            }
+            for r in d.ranking[:RANKED]
+        ],
+        "not_testable": [n.effect for n in d.not_testable],
+        "error": {
+            "nominal": nominal.as_json(),
+            "calibrated": d.before.as_json(),
+            "holdout": held,
+            "after": d.after.as_json(),
+            "after_holdout": _after_holdout(d, held),
+        },
+        "noise_floor": {"rms_Eo": d.noise_floor},
+        "parameters": [p.as_json() for p in _parameters(d)],
+    }
+    if d.verdict == "unexplained":
+        unexplained: Any = d.as_json()["unexplained"]
+        record["terms"] = unexplained["terms"]
+    # floats of Python print and read back exactly: the same figures whichever way a record takes
+    return {key: _plain(value) for key, value in record.items()}
+
+
+def _holdout(f: Fitted) -> Error:
+    half, _ = f.coefficients((), held_out=True)
+    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+    return f.error(f.residuals(half, ()), scored)
+
+
+def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    if d.final is not None:
+        return _holdout(d.final).as_json()
+    if not d.found:
+        return held
+    single = [r.after_holdout.as_json() for r in d.ranking if d.found == (r.effect,)]
+    return single[0] if single else None
+
+
+def _parameters(d: Diagnosis) -> list[ParameterValue]:
+    """Calibrated values of what this record sees: single parameters, else combinations; effects by their id."""
+    f = d.final or d.fitted
+    c = f.calibration
+    values = np.array([c.p[k] / q.scale for k, q in zip(c.index, c.columns, strict=True)])
+    every = parameter_values(c.columns, values, c.covariance)
+    found = []
+    for k, (q, p) in enumerate(zip(c.columns, every, strict=True)):
+        if c.covariance[k, k] < SEEN**2:
+            found.append(_named(p, q.effect))
+    for e in dict.fromkeys(q.effect for q in c.columns):
+        own = [k for k, q in enumerate(c.columns) if q.effect == e]
+        combined = visible_combinations(
+            [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)]
+        )
+        found += [_named(p, e) for p in combined]
+    if d.final is None:
+        found += [_named(p, r.effect) for r in d.ranking if r.effect in d.found for p in r.parameters]
+    return found
+
+
+def _named(p: ParameterValue, effect: str | None) -> ParameterValue:
+    name = f"{effect}.{p.name}" if effect else p.name
+    return ParameterValue(name, p.accelerometer, p.value, p.std, p.unit)
+
+
+def _finite(x: float) -> float | None:
+    return float(x) if np.isfinite(x) else None
+
+
+def _plain(x: Any) -> Any:
+    """The same in types of JSON alone."""
+    if isinstance(x, Mapping):
+        return {str(k): _plain(v) for k, v in x.items()}
+    if isinstance(x, (list, tuple)):
+        return [_plain(v) for v in x]
+    if isinstance(x, (bool, str)) or x is None:
+        return x
+    if isinstance(x, (int, np.integer)):
+        return int(x)
+    return _finite(x)

@@ -1,0 +1,29 @@
+"""A model directory and small flights for the tests of the survey."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+from ragg_runtime import workflow
+from ragg_runtime.flight import write_flight
+from ragg_runtime.simulate import simulated
+
+HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
+COUNT = 5
+WITH_EFFECT = ("flight-0.parquet", "flight-3.parquet")
+
+
+def make(folder: Path) -> tuple[Path, list[Path]]:
+    """Five flights of 150 s at 8 Hz, an effect hidden in two of them, and a damaged file between them."""
+    m = workflow.new(folder / "model")
+    paths = []
+    for k in range(COUNT):
+        path = folder / f"flight-{k}.parquet"
+        hidden = [HIDDEN] if path.name in WITH_EFFECT else []
+        write_flight(simulated(m.instrument, hidden, seed=k + 50, duration=150.0, rate=8.0), path)
+        paths.append(path)
+    damaged = folder / "flight-2b.parquet"
+    shutil.copy(paths[1], damaged)
+    damaged.write_bytes(damaged.read_bytes()[:5000])
+    return folder / "model", [*paths, damaged]

@@ -1,0 +1,351 @@
+"""Surveys on this machine: same figures for any number of workers, workers that die, interruption, resumption."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from flights_of_a_survey import COUNT, WITH_EFFECT, make
+
+from ragg_runtime import workflow
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey import Survey, local
+from ragg_runtime.survey.journal import lines_of
+from ragg_runtime.survey.page import survey_html
+from ragg_runtime.survey.task import Job, Record, job
+from ragg_runtime.survey.text import surveyed
+
+Flights = tuple[Path, list[Path]]
+
+
+@pytest.fixture(scope="module")
+def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
+    return make(tmp_path_factory.mktemp("survey"))
+
+
+@pytest.fixture(scope="module")
+def whole(flights: Flights) -> Survey:
+    return workflow.survey(workflow.load(flights[0]), flights[1], jobs=2)
+
+
+def ragg(*arguments: object, **options: Any) -> subprocess.Popen[str]:
+    words = [sys.executable, "-m", "ragg_runtime", *map(str, arguments)]
+    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+
+def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> None:
+    m = workflow.load(flights[0])
+    assert [r["flight"] for r in whole.records] == sorted(p.name for p in flights[1])
+    found = [r["flight"] for r in whole.done if "thermal-scale" in r["found"]]
+    assert set(WITH_EFFECT) <= set(found)
+    for name in WITH_EFFECT:
+        record = next(r for r in whole.done if r["flight"] == name)
+        d = workflow.diagnose(m, workflow.read_flights(m, [flights[0].parent / name]))
+        assert (record["verdict"], record["found"]) == (d.verdict, list(d.found))
+        assert record["error"]["after"]["rms_Eo"] == pytest.approx(d.after.rms_Eo, rel=1e-9)
+        c = workflow.compare(m, workflow.read_flights(m, [flights[0].parent / name]))
+        assert record["error"]["nominal"]["rms_Eo"] == pytest.approx(c.nominal.rms_Eo, rel=1e-9)
+        assert record["error"]["holdout"]["rms_Eo"] == pytest.approx(c.holdout.rms_Eo, rel=1e-9)
+        assert record["error"]["after"]["rms_Eo"] < 0.5 * record["error"]["calibrated"]["rms_Eo"]
+
+
+def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Flights, whole: Survey) -> None:
+    assert [r["flight"] for r in whole.failed] == ["flight-2b.parquet"]
+    assert "damaged" in whole.failed[0]["error"]["message"]
+    assert whole.summary.counts["error"] == 1
+    assert len(whole.done) == COUNT
+    said = surveyed(whole, flights[0])
+    assert "1 in error" in said
+    assert "flight-2b.parquet: " in said
+    advice = whole.summary.advice[0]
+    assert (advice.effect, advice.firm) == ("thermal-scale", True)
+    assert set(WITH_EFFECT) <= set(advice.flights)
+    assert "ragg add" in said
+
+
+def test_the_number_of_workers_changes_no_bit(flights: Flights, whole: Survey) -> None:
+    m = workflow.load(flights[0])
+    again = workflow.survey(m, list(reversed(flights[1])), jobs=1)
+    assert json.dumps(again.as_json()) == json.dumps(whole.as_json())
+
+
+def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights, whole: Survey) -> None:
+    killed: list[int] = []
+
+    def kill_one(done: int, total: int, record: Record | None) -> None:
+        if record is not None and not killed:
+            pids = sorted(p.pid for p in multiprocessing.active_children() if p.pid)
+            assert len(pids) == 2
+            killed.extend(pids)
+            for pid in pids:
+                os.kill(pid, signal.SIGKILL)
+
+    m = workflow.load(flights[0])
+    again = workflow.survey(m, flights[1], jobs=2, progress=kill_one)
+    assert len(killed) == 2
+    assert json.dumps(again.as_json()) == json.dumps(whole.as_json())
+    assert not multiprocessing.active_children()
+
+
+def deadly(given: Job, file: str) -> Record:
+    """Stands in for a flight that takes its worker down each time."""
+    if "flight-1" in file:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if "flight-2.parquet" in file:
+        raise MemoryError("no room")
+    return {"flight": Path(file).name, "file": file, "verdict": "adequate"}
+
+
+def test_a_flight_that_kills_every_worker_is_given_up(
+    flights: Flights, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(local, "examine", deadly)
+    files = [str(p) for p in flights[1]]
+    toml = flights[0] / "model.toml"
+    found = dict(local.examined(job(toml.read_text(), toml), files, 2))
+    assert sorted(found) == sorted(files)
+    failed = {Path(f).name: r["error"] for f, r in found.items() if "error" in r}
+    assert sorted(failed) == ["flight-1.parquet", "flight-2.parquet"]
+    assert "died" in failed["flight-1.parquet"]["message"]
+    assert "MemoryError" in failed["flight-2.parquet"]["message"]
+    assert {e["kind"] for e in failed.values()} == {"lost"}
+
+
+def unimportable() -> None:
+    os._exit(3)
+
+
+def test_a_worker_that_cannot_be_started_is_one_message(
+    flights: Flights, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(local, "_begin", unimportable)
+    with pytest.raises(UserError, match="__main__"):
+        workflow.survey(workflow.load(flights[0]), flights[1], jobs=2)
+
+
+def wait_for_records(file: Path, count: int, process: subprocess.Popen[str]) -> None:
+    deadline = time.monotonic() + 90
+    while not (file.exists() and file.read_bytes().count(b"\n") > count):
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="process groups and signals of POSIX")
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+def test_an_interrupted_survey_continues(
+    how: signal.Signals, flights: Flights, whole: Survey, tmp_path: Path
+) -> None:
+    kept = tmp_path / "kept.jsonl"
+    command = ("survey", flights[0], *flights[1], "--jobs", 1, "--resume", kept)
+    process = ragg(*command, start_new_session=True)
+    wait_for_records(kept, 2, process)
+    workers = children(process.pid)
+    if how is signal.SIGINT:  # a terminal sends it to the workers as well
+        os.killpg(process.pid, how)
+    else:
+        os.kill(process.pid, how)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == (130 if how is signal.SIGINT else -9)
+    if how is signal.SIGINT:
+        assert "Traceback" not in said
+        assert f"--resume {kept}" in said
+    for pid in workers:
+        gone(pid)
+    before = kept.read_bytes()
+    assert 2 <= len(lines_of(kept)) - 1 < COUNT + 1
+    kept.write_bytes(before + b'{"flight": "half a li')
+    done = ragg(*command, "--json", tmp_path / "again.json")
+    out, err = done.communicate(timeout=120)
+    assert done.returncode == 0, err
+    assert "1 in error" in out
+    assert "done before" in err
+    assert kept.read_bytes().startswith(before)
+    again = json.loads((tmp_path / "again.json").read_text())
+    for key, value in whole.as_json().items():
+        assert json.dumps(again[key]) == json.dumps(value)
+
+
+def children(pid: int) -> list[int]:
+    """Processes started by a process (where the system shows them)."""
+    try:
+        return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except OSError:
+        return []
+
+
+def gone(pid: int) -> None:
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline:
+        try:
+            os.kill(pid, 0)
+            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            return
+        if state == "Z":  # dead, and not yet fetched by whoever adopted it
+            return
+        time.sleep(0.05)
+    raise AssertionError(f"worker {pid} outlives the survey")
+
+
+def test_an_interrupted_survey_without_results_file_keeps_what_is_done(
+    flights: Flights, tmp_path: Path
+) -> None:
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    process = ragg("survey", flights[0], *flights[1], "--jobs", 1, start_new_session=True, env=environment)
+    deadline = time.monotonic() + 90
+    while not (found := list(tmp_path.glob("ragg-survey-*.jsonl"))):
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    wait_for_records(found[0], 1, process)
+    os.kill(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert f"--resume {found[0]}" in said
+    assert len(lines_of(found[0])) >= 2
+
+
+def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, tmp_path: Path) -> None:
+    m = workflow.load(flights[0])
+    kept = tmp_path / "kept.jsonl"
+    for text in ("time,a_x\n1,2\n", '{"kind": "another"}\n', "[1, 2]\n", "no line end"):
+        kept.write_text(text)
+        with pytest.raises(UserError, match="not a results file"):
+            workflow.survey(m, flights[1], jobs=1, resume=kept)
+        assert kept.read_text() == text
+    head = {"kind": "ragg survey", "model": "0" * 64, "program": {}}
+    kept.write_text(json.dumps(head) + "\n")
+    with pytest.raises(UserError, match=r"another model\.toml"):
+        workflow.survey(m, flights[1], jobs=1, resume=kept)
+    with pytest.raises(UserError, match="cannot be written"):
+        workflow.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
+
+
+def test_only_flights_that_have_not_changed_are_taken_from_the_results(
+    flights: Flights, tmp_path: Path
+) -> None:
+    m = workflow.load(flights[0])
+    kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a.parquet", "b.parquet"))
+    one.write_bytes(flights[1][0].read_bytes())
+    two.write_bytes(flights[1][1].read_bytes())
+    first = workflow.survey(m, [one, two], jobs=1, resume=kept)
+    two.write_bytes(flights[1][4].read_bytes())
+    seen: list[str] = []
+
+    def note(done: int, total: int, record: Record | None) -> None:
+        seen.append(f"{done}/{total}" if record is None else record["flight"])
+
+    second = workflow.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
+    assert seen == ["1/2", "b.parquet"]
+    assert second.records[0] == first.records[0]
+    assert second.records[1]["sha256"] != first.records[1]["sha256"]
+
+
+def test_two_surveys_do_not_write_to_one_file(flights: Flights, tmp_path: Path) -> None:
+    m = workflow.load(flights[0])
+    kept = tmp_path / "kept.jsonl"
+    refused: list[str] = []
+
+    def second(done: int, total: int, record: Record | None) -> None:
+        if record is None:
+            with pytest.raises(UserError) as error:
+                workflow.survey(m, flights[1], jobs=1, resume=kept)
+            refused.append(error.value.message)
+
+    workflow.survey(m, flights[1][:1], jobs=1, resume=kept, progress=second)
+    assert "another survey" in refused[0]
+
+
+def test_bad_use_is_one_message(flights: Flights) -> None:
+    m = workflow.load(flights[0])
+    with pytest.raises(UserError, match="needs flights"):
+        workflow.survey(m, [])
+    with pytest.raises(UserError, match="or on a cluster"):
+        workflow.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
+    with pytest.raises(UserError, match="needs a worker"):
+        workflow.survey(m, flights[1], jobs=0)
+
+
+def test_the_report_and_the_text_escape_what_strangers_wrote(whole: Survey) -> None:
+    hostile = "<script>alert(1)</script>\x1b[2J.parquet"
+    records = [dict(r) for r in whole.records]
+    records[0]["flight"] = hostile
+    records[2] |= {"notes": ["<img src=x>"]}
+    records[3] = {
+        "flight": hostile,
+        "file": hostile,
+        "error": {"kind": "input", "message": f"{hostile}\n<b>"},
+    }
+    s = Survey(tuple(records))
+    page = survey_html(s, title="<i>", command="ragg survey", digest="0", sources=[])
+    for raw in ("<script", "<img", "<b>", "<i>", "\x1b"):
+        assert raw not in page
+    assert "&lt;script&gt;" in page
+    assert "\x1b" not in surveyed(s, "m")
+    assert page == survey_html(s, title="<i>", command="ragg survey", digest="0", sources=[])
+
+
+def record(name: str, found: dict[str, list[str]], value: float = 1.0, log10_p: float = -5.0) -> Record:
+    error = {k: {"rms_Eo": 2.0} for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+    return {
+        "flight": name, "file": name, "verdict": "missing-effect" if found else "adequate",
+        "found": list(found), "indistinguishable": found, "not_testable": ["lag"], "notes": [],
+        "ranking": [{"effect": e, "log10_p": log10_p, "delta_bic": 9.0} for e in found],
+        "error": error, "noise_floor": {"rms_Eo": 2.0},
+        "parameters": [
+            {"name": "K2", "accelerometer": 1, "value": value, "std": 0.1, "unit": "ug/g^2"},
+            {"name": "K1", "accelerometer": 2, "value": 1e9 + value % 0.01, "std": 0.1, "unit": "V"},
+        ],
+    }  # fmt: skip
+
+
+def test_few_flights_are_chance_many_are_not() -> None:
+    few = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 4 else {}) for k in range(100)))
+    assert [(a.effect, a.firm) for a in few.summary.advice] == [("lag", False)]
+    many = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 15 else {}) for k in range(100)))
+    assert [(a.effect, a.firm) for a in many.summary.advice] == [("lag", True)]
+    strong = Survey(tuple(record(f"{k:03}", {"lag": []} if k < 1 else {}, log10_p=-90.0) for k in range(100)))
+    assert [(a.effect, a.firm) for a in strong.summary.advice] == [("lag", True)]
+
+
+def test_an_effect_that_accounts_for_all_flights_is_advised_before_those_that_fit_some() -> None:
+    claims: list[dict[str, list[str]]] = [
+        {"arm-sag": ["lag"]}, {"cubic-input": ["lag", "arm-sag"]}, {"lag": ["cubic-input"]}, {"lag": []},
+    ]  # fmt: skip
+    s = Survey(tuple(record(f"{k}", c) for k, c in enumerate(claims))).summary
+    assert [(a.effect, a.flights, a.alternatives) for a in s.advice] == [("lag", ("0", "1", "2", "3"), ())]
+    first = s.effects[0]
+    assert (first.effect, first.found, first.perhaps) == ("lag", 2, 2)
+    assert first.testable == 0  # `record` says that no flight could have shown it
+
+
+def test_trends_tell_constant_drifting_and_scattered_parameters() -> None:
+    draw = np.random.default_rng(8)
+    n = 60
+    constant = Survey(tuple(record(f"{k:02}", {}, v) for k, v in enumerate(3.0 + 0.1 * draw.normal(size=n))))
+    drifting = Survey(tuple(record(f"{k:02}", {}, 3.0 + 0.02 * k) for k in range(n)))
+    scattered = Survey(tuple(record(f"{k:02}", {}, v) for k, v in enumerate(3.0 + draw.normal(size=n))))
+
+    def of(s: Survey) -> Any:
+        return next(t for t in s.summary.trends if t.name == "K2")
+
+    assert not of(constant).varies
+    assert of(constant).mean == pytest.approx(3.0, abs=0.05)
+    assert of(constant).chi2 / of(constant).dof == pytest.approx(1.0, abs=0.4)
+    assert of(drifting).varies
+    assert of(drifting).slope_z > 10
+    assert of(scattered).varies
+    assert abs(of(scattered).slope_z) < 4  # not a trend, however small the single standard deviations
+    assert of(scattered).scatter == pytest.approx(1.0, rel=0.25)
+    large = next(t for t in constant.summary.trends if t.name == "K1")
+    assert 1e9 <= large.mean <= 1e9 + 0.01  # no digits lost to the large mean
+    assert large.chi2 < 1.0
