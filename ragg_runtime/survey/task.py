@@ -22,10 +22,11 @@ from typing import Any
 
 import numpy as np
 import threadpoolctl
+from numpy.typing import NDArray
 
 import ragg_runtime
 from ragg_runtime import compare, extend
-from ragg_runtime.compare import FITTED_BLOCKS, Fitted
+from ragg_runtime.compare import Fitted
 from ragg_runtime.diagnose import (
     Diagnosis,
     ParameterValue,
@@ -34,11 +35,13 @@ from ragg_runtime.diagnose import (
     visible_combinations,
 )
 from ragg_runtime.errors import UserError
-from ragg_runtime.evidence.work import BLOCKS
+from ragg_runtime.evaluate import vector
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument import Instrument, parse_instrument
 from ragg_runtime.load import Model
-from ragg_runtime.metrics import Error
+from ragg_runtime.plausibility import examined
+
+Array = NDArray[np.float64]
 
 Record = dict[str, Any]
 """What a survey keeps of a flight: JSON."""
@@ -112,7 +115,7 @@ def examine(given: Job, file: str) -> Record:
             )
         with _one_thread():
             instrument, model = _model(given.text, given.path)
-            flight = read_flight(path, instrument.g0)
+            flight = examined(model, instrument, read_flight(path, instrument.g0))
             return record | _figures(model, instrument, flight)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
@@ -187,9 +190,10 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
             return extend.with_effects(instrument, m, ids)
 
     f = compare.fit(model, instrument, [compare.observe(flight, instrument)])
-    nominal = f.error(compare.nominal_residuals(f, instrument))
+    p = vector(model, instrument)
+    held_out, nominal = f.score([_held_out(f)], lambda x: compare.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)
-    held = _holdout(f).as_json()
+    held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
         "samples": len(flight),
@@ -211,7 +215,7 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         ],
         "not_testable": [n.effect for n in d.not_testable],
         "error": {
-            "nominal": nominal.as_json(),
+            "nominal": nominal.whole.as_json(),
             "calibrated": d.before.as_json(),
             "holdout": held,
             "after": d.after.as_json(),
@@ -221,21 +225,21 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         "parameters": [p.as_json() for p in _parameters(d)],
     }
     if d.verdict == "unexplained":
-        unexplained: Any = d.as_json()["unexplained"]
-        record["terms"] = unexplained["terms"]
+        record["terms"] = d.terms()
     # floats of Python print and read back exactly: the same figures whichever way a record takes
     return {key: _plain(value) for key, value in record.items()}
 
 
-def _holdout(f: Fitted) -> Error:
+def _held_out(f: Fitted) -> Array:
+    """Coefficients of a fit to half of the blocks of time."""
     half, _ = f.coefficients((), held_out=True)
-    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
-    return f.error(f.residuals(half, ()), scored)
+    return f.vector(half)
 
 
 def _after_holdout(d: Diagnosis, held: Mapping[str, Any]) -> Mapping[str, Any] | None:
     if d.final is not None:
-        return _holdout(d.final).as_json()
+        (scored,) = d.final.score([_held_out(d.final)])
+        return scored.held_out.as_json()
     if not d.found:
         return held
     single = [r.after_holdout.as_json() for r in d.ranking if d.found == (r.effect,)]
