@@ -11,11 +11,14 @@ import sys
 import traceback
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from ragg_runtime.errors import UserError
+
+if TYPE_CHECKING:
+    from ragg_runtime.workflow import Loaded
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -42,6 +45,16 @@ def cli() -> None:
 
 def _progress(text: str) -> None:
     click.echo(f"... {text}", err=True)
+
+
+def _load(model_dir: Path) -> Loaded:
+    """The model directory; what is odd about it is told on stderr."""
+    from ragg_runtime import workflow
+
+    m = workflow.load(model_dir)
+    for note in m.notes:
+        click.echo(f"note: {model_dir}: {note}", err=True)
+    return m
 
 
 def _emit(result: Any, json_file: str | None, text: str) -> None:
@@ -164,7 +177,7 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime import texts, workflow
 
-    m = workflow.load(model_dir)
+    m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating and comparing")
@@ -191,7 +204,7 @@ def diagnose(
     """Which physical effect is missing?"""
     from ragg_runtime import texts, workflow
 
-    m = workflow.load(model_dir)
+    m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating, then testing every effect of the catalogue")
@@ -262,7 +275,7 @@ def add(
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime import texts, workflow
 
-    m = workflow.load(model_dir)
+    m = _load(model_dir)
     if report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     _progress(f"reading {len(flights)} flight(s)")
@@ -292,7 +305,7 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     """Take an effect out of the model."""
     from ragg_runtime import texts, workflow
 
-    m = workflow.remove(workflow.load(model_dir), effect)
+    m = workflow.remove(_load(model_dir), effect)
     left = [e.id for e in m.model.effects]
     _emit(
         {"effect": effect, "effects": left} | texts.origin(m, (), _command()),
@@ -374,11 +387,10 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: Any) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
-    from ragg_runtime import workflow
     from ragg_runtime.flight import write_flight
     from ragg_runtime.simulate import simulated
 
-    m = workflow.load(model_dir)
+    m = _load(model_dir)
     _progress("flying")
     flight = simulated(m.instrument, hidden, **options)
     write_flight(flight, output)

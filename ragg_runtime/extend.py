@@ -1,7 +1,8 @@
 """Derive models at run time: the one place, beside the command line, where the runtime meets the derivation.
 
-A model directory's own ``generated/`` is never executed: what is executed is what this program has just
-derived for the directory's list of effects. The files are there to be read, compiled and compared.
+A model directory's own ``generated/`` is executed only if it is, byte for byte, what this program derives for
+the directory's list of effects (:mod:`ragg_runtime.verified`); otherwise what is executed is derived anew. SymPy
+is imported only where something is derived.
 """
 
 from __future__ import annotations
@@ -10,15 +11,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from derive import pipeline
-from derive.effect import Effect as SymbolicEffect
-from derive.effects import catalogue, from_sources
-from derive.expression import ExpressionError, from_expression
+from ragg_runtime import verified
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import EffectSetting, Instrument
 from ragg_runtime.load import Model, from_files, packaged
 from ragg_runtime.trust import trusted_sources
+
+if TYPE_CHECKING:
+    from derive.effect import Effect as SymbolicEffect
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,7 @@ class Known:
     """The effects that a model directory can use: the catalogue's, its own folder's, its one-line ones."""
 
     effects: tuple[SymbolicEffect, ...]
+    own: tuple[SymbolicEffect, ...] = ()
 
     def get(self, identifier: str, where: str | None = None) -> SymbolicEffect:
         """The effect of this id; UserError if there is none."""
@@ -45,6 +48,8 @@ class Known:
 
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
+    from derive.effects import catalogue, from_sources
+
     found = list(catalogue())
     taken = {e.id for e in found}
     own: list[SymbolicEffect] = []
@@ -66,10 +71,12 @@ def known(instrument: Instrument) -> Known:
                 remedy="choose another id",
             )
         taken.add(e.id)
-    return Known((*found, *own))
+    return Known((*found, *own), tuple(own))
 
 
 def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
+    from derive.expression import ExpressionError, from_expression
+
     where = at(path, f"effect {s.id}")
     assert s.expression is not None
     try:
@@ -80,15 +87,48 @@ def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
         raise UserError("the expression is not understood", where=where, found=str(error)) from error
 
 
-def model_of(instrument: Instrument) -> Model:
-    """The model for an instrument's list of effects: the packaged one, or one derived for it."""
+def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
+    """The model for an instrument's list of effects: the packaged one, or one derived for it.
+
+    ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
+    """
     if not instrument.effects and instrument.effects_folder is None:
         return packaged()
+    asked = verified.request(instrument)
+    files = verified.matching(generated, asked)
+    if files is not None:
+        return _executed(asked, tuple(files.items()))
     k = known(instrument)
-    own = any(e not in catalogue() for e in k.effects)
-    if not instrument.effects and not own:
+    if not instrument.effects and not k.own:
         return packaged()
-    return derived(tuple(_chosen(instrument, k)), k.effects)[0]
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects)
+    if instrument.effects:
+        verified.remember(asked, files)
+    return model
+
+
+@cache
+def _executed(asked: str, files: tuple[tuple[str, str], ...]) -> Model:
+    return from_files(dict(files))
+
+
+def departure(instrument: Instrument, generated: Path | None) -> str | None:
+    """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
+    if generated is None or verified.matching(generated, verified.request(instrument)) is not None:
+        return None
+    expected = files_of(instrument)
+    found = verified.read(generated)
+    if found == expected:
+        return None
+    if found is None:
+        what = "it holds things that are no source files"
+    else:
+        names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
+        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    return (
+        f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
+        "adding or removing an effect writes it again"
+    )
 
 
 def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
@@ -100,6 +140,8 @@ def derived(
     effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]
 ) -> tuple[Model, Mapping[str, str]]:
     """A model with these effects, and the files that its derivation yields."""
+    from derive import pipeline
+
     files = pipeline.derive_model(effects, candidates)
     return from_files(files), files
 

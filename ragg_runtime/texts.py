@@ -17,7 +17,7 @@ from ragg_runtime.workflow import Added, Loaded
 def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, object]:
     """What makes a result again (``provenance``), and what the reader did to the flights (``notes``)."""
     return {
-        "notes": [f"{x.name}: {note}" for x in flights for note in x.notes],
+        "notes": [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)],
         "provenance": provenance(command, m.directory, flights, m.model.digest),
     }
 

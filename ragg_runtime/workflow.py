@@ -39,10 +39,11 @@ from ragg_runtime.units import RawQuantity
 
 @dataclass(frozen=True)
 class Loaded:
-    """A model directory and the model derived for it."""
+    """A model directory, the model derived for it, and what was odd, in sentences."""
 
     directory: ModelDir
     model: Model
+    notes: tuple[str, ...] = ()
 
     @property
     def instrument(self) -> Instrument:
@@ -109,7 +110,11 @@ def load(path: Path | str) -> Loaded:
 
 
 def _loaded(directory: ModelDir) -> Loaded:
-    return Loaded(directory, extend.model_of(directory.instrument))
+    model = extend.model_of(directory.instrument, directory.generated)
+    note = (
+        extend.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
+    )
+    return Loaded(directory, model, () if note is None else (note,))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:

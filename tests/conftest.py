@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+import atexit
+import os
+import shutil
+import tempfile
+
 from hypothesis import settings
 
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
+
+# Nothing of the user's own (list of trusted files, digests of what was derived) is read or written by tests.
+_home = tempfile.mkdtemp(prefix="ragg-tests-")
+atexit.register(shutil.rmtree, _home, ignore_errors=True)
+os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": f"{_home}/cache"}

@@ -30,7 +30,10 @@ def open_csv(path: Path, compressed: bool) -> Source:
     """The CSV file as a source; UserError if it has no header of names and units."""
     skipped, header = _header(path, compressed)
     delimiter = max(",;\t", key=header.count)
-    names = next(csv.reader([header], delimiter=delimiter))
+    try:
+        names = next(csv.reader([header], delimiter=delimiter))
+    except csv.Error as error:
+        raise UserError(_NOT_CSV, where=path, found=str(error)) from None
     columns = columns_of(path, [(name, None) for name in names])
     return Source(path, columns, lambda: _batches(path, compressed, columns, delimiter, skipped + 1))
 

@@ -67,7 +67,8 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
         raise _not_increasing(time, steps, where, first_row)
     if step is None:
         step = _step(steps)
-    jumps = np.rint(steps / step).astype(np.int64)
+    # A gap of more samples than memory holds is refused below, whatever their number.
+    jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
     deviation = np.abs(steps - jumps * step) / step
     tracked = None
     if np.any(jumps < 1) or np.any(deviation > JITTER_REFUSED):

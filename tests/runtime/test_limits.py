@@ -1,0 +1,73 @@
+"""Small files that unfold into very large ones are refused before the memory is gone."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from ragg_runtime.errors import UserError
+from ragg_runtime.flight import files, read_flight
+from ragg_runtime.history import read_history
+from ragg_runtime.instrument import read_instrument
+
+UNITS = {
+    "time": "s",
+    **{f"a_{k}": "g" for k in "xyz"},
+    **{f"omega_{k}": "rad/s" for k in "xyz"},
+    "G_out": "V",
+}
+HEADER = ",".join(f"{n} [{u}]" for n, u in UNITS.items()) + "\n"
+
+
+@pytest.mark.parametrize("text", ["a" * (3 << 20), HEADER + "1" * (3 << 20), "# " + "a" * (3 << 20)])
+def test_a_line_without_end(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "flight.csv.gz"
+    path.write_bytes(gzip.compress(text.encode()))
+    with pytest.raises(UserError, match="a line of more than"):
+        read_flight(path, 9.8)
+
+
+@pytest.mark.parametrize("kind", ["csv.gz", "parquet"])
+def test_more_rows_than_memory(tmp_path: Path, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "MOST_BYTES", 1_000_000)
+    path, rows = tmp_path / f"flight.{kind}", 200_000
+    if kind == "parquet":
+        schema = pa.schema([pa.field(n, pa.float64(), metadata={"units": u}) for n, u in UNITS.items()])
+        columns = [pa.array([0.0] * rows)] * len(UNITS)
+        pq.write_table(pa.Table.from_arrays(columns, schema=schema), path)
+    else:
+        path.write_bytes(gzip.compress((HEADER + "0,0,0,0,0,0,0,0\n" * rows).encode()))
+    assert path.stat().st_size < 50_000
+    with pytest.raises(UserError, match="too long to be held in memory"):
+        read_flight(path, 9.8)
+
+
+def test_texts_that_are_too_long_or_too_deep(tmp_path: Path) -> None:
+    path = tmp_path / "model.toml"
+    path.write_text("#" * (2 << 20))
+    with pytest.raises(UserError, match="too long"):
+        read_instrument(path)
+    path.write_text("a = " + "[" * 5000)
+    with pytest.raises(UserError, match="not a TOML file"):
+        read_instrument(path)
+    path = tmp_path / "history.json"
+    path.write_text("[" * 100_000)
+    with pytest.raises(UserError, match="history is damaged"):
+        read_history(path)
+    path.write_text('{"steps": [{"action": ' + "9" * 5000 + "}]}")
+    with pytest.raises(UserError, match="history is damaged"):
+        read_history(path)
+
+
+def test_an_array_in_parquet_is_not_unpickled(tmp_path: Path) -> None:
+    """What pandas or others put into metadata is not looked at; columns of objects are refused."""
+    table = pa.table({"time": pa.array([b"cos\nsystem\n(S'true'\ntR."])})
+    pq.write_table(
+        table.replace_schema_metadata({b"pandas": b"\x80\x04cos\nsystem\n"}), tmp_path / "f.parquet"
+    )
+    with pytest.raises(UserError, match="does not hold numbers"):
+        read_flight(tmp_path / "f.parquet", 9.8)
