@@ -106,7 +106,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
             sigma = float(np.sqrt(squares[m] / freedom[m]))
             flat_psd = np.full(2, np.log(2 * sigma**2 / r.rate))
-            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd))
+            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
         noise = estimate(e_m, r.rate)
@@ -196,7 +196,7 @@ def solve(R: Array, to_nominal: Array, n: int) -> tuple[Array, Array]:
 
 
 def _white(o: Observation, eotvos: float) -> Noise:
-    flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2))
+    flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
     taps = np.array([1.0 / eotvos])
     m = len(o.series)
     return Noise((flat,) * m, (taps,) * m)

@@ -231,15 +231,16 @@ def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None 
         random = {}
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if search.significant(t, count))
-    if rem.significant:
+    target = f if final is None else final
+    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
+    (after,) = target.score([v])
+    noise = compare.noise_floor(f)
+    if rem.significant or after.whole.rms_Eo > LOUD * noise:
         verdict, found = "unexplained", []
     else:
         found = [*chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
 
-    target = f if final is None else final
-    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
-    (after,) = target.score([v])
     explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
     whitened = sum(s.square for s in rem.searches)
     return Diagnosis(
@@ -252,11 +253,15 @@ def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None 
         explained / whitened if whitened else 0.0,
         before,
         after,
-        compare.noise_floor(f),
+        noise,
         tuple(_sizes(f, field)),
         target,
         v,
     )
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
 def _without_terms(rem: Remainder) -> Remainder:

@@ -25,6 +25,15 @@ Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 GROUP = 32
 """Columns that are filtered at a time: enough for the threads, few enough for the cache's and memory's sake."""
 
+LOWEST = 3
+"""First bin of a periodogram that is used."""
+
+BELOW = 4.0
+"""So far, in log frequency, the model goes on below it."""
+
+SMOOTH = 0.7
+"""Half width in log frequency over which the fitted spectrum averages the periodogram."""
+
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
 
@@ -40,29 +49,42 @@ class NoiseModel:
     log_f, log_psd
         Sorted natural logarithms of frequency (Hz) and density (unit^2/Hz) on a fine grid; held constant
         outside it.
+    spread
+        Standard error of ``log_psd``: a few bins of a periodogram know the lowest frequencies.
     """
 
     rate: float
     log_f: Array
     log_psd: Array
+    spread: Array
 
     def psd(self, f: Array) -> Array:
         """One-sided density at frequencies f, Hz (the lowest of the grid is used at and near zero)."""
         with np.errstate(divide="ignore"):
             return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd)))
 
+    def _cautious(self, f: Array) -> Array:
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.exp(np.interp(np.log(np.abs(f)), self.log_f, self.log_psd + self.spread)))
+
     @property
     def rms(self) -> float:
         """Root of the density integrated from 0 to the Nyquist frequency."""
-        f = np.linspace(0.0, self.rate / 2, 4097)[1:]
-        return float(np.sqrt(np.mean(self.psd(f)) * self.rate / 2))
+        lowest = float(np.exp(self.log_f[0] + BELOW)) / LOWEST  # one over the length of the record
+        f = np.geomspace(min(lowest, self.rate / 4), self.rate / 2, 4097)
+        S = self.psd(f)
+        return float(np.sqrt(np.trapezoid(S, f) + S[0] * f[0]))
 
     def whitening_filter(self, length: int) -> Array:
-        """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance."""
+        """Causal minimum-phase FIR (length,) that turns this noise into white noise of unit variance.
+
+        Where the density is known poorly it is taken one standard error higher: a slow effect must stand out of
+        the noise that there may be.
+        """
         n = 1 << max(13, (4 * length - 1).bit_length())
         f: Array = np.fft.fftfreq(n, 1 / self.rate).astype(np.float64)
         # Kolmogorov: the causal half of the cepstrum of 1/sqrt(two-sided density, per sample).
-        cepstrum = np.fft.ifft(-0.5 * np.log(self.psd(f) * self.rate / 2)).real
+        cepstrum = np.fft.ifft(-0.5 * np.log(self._cautious(f) * self.rate / 2)).real
         cepstrum[1 : n // 2] *= 2
         cepstrum[n // 2 + 1 :] = 0
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
@@ -92,12 +114,14 @@ def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
         b = b + step
         if np.max(np.abs(step)) < 1e-8:
             break
-    grid = np.linspace(np.log(f[0]) - 4.0, x[-1], 513)
+    grid = np.linspace(np.log(f[0]) - BELOW, x[-1], 513)
     correction = interpolate.BSpline(knots, b, 3)(np.clip(grid, x[0], x[-1]))
-    model = NoiseModel(rate, grid, np.asarray(np.log(red(np.exp(grid))) + correction))
+    near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
+    spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
+    model = NoiseModel(rate, grid, np.asarray(np.log(red(np.exp(grid))) + correction), spread)
     # the level once more by itself: the penalties must not bias it
     level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
-    return NoiseModel(rate, grid, model.log_psd + np.log(level))
+    return NoiseModel(rate, grid, model.log_psd + np.log(level), spread)
 
 
 def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array, Array]:
@@ -110,8 +134,8 @@ def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array,
     for r in usable:
         f, p = signal.periodogram(r, rate, window="hann", detrend="constant")
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        frequency.append(f[3:-1])
-        density.append(p[3:-1])
+        frequency.append(f[LOWEST:-1])
+        density.append(p[LOWEST:-1])
     f, p = np.concatenate(frequency), np.concatenate(density)
     edges = np.geomspace(f.min() * 0.999, f.max() * 1.001, 120)
     which = np.digitize(f, edges)

@@ -36,6 +36,9 @@ MOST_TERMS = 8
 SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
 
+INDISTINGUISHABLE = 9.0
+"""Chi-square by which a term of fewer channels may be worse and still be preferred (3 sigma)."""
+
 MEMORY = 16384
 """Most taps of the filter that the dictionary is whitened with: a direction need not be the best one for its
 score to be a standard normal deviate, and slower memory than this buys little."""
@@ -230,7 +233,8 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
         if _log_p(now, tried) >= np.log(FAMILY):
             break
-        k = int(np.argmax(np.abs(now)))
+        near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
+        k = int(min(near, key=lambda n: (len(s.dictionary.terms[places[n]].channels), -abs(now[n]))))
         length = float(np.sqrt(left[k]))
         along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
         amount = float(score[k]) / length

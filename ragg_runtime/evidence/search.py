@@ -120,7 +120,9 @@ def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
     chosen: list[str] = []
     blocks: dict[str, tuple[int, ...]] = {}
     remaining = first
-    while len(chosen) < MOST:
+    seen: set[frozenset[str]] = set()
+    while len(chosen) < MOST and frozenset(chosen) not in seen:
+        seen.add(frozenset(chosen))
         ranked = sorted((t.log_p, e) for e, t in remaining.items() if e not in exclude)
         if not ranked or not significant(remaining[ranked[0][1]], count):
             break
