@@ -16,6 +16,7 @@ from sympy.polys.rings import PolyElement
 
 from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
+from derive.folded import Folded
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,
     MOTION_NUMBERS,
@@ -208,15 +209,20 @@ def _neutral(e: Effect, q: EffectParameter) -> sp.Expr:
     return sp.Float(q.neutral) if q.neutral else sp.Integer(0)
 
 
-def operations(m: Harmonic | Chain) -> Mapping[str, int]:
+def operations(m: Harmonic | Chain | Folded) -> Mapping[str, int]:
     """Arithmetic operations as SymPy counts them, by what they serve.
 
     Of a chain: ``value`` and ``derivatives`` of one accelerometer at one instant. Of a harmonic model:
-    ``coefficients`` once for an instrument, ``amplitudes`` (motion numbers included) at one instant.
+    ``coefficients`` once for an instrument, ``amplitudes`` (motion numbers included) at one instant;
+    of a folded one likewise, with ``value`` that of G_out but for the cosine and sine of the disc angle.
     """
     if isinstance(m, Chain):
         programs = {"value": m.value, "derivatives": m.derivatives}
         return {name: _operations(e for _, e in (*p.assignments, *p.outputs)) for name, p in programs.items()}
+    if isinstance(m, Folded):
+        folding = 4 * _operations(m.expressions) + sum(len(parts) - 1 for parts in m.coefficients)
+        numbers = _operations(e for _, e in (*m.numbers.assignments, *m.numbers.outputs))
+        return {"coefficients": folding, "value": numbers + _operations([m.value])}
     terms = [t for _, row in m.amplitudes for t in row]
     coefficients = [c for t in terms for c in t.coefficients]
     folding = _operations({c.expression: None for c in coefficients})  # each once, for four accelerometers
@@ -231,13 +237,13 @@ def _operations(expressions: Iterable[sp.Expr]) -> int:
     return int(sum(sp.count_ops(e) for e in expressions))
 
 
-def manifest_of_model(m: Harmonic | Chain) -> Mapping[str, object]:
+def manifest_of_model(m: Harmonic | Chain | Folded) -> Mapping[str, object]:
     """What a user of the generated code has to know: inputs, parameters, outputs, cost."""
-    outputs = (
-        {"amplitudes": [name for name, _ in m.amplitudes]}
-        if isinstance(m, Harmonic)
-        else {"rows": [r.name for r in m.rows]}
-    )
+    outputs: dict[str, list[str]] = {}
+    if isinstance(m, Harmonic):
+        outputs = {"amplitudes": [name for name, _ in m.amplitudes]}
+    elif isinstance(m, Chain):
+        outputs = {"rows": [r.name for r in m.rows]}
     return {
         "title": m.title,
         "inputs": [{"name": i.name, "unit": i.unit, "meaning": i.meaning} for i in m.inputs],

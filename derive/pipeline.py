@@ -16,6 +16,7 @@ from derive import ir
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import render
+from derive.folded import Folded, folded
 from derive.propagation import collect, ideal
 from derive.transduction import starred
 
@@ -52,6 +53,14 @@ def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics:
         files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
     if harmonics:
         files["latex/paper.tex"] = render.paper_latex(starred(), ideal(collect()))
+        forms = [
+            folded("folded", "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15).")
+        ]
+    else:
+        forms = []
+    for f in forms:
+        files[f"{f.name}.py"] = render.folded_numpy(f)
+        files[f"c/{f.name}.h"], files[f"c/{f.name}.c"] = render.folded_c(f)
     active = [e for e in effects if e.kind in ("deterministic", "step")]
     chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
     known = {e.id for e in effects}
@@ -65,14 +74,14 @@ def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics:
         if harmonics or c.name == "chain":
             files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    return _complete(files, effects, every, [*harmonics, *chains])
+    return _complete(files, effects, every, [*harmonics, *forms, *chains])
 
 
 def _complete(
     files: dict[str, str],
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
-    models: Sequence[ir.Harmonic | ir.Chain],
+    models: Sequence[ir.Harmonic | ir.Chain | Folded],
 ) -> Files:
     """Add the package file and the manifest, which names everything that was derived."""
     files["__init__.py"] = render.render("init.py.j2", modules=sorted(m.name for m in models))

@@ -70,6 +70,40 @@ class _C(C99CodePrinter):
         return f"((double)(({x}) > 0.0) - (double)(({x}) < 0.0))"
 
 
+class _Fused(_C):
+    """C in which every product that is added to something is a FMA(x, y, z): the same bits by any compiler."""
+
+    def _print_Add(self, e: sp.Expr, order: str | None = None) -> str:
+        plain, products = [], []
+        for term in self._as_ordered_terms(e, order=order):
+            sign, factors = self._factors(term)
+            if len(factors) > 1:
+                products.append((sign, factors))
+            else:
+                plain.append(sign + factors[0])
+        if not plain:
+            sign, factors = products.pop(0)
+            plain.append(sign + "*".join(factors))
+        total = " + ".join(plain).replace("+ -", "- ")
+        for sign, (first, *others) in products:
+            total = f"FMA({sign}{first}, {'*'.join(others)}, {total})"
+        return total
+
+    def _factors(self, term: sp.Expr) -> tuple[str, list[str]]:
+        """Sign and printed factors of a product."""
+        coefficient, rest = term.as_coeff_Mul()
+        sign = "-" if coefficient < 0 else ""
+        factors = [] if abs(coefficient) == 1 else [self._print(abs(coefficient))]
+        for part in sp.Mul.make_args(rest):
+            base, power = part.as_base_exp()
+            times = int(power) if power.is_Integer and 0 < power <= 6 else 1
+            factor = base if times > 1 else part
+            text = self._print(factor)
+            bare = factor.is_Symbol or text.startswith("FMA(")
+            factors += [text if bare else f"({text})"] * times
+        return sign, factors
+
+
 def _decimal(e: sp.Rational) -> str:
     """A rational that is a short decimal, exactly; otherwise nothing."""
     value = int(e.p) / int(e.q)
@@ -92,6 +126,10 @@ def to_numpy(e: sp.Expr) -> str:
 
 def to_c(e: sp.Expr) -> str:
     return str(_C({"contract": False}).doprint(e))
+
+
+def to_fused_c(e: sp.Expr) -> str:
+    return str(_Fused({"contract": False}).doprint(e))
 
 
 def to_latex(e: sp.Expr, **settings: Any) -> str:

@@ -8,7 +8,9 @@ from functools import cache
 import jinja2
 import sympy as sp
 
-from derive.emit.printers import to_c, to_latex, to_numpy
+from derive.emit import fast
+from derive.emit.printers import to_c, to_fused_c, to_latex, to_numpy
+from derive.folded import Folded
 from derive.ir import AmplitudeTerm, Chain, Coefficient, Harmonic
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Term
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, SIGNS, symbol
@@ -25,7 +27,8 @@ def environment() -> jinja2.Environment:
         keep_trailing_newline=True,
         autoescape=False,  # the output is source code, not markup
     )
-    env.filters |= {"np": to_numpy, "c": to_c, "tex": to_latex, "c_name": _c_name, "numpy_term": _numpy_term}
+    env.filters |= {"np": to_numpy, "c": to_c, "fused": to_fused_c, "tex": to_latex}
+    env.filters |= {"c_name": _c_name, "numpy_term": _numpy_term}
     env.globals |= {
         "quarter_turns": QUARTER_TURNS,
         "signs": SIGNS,
@@ -33,6 +36,7 @@ def environment() -> jinja2.Environment:
         "coefficient_parameters": COEFFICIENT_PARAMETERS,
         "program_inputs": _program_inputs,
         "trig": _trig,
+        **fast.constants(),
     }
     return env
 
@@ -80,6 +84,15 @@ def paper_latex(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, 
             terms.append(f"{coefficient} {to_latex(number)} {carrier}")
     rows = [(to_latex(symbol(name)), e) for name, e in starred.items()]
     return render("paper.tex.j2", starred=rows, ideal=" + ".join(terms))
+
+
+def folded_c(m: Folded) -> tuple[str, str]:
+    """Header and source."""
+    return render("folded.h.j2", m=m), render("folded.c.j2", m=m)
+
+
+def folded_numpy(m: Folded) -> str:
+    return render("folded.py.j2", m=m)
 
 
 def chain_numpy(m: Chain) -> str:

@@ -4,33 +4,109 @@
 
 #include <math.h>
 
-/* Disc angle, rad, within half a turn of 0; the turns are dropped exactly, whatever the time. */
-static double disc_angle(double t, double spin_frequency) {
-    const double turns = spin_frequency * t;
-    const double error = fma(spin_frequency, t, -turns);
-    return 6.283185307179586476925286766559 * ((turns - nearbyint(turns)) + error);
+/* A product added to something, rounded once where the processor does that. */
+#ifdef FP_FAST_FMA
+#define FMA(x, y, z) fma(x, y, z)
+#else
+#define FMA(x, y, z) ((x) * (y) + (z))
+#endif
+
+enum { BLOCK = 512 }; /* samples at a time: what is between two loops stays in the first cache */
+
+/* x y = *high + *low, exactly. */
+static inline void two_product(double x, double y, double *high, double *low) {
+    const double product = x * y;
+#ifdef FP_FAST_FMA
+    *low = fma(x, y, -product);
+#else
+    const double split = 134217729.0, a = split * x, b = split * y;
+    const double x1 = a - (a - x), x2 = x - x1, y1 = b - (b - y), y2 = y - y1;
+    *low = ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2;
+#endif
+    *high = product;
 }
+
+/* The nearest whole number, without a call, for |x| < 2^51. */
+static inline double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
+
+/* Cosine and sine of (high + low) + quarters pi/2, for quarters -2 ... 2, |high| up to about pi/4, |low| < 1e-6:
+ * Taylor series up to the 17th and 16th power. */
+static inline void turn(double high, double low, double quarters, double *cosine, double *sine) {
+    const double x = high + low, rest = (high - x) + low;
+    const double z = x * x;
+    const double s_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 355687428096000.0), (-1.0 / 1307674368000.0)), (1.0 / 6227020800.0)), (-1.0 / 39916800.0)), (1.0 / 362880.0)), (-1.0 / 5040.0)), (1.0 / 120.0)), (-1.0 / 6.0));
+    const double c_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 20922789888000.0), (-1.0 / 87178291200.0)), (1.0 / 479001600.0)), (-1.0 / 3628800.0)), (1.0 / 40320.0)), (-1.0 / 720.0)), (1.0 / 24.0));
+    const double half = 0.5 * z;
+    const double s = x + FMA(x * z, s_tail, FMA(-half, rest, rest));
+    const double c = (1.0 - half) + (((1.0 - (1.0 - half)) - half) + FMA(z * z, c_tail, -x * rest));
+    const double q = fabs(quarters);
+    const double even = 1.0 - q, odd = quarters * (2.0 - q); /* one of them is 0, the other 1 or -1 */
+    *cosine = FMA(even, c, -odd * s);
+    *sine = FMA(even, s, odd * c);
+}
+
+/* Cosine and sine of the disc angle at n <= BLOCK instants. Whole turns are dropped exactly, whatever the time. */
+static void disc(size_t n, const double *restrict t, double spin_frequency, double *restrict cosine,
+                 double *restrict sine) {
+    for (size_t i = 0; i < n; ++i) {
+        double turns, error, high, low;
+        two_product(spin_frequency, t[i], &turns, &error);
+        const double part = turns - nearest(turns); /* exact, as is what follows */
+        const double quarters = nearest(4.0 * part);
+        const double rest = part - 0.25 * quarters;
+        two_product(6.283185307179586, rest, &high, &low);
+        turn(high, FMA(6.283185307179586, error, FMA(2.4492935982947064e-16, rest, low)), quarters, cosine + i, sine + i);
+    }
+}
+
+/* The same of an encoder's angle, rad. */
+static void encoder(size_t n, const double *restrict angle, double *restrict cosine, double *restrict sine) {
+    for (size_t i = 0; i < n; ++i) {
+        const double quarters = nearest(0.6366197723675814 * angle[i]);
+        double high, low;
+        two_product(quarters, 1.5707963267948966, &high, &low);
+        const double difference = angle[i] - high;
+        const double rest = difference - low;
+        const double further = ((difference - rest) - low) - 6.123233995736766e-17 * quarters;
+        turn(rest, further, quarters - 4.0 * nearest(0.25 * quarters), cosine + i, sine + i);
+    }
+}
+
+/* At n <= BLOCK samples from at on; returns n. */
+static size_t turning(size_t at, size_t end, const double *t, double spin_frequency, const double *angle,
+                      double *cosine, double *sine) {
+    const size_t n = end - at < BLOCK ? end - at : BLOCK;
+    if (angle) {
+        encoder(n, angle + at, cosine, sine);
+    } else {
+        disc(n, t + at, spin_frequency, cosine, sine);
+    }
+    return n;
+}
+
+enum { ROWS = 77, STEP = 64 };
 
 static const double COS_J[4] = { 1.0, -1.0, 0.0, 0.0 };
 static const double SIN_J[4] = { 0.0, 0.0, 1.0, -1.0 };
 
-static double accelerometer(size_t j, size_t i, double time, double cos_phi, double sin_phi, const double *const *in,
-                            const double *p) {
-    const double a_x = in[0][i];
-    const double a_y = in[1][i];
-    const double a_z = in[2][i];
-    const double omega_x = in[3][i];
-    const double omega_y = in[4][i];
-    const double omega_z = in[5][i];
-    const double omegadot_x = in[6][i];
-    const double omegadot_y = in[7][i];
-    const double omegadot_z = in[8][i];
-    const double Gamma_xx = in[9][i];
-    const double Gamma_xy = in[10][i];
-    const double Gamma_xz = in[11][i];
-    const double Gamma_yy = in[12][i];
-    const double Gamma_yz = in[13][i];
-    const double Gamma_zz = in[14][i];
+/* V_j at n samples from at on, by the cosine and sine of the disc angle. */
+static void block(size_t j, size_t n, size_t at, const double *restrict t, const double *restrict cosine,
+                  const double *restrict sine, const double *const *in, const double *p, double *restrict out_V) {
+    const double *restrict in_a_x = in[0] + at;
+    const double *restrict in_a_y = in[1] + at;
+    const double *restrict in_a_z = in[2] + at;
+    const double *restrict in_omega_x = in[3] + at;
+    const double *restrict in_omega_y = in[4] + at;
+    const double *restrict in_omega_z = in[5] + at;
+    const double *restrict in_omegadot_x = in[6] + at;
+    const double *restrict in_omegadot_y = in[7] + at;
+    const double *restrict in_omegadot_z = in[8] + at;
+    const double *restrict in_Gamma_xx = in[9] + at;
+    const double *restrict in_Gamma_xy = in[10] + at;
+    const double *restrict in_Gamma_xz = in[11] + at;
+    const double *restrict in_Gamma_yy = in[12] + at;
+    const double *restrict in_Gamma_yz = in[13] + at;
+    const double *restrict in_Gamma_zz = in[14] + at;
     const double radius = p[0];
     const double dR = p[2 + j];
     const double beta_x = p[6 + j];
@@ -47,87 +123,108 @@ static double accelerometer(size_t j, size_t i, double time, double cos_phi, dou
     const double K8 = p[54 + j];
     const double k_VI = p[58 + j];
     const double cos_j = COS_J[j], sin_j = SIN_J[j];
-    const double x0 = (omega_y*omega_y);
-    const double x1 = (omega_z*omega_z);
-    const double M_xx = -Gamma_xx - x0 - x1;
-    const double M_xy = -Gamma_xy + omega_x*omega_y - omegadot_z;
-    const double M_xz = -Gamma_xz + omega_x*omega_z + omegadot_y;
-    const double M_yx = -Gamma_xy + omega_x*omega_y + omegadot_z;
-    const double x2 = (omega_x*omega_x);
-    const double M_yy = -Gamma_yy - x1 - x2;
-    const double M_yz = -Gamma_yz + omega_y*omega_z - omegadot_x;
-    const double M_zx = -Gamma_xz + omega_x*omega_z - omegadot_y;
-    const double M_zy = -Gamma_yz + omega_y*omega_z + omegadot_x;
-    const double M_zz = -Gamma_zz - x0 - x2;
-    const double cos_psi = cos_j*cos_phi - sin_j*sin_phi;
-    const double sin_psi = cos_j*sin_phi + cos_phi*sin_j;
-    const double x3 = dR + radius;
-    const double f_disc_r_x = x3;
-    const double f_disc_r_y = beta_z*x3;
-    const double f_disc_r_z = beta_x*x3;
-    const double f_disc_tau_zy = -beta_x*beta_z;
-    const double f_r_x = cos_psi*f_disc_r_x - f_disc_r_y*sin_psi;
-    const double f_r_y = cos_psi*f_disc_r_y + f_disc_r_x*sin_psi;
-    const double x4 = beta_z*cos_psi + sin_psi;
-    const double f_tau_xx = -x4;
-    const double x5 = -beta_z*sin_psi + cos_psi;
-    const double f_tau_xy = x5;
-    const double f_tau_yx = x5;
-    const double f_tau_yy = x4;
-    const double f_tau_zx = -beta_x*cos_psi - f_disc_tau_zy*sin_psi;
-    const double f_tau_zy = -beta_x*sin_psi + cos_psi*f_disc_tau_zy;
-    const double f_f_x = M_xx*f_r_x + M_xy*f_r_y + M_xz*f_disc_r_z + a_x;
-    const double f_f_y = M_yx*f_r_x + M_yy*f_r_y + M_yz*f_disc_r_z + a_y;
-    const double f_f_z = M_zx*f_r_x + M_zy*f_r_y + M_zz*f_disc_r_z + a_z;
-    const double f_f_xj = f_f_x*f_tau_xx + f_f_y*f_tau_xy;
-    const double f_f_yj = -beta_x*f_f_z + f_f_x*f_tau_yx + f_f_y*f_tau_yy;
-    const double f_f_zj = f_f_x*f_tau_zx + f_f_y*f_tau_zy - f_f_z;
-    const double f_f_i = f_f_xj + f_f_yj*vartheta_z - f_f_zj*vartheta_y;
-    const double q_disc_r_x = x3;
-    const double q_r_x = cos_psi*q_disc_r_x;
-    const double q_r_y = q_disc_r_x*sin_psi;
-    const double q_f_x = M_xx*q_r_x + M_xy*q_r_y + a_x;
-    const double q_f_y = M_yx*q_r_x + M_yy*q_r_y + a_y;
-    const double q_f_z = M_zx*q_r_x + M_zy*q_r_y + a_z;
-    const double q_f_xj = cos_psi*q_f_y - q_f_x*sin_psi;
-    const double q_f_yj = cos_psi*q_f_x + q_f_y*sin_psi;
-    const double i_sensed = K0 + K2*(q_f_xj*q_f_xj) - K4*q_f_xj*q_f_z + K5*(q_f_yj*q_f_yj) + K6*q_f_xj*q_f_yj + K7*(q_f_z*q_f_z) - K8*q_f_yj*q_f_z + f_f_i;
-    const double V = K1*i_sensed*k_VI;
-    (void)time, (void)cos_j, (void)sin_j, (void)cos_phi, (void)sin_phi;
+    (void)cos_j, (void)sin_j, (void)t, (void)cosine, (void)sine;
 
-    return V;
+    for (size_t i = 0; i < n; ++i) {
+        const double cos_phi = cosine[i];
+        const double sin_phi = sine[i];
+        const double a_x = in_a_x[i];
+        const double a_y = in_a_y[i];
+        const double a_z = in_a_z[i];
+        const double omega_x = in_omega_x[i];
+        const double omega_y = in_omega_y[i];
+        const double omega_z = in_omega_z[i];
+        const double omegadot_x = in_omegadot_x[i];
+        const double omegadot_y = in_omegadot_y[i];
+        const double omegadot_z = in_omegadot_z[i];
+        const double Gamma_xx = in_Gamma_xx[i];
+        const double Gamma_xy = in_Gamma_xy[i];
+        const double Gamma_xz = in_Gamma_xz[i];
+        const double Gamma_yy = in_Gamma_yy[i];
+        const double Gamma_yz = in_Gamma_yz[i];
+        const double Gamma_zz = in_Gamma_zz[i];
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double M_xx = -Gamma_xx - x0 - x1;
+        const double M_xy = FMA(omega_x, omega_y, -Gamma_xy - omegadot_z);
+        const double M_xz = FMA(omega_x, omega_z, -Gamma_xz + omegadot_y);
+        const double M_yx = FMA(omega_x, omega_y, -Gamma_xy + omegadot_z);
+        const double x2 = (omega_x*omega_x);
+        const double M_yy = -Gamma_yy - x1 - x2;
+        const double M_yz = FMA(omega_y, omega_z, -Gamma_yz - omegadot_x);
+        const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
+        const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
+        const double M_zz = -Gamma_zz - x0 - x2;
+        const double cos_psi = FMA(-sin_j, sin_phi, cos_j*cos_phi);
+        const double sin_psi = FMA(cos_phi, sin_j, cos_j*sin_phi);
+        const double x3 = dR + radius;
+        const double f_disc_r_x = x3;
+        const double f_disc_r_y = beta_z*x3;
+        const double f_disc_r_z = beta_x*x3;
+        const double f_disc_tau_zy = -beta_x*beta_z;
+        const double f_r_x = FMA(-f_disc_r_y, sin_psi, cos_psi*f_disc_r_x);
+        const double f_r_y = FMA(f_disc_r_x, sin_psi, cos_psi*f_disc_r_y);
+        const double x4 = FMA(beta_z, cos_psi, sin_psi);
+        const double f_tau_xx = -x4;
+        const double x5 = FMA(-beta_z, sin_psi, cos_psi);
+        const double f_tau_xy = x5;
+        const double f_tau_yx = x5;
+        const double f_tau_yy = x4;
+        const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
+        const double f_tau_zy = FMA(cos_psi, f_disc_tau_zy, -beta_x*sin_psi);
+        const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
+        const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
+        const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
+        const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
+        const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
+        const double q_disc_r_x = x3;
+        const double q_r_x = cos_psi*q_disc_r_x;
+        const double q_r_y = q_disc_r_x*sin_psi;
+        const double q_f_x = FMA(M_xy, q_r_y, FMA(M_xx, q_r_x, a_x));
+        const double q_f_y = FMA(M_yy, q_r_y, FMA(M_yx, q_r_x, a_y));
+        const double q_f_z = FMA(M_zy, q_r_y, FMA(M_zx, q_r_x, a_z));
+        const double q_f_xj = FMA(-q_f_x, sin_psi, cos_psi*q_f_y);
+        const double q_f_yj = FMA(q_f_y, sin_psi, cos_psi*q_f_x);
+        const double i_sensed = FMA(-K8, q_f_yj*q_f_z, FMA(K7, q_f_z*q_f_z, FMA(K6, q_f_xj*q_f_yj, FMA(K5, q_f_yj*q_f_yj, FMA(-K4, q_f_xj*q_f_z, FMA(K2, q_f_xj*q_f_xj, K0 + f_f_i))))));
+        const double V = K1*i_sensed*k_VI;
+
+        out_V[i] = V;
+    }
 }
 
-static void slopes(size_t j, size_t i, double time, double cos_phi, double sin_phi, const double *const *in,
-                   const double *p, size_t n, double *D) {
-    const double a_x = in[0][i];
-    const double a_y = in[1][i];
-    const double a_z = in[2][i];
-    const double omega_x = in[3][i];
-    const double omega_y = in[4][i];
-    const double omega_z = in[5][i];
-    const double omegadot_x = in[6][i];
-    const double omegadot_y = in[7][i];
-    const double omegadot_z = in[8][i];
-    const double Gamma_xx = in[9][i];
-    const double Gamma_xy = in[10][i];
-    const double Gamma_xz = in[11][i];
-    const double Gamma_yy = in[12][i];
-    const double Gamma_yz = in[13][i];
-    const double Gamma_zz = in[14][i];
-    const double B_x = in[15][i];
-    const double B_y = in[16][i];
-    const double B_z = in[17][i];
-    const double d_a_x = in[18][i];
-    const double d_a_y = in[19][i];
-    const double d_a_z = in[20][i];
-    const double d_omegadot_x = in[21][i];
-    const double d_omegadot_y = in[22][i];
-    const double d_omegadot_z = in[23][i];
-    const double pitch = in[24][i];
-    const double pressure = in[25][i];
-    const double roll = in[26][i];
-    const double temperature = in[27][i];
+/* Derivatives of V_j at n <= STEP samples from at on, a row every stride numbers. */
+static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *restrict t, const double *restrict cosine,
+                   const double *restrict sine, const double *const *in, const double *p, double *restrict out_D) {
+    const double *restrict in_a_x = in[0] + at;
+    const double *restrict in_a_y = in[1] + at;
+    const double *restrict in_a_z = in[2] + at;
+    const double *restrict in_omega_x = in[3] + at;
+    const double *restrict in_omega_y = in[4] + at;
+    const double *restrict in_omega_z = in[5] + at;
+    const double *restrict in_omegadot_x = in[6] + at;
+    const double *restrict in_omegadot_y = in[7] + at;
+    const double *restrict in_omegadot_z = in[8] + at;
+    const double *restrict in_Gamma_xx = in[9] + at;
+    const double *restrict in_Gamma_xy = in[10] + at;
+    const double *restrict in_Gamma_xz = in[11] + at;
+    const double *restrict in_Gamma_yy = in[12] + at;
+    const double *restrict in_Gamma_yz = in[13] + at;
+    const double *restrict in_Gamma_zz = in[14] + at;
+    const double *restrict in_B_x = in[15] + at;
+    const double *restrict in_B_y = in[16] + at;
+    const double *restrict in_B_z = in[17] + at;
+    const double *restrict in_d_a_x = in[18] + at;
+    const double *restrict in_d_a_y = in[19] + at;
+    const double *restrict in_d_a_z = in[20] + at;
+    const double *restrict in_d_omegadot_x = in[21] + at;
+    const double *restrict in_d_omegadot_y = in[22] + at;
+    const double *restrict in_d_omegadot_z = in[23] + at;
+    const double *restrict in_pitch = in[24] + at;
+    const double *restrict in_pressure = in[25] + at;
+    const double *restrict in_roll = in[26] + at;
+    const double *restrict in_temperature = in[27] + at;
     const double radius = p[0];
     const double spin_frequency = p[1];
     const double dR = p[2 + j];
@@ -146,378 +243,422 @@ static void slopes(size_t j, size_t i, double time, double cos_phi, double sin_p
     const double K8 = p[54 + j];
     const double k_VI = p[58 + j];
     const double cos_j = COS_J[j], sin_j = SIN_J[j];
-    const double x0 = (omega_y*omega_y);
-    const double x1 = (omega_z*omega_z);
-    const double x2 = x0 + x1;
-    const double M_xx = -Gamma_xx - x2;
-    const double x3 = omega_x*omega_y;
-    const double M_xy = -Gamma_xy - omegadot_z + x3;
-    const double x4 = omega_x*omega_z;
-    const double x5 = omegadot_y + x4;
-    const double M_xz = -Gamma_xz + x5;
-    const double x6 = omegadot_z + x3;
-    const double M_yx = -Gamma_xy + x6;
-    const double x7 = (omega_x*omega_x);
-    const double x8 = x1 + x7;
-    const double M_yy = -Gamma_yy - x8;
-    const double x9 = omega_y*omega_z;
-    const double M_yz = -Gamma_yz - omegadot_x + x9;
-    const double M_zx = -Gamma_xz - omegadot_y + x4;
-    const double x10 = omegadot_x + x9;
-    const double M_zy = -Gamma_yz + x10;
-    const double x11 = x0 + x7;
-    const double M_zz = -Gamma_zz - x11;
-    const double cos_psi = cos_j*cos_phi - sin_j*sin_phi;
-    const double sin_psi = cos_j*sin_phi + cos_phi*sin_j;
-    const double x12 = dR + radius;
-    const double b_disc_r_x = x12;
-    const double x13 = beta_z*x12;
-    const double b_disc_r_y = x13;
-    const double x14 = beta_x*x12;
-    const double b_disc_r_z = x14;
-    const double x15 = -beta_x*beta_z;
-    const double b_disc_tau_zy = x15;
-    const double b_r_x = b_disc_r_x*cos_psi - b_disc_r_y*sin_psi;
-    const double b_r_y = b_disc_r_x*sin_psi + b_disc_r_y*cos_psi;
-    const double x16 = beta_z*cos_psi + sin_psi;
-    const double x17 = -x16;
-    const double b_tau_xx = x17;
-    const double x18 = -beta_z*sin_psi + cos_psi;
-    const double b_tau_xy = x18;
-    const double b_tau_yx = x18;
-    const double b_tau_yy = x16;
-    const double x19 = beta_x*cos_psi;
-    const double b_tau_zx = -b_disc_tau_zy*sin_psi - x19;
-    const double x20 = beta_x*sin_psi;
-    const double b_tau_zy = b_disc_tau_zy*cos_psi - x20;
-    const double b_f_x = M_xx*b_r_x + M_xy*b_r_y + M_xz*b_disc_r_z + a_x;
-    const double b_f_y = M_yx*b_r_x + M_yy*b_r_y + M_yz*b_disc_r_z + a_y;
-    const double b_f_z = M_zx*b_r_x + M_zy*b_r_y + M_zz*b_disc_r_z + a_z;
-    const double b_f_xj = b_f_x*b_tau_xx + b_f_y*b_tau_xy;
-    const double b_f_yj = b_f_x*b_tau_yx + b_f_y*b_tau_yy - b_f_z*beta_x;
-    const double b_f_zj = b_f_x*b_tau_zx + b_f_y*b_tau_zy - b_f_z;
-    const double f_disc_r_x = x12;
-    const double f_disc_r_y = x13;
-    const double f_disc_r_z = x14;
-    const double f_disc_tau_zy = x15;
-    const double f_r_x = cos_psi*f_disc_r_x - f_disc_r_y*sin_psi;
-    const double f_r_y = cos_psi*f_disc_r_y + f_disc_r_x*sin_psi;
-    const double f_tau_xx = x17;
-    const double f_tau_xy = x18;
-    const double f_tau_yx = x18;
-    const double f_tau_yy = x16;
-    const double f_tau_zx = -f_disc_tau_zy*sin_psi - x19;
-    const double f_tau_zy = cos_psi*f_disc_tau_zy - x20;
-    const double f_f_x = M_xx*f_r_x + M_xy*f_r_y + M_xz*f_disc_r_z + a_x;
-    const double f_f_y = M_yx*f_r_x + M_yy*f_r_y + M_yz*f_disc_r_z + a_y;
-    const double f_f_z = M_zx*f_r_x + M_zy*f_r_y + M_zz*f_disc_r_z + a_z;
-    const double f_f_xj = f_f_x*f_tau_xx + f_f_y*f_tau_xy;
-    const double f_f_yj = -beta_x*f_f_z + f_f_x*f_tau_yx + f_f_y*f_tau_yy;
-    const double f_f_zj = f_f_x*f_tau_zx + f_f_y*f_tau_zy - f_f_z;
-    const double f_f_i = f_f_xj + f_f_yj*vartheta_z - f_f_zj*vartheta_y;
-    const double f_f_o = -f_f_xj*vartheta_z + f_f_yj + f_f_zj*vartheta_x;
-    const double f_f_p = f_f_xj*vartheta_y - f_f_yj*vartheta_x + f_f_zj;
-    const double q_disc_r_x = x12;
-    const double q_r_x = cos_psi*q_disc_r_x;
-    const double q_r_y = q_disc_r_x*sin_psi;
-    const double q_f_x = M_xx*q_r_x + M_xy*q_r_y + a_x;
-    const double q_f_y = M_yx*q_r_x + M_yy*q_r_y + a_y;
-    const double q_f_z = M_zx*q_r_x + M_zy*q_r_y + a_z;
-    const double q_f_xj = cos_psi*q_f_y - q_f_x*sin_psi;
-    const double q_f_yj = cos_psi*q_f_x + q_f_y*sin_psi;
-    const double x21 = K6*q_f_xj;
-    const double x22 = K4*q_f_xj;
-    const double x23 = K8*q_f_yj;
-    const double i_sensed = K0 + K2*(q_f_xj*q_f_xj) + K5*(q_f_yj*q_f_yj) + K7*(q_f_z*q_f_z) + f_f_i + q_f_yj*x21 - q_f_z*x22 - q_f_z*x23;
-    const double x24 = 2.0*omega_y;
-    const double x25 = omegadot_y*x24;
-    const double x26 = 2.0*omega_z;
-    const double x27 = omegadot_z*x26;
-    const double rate_M_xx = -x25 - x27;
-    const double x28 = omega_x*omegadot_y + omega_y*omegadot_x;
-    const double rate_M_xy = -d_omegadot_z + x28;
-    const double x29 = omega_x*omegadot_z + omega_z*omegadot_x;
-    const double rate_M_xz = d_omegadot_y + x29;
-    const double x30 = 2.0*sin_phi;
-    const double x31 = 3.141592653589793*spin_frequency;
-    const double rate_cos_phi_true = -x30*x31;
-    const double rate_sin_phi_true = 2.0*cos_phi*x31;
-    const double rate_cos_psi = cos_j*rate_cos_phi_true - rate_sin_phi_true*sin_j;
-    const double rate_sin_psi = cos_j*rate_sin_phi_true + rate_cos_phi_true*sin_j;
-    const double rate_M_yx = d_omegadot_z + x28;
-    const double x32 = 2.0*omega_x;
-    const double x33 = omegadot_x*x32;
-    const double rate_M_yy = -x27 - x33;
-    const double x34 = omega_y*omegadot_z + omega_z*omegadot_y;
-    const double rate_M_yz = -d_omegadot_x + x34;
-    const double rate_M_zx = -d_omegadot_y + x29;
-    const double rate_M_zy = d_omegadot_x + x34;
-    const double rate_M_zz = -x25 - x33;
-    const double rate_f_r_x = f_disc_r_x*rate_cos_psi - f_disc_r_y*rate_sin_psi;
-    const double rate_f_r_y = f_disc_r_x*rate_sin_psi + f_disc_r_y*rate_cos_psi;
-    const double rate_f_f_x = M_xx*rate_f_r_x + M_xy*rate_f_r_y + d_a_x + f_disc_r_z*rate_M_xz + f_r_x*rate_M_xx + f_r_y*rate_M_xy;
-    const double rate_f_f_y = M_yx*rate_f_r_x + M_yy*rate_f_r_y + d_a_y + f_disc_r_z*rate_M_yz + f_r_x*rate_M_yx + f_r_y*rate_M_yy;
-    const double rate_f_f_z = M_zx*rate_f_r_x + M_zy*rate_f_r_y + d_a_z + f_disc_r_z*rate_M_zz + f_r_x*rate_M_zx + f_r_y*rate_M_zy;
-    const double x35 = beta_z*rate_cos_psi + rate_sin_psi;
-    const double rate_f_tau_xx = -x35;
-    const double x36 = -beta_z*rate_sin_psi + rate_cos_psi;
-    const double rate_f_tau_xy = x36;
-    const double rate_f_f_xj = f_f_x*rate_f_tau_xx + f_f_y*rate_f_tau_xy + f_tau_xx*rate_f_f_x + f_tau_xy*rate_f_f_y;
-    const double rate_f_tau_yx = x36;
-    const double rate_f_tau_yy = x35;
-    const double rate_f_f_yj = -beta_x*rate_f_f_z + f_f_x*rate_f_tau_yx + f_f_y*rate_f_tau_yy + f_tau_yx*rate_f_f_x + f_tau_yy*rate_f_f_y;
-    const double rate_f_tau_zx = -beta_x*rate_cos_psi - f_disc_tau_zy*rate_sin_psi;
-    const double rate_f_tau_zy = -beta_x*rate_sin_psi + f_disc_tau_zy*rate_cos_psi;
-    const double rate_f_f_zj = f_f_x*rate_f_tau_zx + f_f_y*rate_f_tau_zy + f_tau_zx*rate_f_f_x + f_tau_zy*rate_f_f_y - rate_f_f_z;
-    const double rate_f_f_i = rate_f_f_xj + rate_f_f_yj*vartheta_z - rate_f_f_zj*vartheta_y;
-    const double x37 = f_tau_xx + f_tau_yx*vartheta_z - f_tau_zx*vartheta_y;
-    const double vibration_axis_ix = x37;
-    const double x38 = f_tau_xy + f_tau_yy*vartheta_z - f_tau_zy*vartheta_y;
-    const double vibration_axis_iy = x38;
-    const double x39 = -beta_x*vartheta_z + vartheta_y;
-    const double vibration_axis_iz = x39;
-    const double vibration_axis_ox = -f_tau_xx*vartheta_z + f_tau_yx + f_tau_zx*vartheta_x;
-    const double vibration_axis_oy = -f_tau_xy*vartheta_z + f_tau_yy + f_tau_zy*vartheta_x;
-    const double vibration_axis_oz = -beta_x - vartheta_x;
-    const double vibration_axis_px = f_tau_xx*vartheta_y - f_tau_yx*vartheta_x + f_tau_zx;
-    const double vibration_axis_py = f_tau_xy*vartheta_y - f_tau_yy*vartheta_x + f_tau_zy;
-    const double vibration_axis_pz = beta_x*vartheta_x - 1.0;
-    const double bar_i_vibration_rectification = K1*k_VI;
-    const double x40 = 2.0*K7;
-    const double bar_q_p_second_order_misalignment = bar_i_vibration_rectification*(-q_f_z*x40 + x22 + x23);
-    const double x41 = 2.0*K5;
-    const double bar_q_o_second_order_misalignment = bar_i_vibration_rectification*(-K8*q_f_z + q_f_yj*x41 + x21);
-    const double x42 = 2.0*K2;
-    const double bar_q_i_second_order_misalignment = bar_i_vibration_rectification*(-K4*q_f_z + K6*q_f_yj + q_f_xj*x42);
-    const double bar_q_f_y = bar_q_i_second_order_misalignment*cos_psi + bar_q_o_second_order_misalignment*sin_psi;
-    const double bar_q_f_x = -bar_q_i_second_order_misalignment*sin_psi + bar_q_o_second_order_misalignment*cos_psi;
-    const double bar_q_spin_axis_wobble_tau_zy = bar_q_p_second_order_misalignment*q_f_y;
-    const double bar_q_spin_axis_wobble_tau_zx = bar_q_p_second_order_misalignment*q_f_x;
-    const double bar_q_spin_axis_wobble_tau_yz = bar_q_o_second_order_misalignment*q_f_z;
-    const double bar_q_spin_axis_wobble_tau_yy = bar_q_o_second_order_misalignment*q_f_y;
-    const double bar_q_spin_axis_wobble_tau_yx = bar_q_o_second_order_misalignment*q_f_x;
-    const double bar_q_spin_axis_wobble_tau_xz = bar_q_i_second_order_misalignment*q_f_z;
-    const double bar_q_spin_axis_wobble_tau_xy = bar_q_i_second_order_misalignment*q_f_y;
-    const double bar_q_spin_axis_wobble_tau_xx = bar_q_i_second_order_misalignment*q_f_x;
-    const double bar_q_spin_axis_wobble_r_z = M_xz*bar_q_f_x + M_yz*bar_q_f_y - M_zz*bar_q_p_second_order_misalignment;
-    const double bar_q_spin_axis_wobble_r_y = M_xy*bar_q_f_x + M_yy*bar_q_f_y - M_zy*bar_q_p_second_order_misalignment;
-    const double bar_q_spin_axis_wobble_r_x = M_xx*bar_q_f_x + M_yx*bar_q_f_y - M_zx*bar_q_p_second_order_misalignment;
-    const double bar_q_disc_r_x = bar_q_spin_axis_wobble_r_x*cos_psi + bar_q_spin_axis_wobble_r_y*sin_psi;
-    const double bar_f_f_zj = -bar_i_vibration_rectification*vartheta_y;
-    const double bar_f_f_yj = bar_i_vibration_rectification*vartheta_z;
-    const double bar_f_f_z = -bar_f_f_yj*beta_x - bar_f_f_zj;
-    const double bar_f_f_y = bar_f_f_yj*f_tau_yy + bar_f_f_zj*f_tau_zy + bar_i_vibration_rectification*f_tau_xy;
-    const double bar_f_f_x = bar_f_f_yj*f_tau_yx + bar_f_f_zj*f_tau_zx + bar_i_vibration_rectification*f_tau_xx;
-    const double bar_f_spin_axis_wobble_tau_zz = bar_f_f_zj*f_f_z;
-    const double bar_f_spin_axis_wobble_tau_zy = bar_f_f_zj*f_f_y;
-    const double bar_f_spin_axis_wobble_tau_zx = bar_f_f_zj*f_f_x;
-    const double bar_f_spin_axis_wobble_tau_yz = bar_f_f_yj*f_f_z;
-    const double bar_f_spin_axis_wobble_tau_yy = bar_f_f_yj*f_f_y;
-    const double bar_f_spin_axis_wobble_tau_yx = bar_f_f_yj*f_f_x;
-    const double bar_f_spin_axis_wobble_tau_xz = bar_i_vibration_rectification*f_f_z;
-    const double bar_f_spin_axis_wobble_tau_xy = bar_i_vibration_rectification*f_f_y;
-    const double bar_f_spin_axis_wobble_tau_xx = bar_i_vibration_rectification*f_f_x;
-    const double bar_f_spin_axis_wobble_r_z = M_xz*bar_f_f_x + M_yz*bar_f_f_y + M_zz*bar_f_f_z;
-    const double bar_f_spin_axis_wobble_r_y = M_xy*bar_f_f_x + M_yy*bar_f_f_y + M_zy*bar_f_f_z;
-    const double bar_f_spin_axis_wobble_r_x = M_xx*bar_f_f_x + M_yx*bar_f_f_y + M_zx*bar_f_f_z;
-    const double bar_f_disc_r_y = -bar_f_spin_axis_wobble_r_x*sin_psi + bar_f_spin_axis_wobble_r_y*cos_psi;
-    const double bar_f_disc_r_x = bar_f_spin_axis_wobble_r_x*cos_psi + bar_f_spin_axis_wobble_r_y*sin_psi;
-    const double bar_K1_thermal_scale = i_sensed*k_VI;
-    const double bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj;
-    const double bar_vartheta_y_mount_compliance = -bar_i_vibration_rectification*f_f_zj;
-    const double bar_dR_arm_stretch = bar_f_disc_r_x + bar_f_disc_r_y*beta_z + bar_f_spin_axis_wobble_r_z*beta_x + bar_q_disc_r_x;
-    const double x43 = bar_f_spin_axis_wobble_r_z*f_r_y + bar_f_spin_axis_wobble_tau_xz*f_tau_xy + bar_f_spin_axis_wobble_tau_yz*f_tau_yy + bar_f_spin_axis_wobble_tau_zz*f_tau_zy + bar_q_spin_axis_wobble_r_z*q_r_y + bar_q_spin_axis_wobble_tau_xz*cos_psi + bar_q_spin_axis_wobble_tau_yz*sin_psi;
-    const double bar_wobble_zy = x43;
-    const double x44 = bar_f_spin_axis_wobble_r_z*f_r_x + bar_f_spin_axis_wobble_tau_xz*f_tau_xx + bar_f_spin_axis_wobble_tau_yz*f_tau_yx + bar_f_spin_axis_wobble_tau_zz*f_tau_zx + bar_q_spin_axis_wobble_r_z*q_r_x - bar_q_spin_axis_wobble_tau_xz*sin_psi + bar_q_spin_axis_wobble_tau_yz*cos_psi;
-    const double bar_wobble_zx = x44;
-    const double x45 = -bar_f_spin_axis_wobble_r_y*f_disc_r_z + bar_f_spin_axis_wobble_tau_yy*beta_x + bar_f_spin_axis_wobble_tau_zy + bar_q_spin_axis_wobble_tau_zy;
-    const double bar_wobble_yz = -x45;
-    const double x46 = -bar_f_spin_axis_wobble_r_x*f_disc_r_z + bar_f_spin_axis_wobble_tau_yx*beta_x + bar_f_spin_axis_wobble_tau_zx + bar_q_spin_axis_wobble_tau_zx;
-    const double bar_wobble_xz = -x46;
-    const double bar_sin_psi = -bar_f_spin_axis_wobble_r_x*f_disc_r_y + bar_f_spin_axis_wobble_r_y*f_disc_r_x - bar_f_spin_axis_wobble_tau_xx - bar_f_spin_axis_wobble_tau_xy*beta_z - bar_f_spin_axis_wobble_tau_yx*beta_z + bar_f_spin_axis_wobble_tau_yy - bar_f_spin_axis_wobble_tau_zx*f_disc_tau_zy - bar_f_spin_axis_wobble_tau_zy*beta_x + bar_q_spin_axis_wobble_r_y*q_disc_r_x - bar_q_spin_axis_wobble_tau_xx + bar_q_spin_axis_wobble_tau_yy;
-    const double bar_cos_psi = bar_f_spin_axis_wobble_r_x*f_disc_r_x + bar_f_spin_axis_wobble_r_y*f_disc_r_y - bar_f_spin_axis_wobble_tau_xx*beta_z + bar_f_spin_axis_wobble_tau_xy + bar_f_spin_axis_wobble_tau_yx + bar_f_spin_axis_wobble_tau_yy*beta_z - bar_f_spin_axis_wobble_tau_zx*beta_x + bar_f_spin_axis_wobble_tau_zy*f_disc_tau_zy + bar_q_spin_axis_wobble_r_x*q_disc_r_x + bar_q_spin_axis_wobble_tau_xy + bar_q_spin_axis_wobble_tau_yx;
-    const double bar_sin_phi_true = -bar_cos_psi*sin_j + bar_sin_psi*cos_j;
-    const double bar_cos_phi_true = bar_cos_psi*cos_j + bar_sin_psi*sin_j;
-    const double bar_sin_delta_phi = -bar_cos_phi_true*sin_phi + bar_sin_phi_true*cos_phi;
-    const double x47 = bar_f_f_z*f_disc_r_z;
-    const double bar_M_zz = x47;
-    const double x48 = bar_f_f_z*f_r_y;
-    const double bar_M_zy = -bar_q_p_second_order_misalignment*q_r_y + x48;
-    const double bar_M_zx = bar_f_f_z*f_r_x - bar_q_p_second_order_misalignment*q_r_x;
-    const double x49 = bar_f_f_y*f_disc_r_z;
-    const double bar_M_yz = x49;
-    const double x50 = bar_f_f_y*f_r_y;
-    const double x51 = bar_q_f_y*q_r_y;
-    const double bar_M_yy = x50 + x51;
-    const double bar_M_yx = bar_f_f_y*f_r_x + bar_q_f_y*q_r_x;
-    const double x52 = bar_f_f_x*f_disc_r_z;
-    const double bar_M_xz = x52;
-    const double x53 = bar_f_f_x*f_r_y;
-    const double x54 = bar_q_f_x*q_r_y;
-    const double bar_M_xy = x53 + x54;
-    const double bar_M_xx = bar_f_f_x*f_r_x + bar_q_f_x*q_r_x;
-    const double bar_time_offset_omegadot_z = -bar_M_xy + bar_M_yx;
-    const double bar_time_offset_omegadot_y = bar_M_xz - bar_M_zx;
-    const double bar_time_offset_omegadot_x = -bar_M_yz + bar_M_zy;
-    const double bar_time_offset_omega_z = -bar_M_xx*x26 + bar_M_xz*omega_x - bar_M_yy*x26 + bar_M_yz*omega_y + bar_M_zx*omega_x + bar_M_zy*omega_y;
-    const double bar_time_offset_omega_y = -bar_M_xx*x24 + bar_M_xy*omega_x + bar_M_yx*omega_x + bar_M_yz*omega_z + bar_M_zy*omega_z - bar_M_zz*x24;
-    const double bar_time_offset_omega_x = bar_M_xy*omega_y + bar_M_xz*omega_z + bar_M_yx*omega_y - bar_M_yy*x32 + bar_M_zx*omega_z - bar_M_zz*x32;
-    const double bar_time_offset_a_z = bar_f_f_z - bar_q_p_second_order_misalignment;
-    const double bar_time_offset_a_y = bar_f_f_y + bar_q_f_y;
-    const double bar_time_offset_a_x = bar_f_f_x + bar_q_f_x;
-    const double bar_self_gradient_Gamma_yz = -bar_M_yz - bar_M_zy;
-    const double bar_self_gradient_Gamma_xz = -bar_M_xz - bar_M_zx;
-    const double bar_self_gradient_Gamma_xy = -bar_M_xy - bar_M_yx;
-    const double bar_imu_turn_zy = a_y*bar_time_offset_a_z + bar_time_offset_omega_z*omega_y + bar_time_offset_omegadot_z*omegadot_y;
-    const double bar_imu_turn_zx = a_x*bar_time_offset_a_z + bar_time_offset_omega_z*omega_x + bar_time_offset_omegadot_z*omegadot_x;
-    const double bar_imu_turn_yz = a_z*bar_time_offset_a_y + bar_time_offset_omega_y*omega_z + bar_time_offset_omegadot_y*omegadot_z;
-    const double bar_imu_turn_yx = a_x*bar_time_offset_a_y + bar_time_offset_omega_y*omega_x + bar_time_offset_omegadot_y*omegadot_x;
-    const double bar_imu_turn_xz = a_z*bar_time_offset_a_x + bar_time_offset_omega_x*omega_z + bar_time_offset_omegadot_x*omegadot_z;
-    const double bar_imu_turn_xy = a_y*bar_time_offset_a_x + bar_time_offset_omega_x*omega_y + bar_time_offset_omegadot_x*omegadot_y;
-    const double x55 = bar_i_vibration_rectification*(f_f_i*f_f_i);
-    const double x56 = (f_f_o*f_f_o);
-    const double x57 = bar_i_vibration_rectification*f_f_i;
-    const double x58 = (f_f_p*f_f_p);
-    const double x59 = bar_sin_delta_phi*cos_phi;
-    const double x60 = (cos_phi*cos_phi);
-    const double x61 = (sin_phi*sin_phi);
-    const double x62 = (cos_phi*cos_phi*cos_phi);
-    const double x63 = (sin_phi*sin_phi*sin_phi);
-    const double x64 = K1*bar_K1_thermal_scale;
-    const double x65 = 0.5*(q_r_x*q_r_x);
-    const double x66 = 0.5*(f_disc_r_z*f_disc_r_z);
-    const double x67 = -0.5*(f_r_x*f_r_x) + x66;
-    const double x68 = 0.5*(q_r_y*q_r_y);
-    const double x69 = -0.5*(f_r_y*f_r_y) + x66;
-    const double x70 = sin(roll);
-    const double x71 = -bar_M_zz*x70;
-    const double x72 = sin(pitch);
-    const double x73 = -bar_M_zz*x72;
-    const double x74 = temperature - 293.15;
-    const double x75 = K4*vibration_axis_ix;
-    const double x76 = K6*vibration_axis_ix;
-    const double x77 = K8*vibration_axis_ox;
-    const double x78 = K4*vibration_axis_px;
-    const double x79 = K6*vibration_axis_ox;
-    const double x80 = K8*vibration_axis_px;
-    const double x81 = vibration_axis_ix*x42;
-    const double x82 = vibration_axis_ox*x41;
-    const double x83 = vibration_axis_px*x40;
-    const double x84 = K4*vibration_axis_iy;
-    const double x85 = K6*vibration_axis_iy;
-    const double x86 = K8*vibration_axis_oy;
-    const double x87 = K4*vibration_axis_iz;
-    const double x88 = K6*vibration_axis_iz;
-    const double x89 = K8*vibration_axis_oz;
-    (void)time, (void)cos_j, (void)sin_j, (void)cos_phi, (void)sin_phi;
+    (void)cos_j, (void)sin_j, (void)t, (void)cosine, (void)sine;
 
-    D[0 * n + i] = b_f_zj*bar_dR_arm_stretch; /* arm-sag.c_z */
-    D[1 * n + i] = b_f_yj*bar_dR_arm_stretch; /* arm-stretch.c_r */
-    D[2 * n + i] = bar_i_vibration_rectification*time; /* bias-drift.dK0_dt */
-    D[3 * n + i] = f_f_o*x55; /* cubic-cross.K_iio */
-    D[4 * n + i] = f_f_p*x55; /* cubic-cross.K_iip */
-    D[5 * n + i] = x56*x57; /* cubic-cross.K_ioo */
-    D[6 * n + i] = f_f_o*f_f_p*x57; /* cubic-cross.K_iop */
-    D[7 * n + i] = x57*x58; /* cubic-cross.K_ipp */
-    D[8 * n + i] = bar_i_vibration_rectification*(f_f_o*f_f_o*f_f_o); /* cubic-cross.K_ooo */
-    D[9 * n + i] = bar_i_vibration_rectification*f_f_p*x56; /* cubic-cross.K_oop */
-    D[10 * n + i] = bar_i_vibration_rectification*f_f_o*x58; /* cubic-cross.K_opp */
-    D[11 * n + i] = bar_i_vibration_rectification*(f_f_p*f_f_p*f_f_p); /* cubic-cross.K_ppp */
-    D[12 * n + i] = bar_i_vibration_rectification*(f_f_i*f_f_i*f_f_i); /* cubic-input.K_iii */
-    D[13 * n + i] = x59; /* encoder-harmonic.c_1 */
-    D[14 * n + i] = bar_sin_delta_phi*sin_phi; /* encoder-harmonic.s_1 */
-    D[15 * n + i] = bar_sin_delta_phi*(x60 - x61); /* encoder-harmonic.c_2 */
-    D[16 * n + i] = x30*x59; /* encoder-harmonic.s_2 */
-    D[17 * n + i] = bar_sin_delta_phi*(-3.0*cos_phi*x61 + x62); /* encoder-harmonic.c_3 */
-    D[18 * n + i] = bar_sin_delta_phi*(3.0*sin_phi*x60 - x63); /* encoder-harmonic.s_3 */
-    D[19 * n + i] = bar_sin_delta_phi*((cos_phi*cos_phi*cos_phi*cos_phi) + (sin_phi*sin_phi*sin_phi*sin_phi) - 6.0*x60*x61); /* encoder-harmonic.c_4 */
-    D[20 * n + i] = bar_sin_delta_phi*(-4.0*cos_phi*x63 + 4.0*sin_phi*x62); /* encoder-harmonic.s_4 */
-    D[21 * n + i] = time*x64; /* gain-drift.dK1_dt */
-    D[22 * n + i] = x64; /* gain-step.dK1 */
-    D[23 * n + i] = -bar_time_offset_omega_x*omega_x - bar_time_offset_omegadot_x*omegadot_x; /* gyro-scale.s_x */
-    D[24 * n + i] = -bar_time_offset_omega_y*omega_y - bar_time_offset_omegadot_y*omegadot_y; /* gyro-scale.s_y */
-    D[25 * n + i] = -bar_time_offset_omega_z*omega_z - bar_time_offset_omegadot_z*omegadot_z; /* gyro-scale.s_z */
-    D[26 * n + i] = bar_time_offset_a_x*x2 - bar_time_offset_a_y*x6 + bar_time_offset_a_z*(omegadot_y - x4); /* imu-lever-arm.l_x */
-    D[27 * n + i] = bar_time_offset_a_x*(omegadot_z - x3) + bar_time_offset_a_y*x8 - bar_time_offset_a_z*x10; /* imu-lever-arm.l_y */
-    D[28 * n + i] = -bar_time_offset_a_x*x5 + bar_time_offset_a_y*(omegadot_x - x9) + bar_time_offset_a_z*x11; /* imu-lever-arm.l_z */
-    D[29 * n + i] = -bar_imu_turn_yz + bar_imu_turn_zy; /* imu-misalignment.e_x */
-    D[30 * n + i] = bar_imu_turn_xz - bar_imu_turn_zx; /* imu-misalignment.e_y */
-    D[31 * n + i] = -bar_imu_turn_xy + bar_imu_turn_yx; /* imu-misalignment.e_z */
-    D[32 * n + i] = -bar_i_vibration_rectification*rate_f_f_i; /* lag.tau */
-    D[33 * n + i] = bar_i_vibration_rectification*(B_x*x37 + B_y*x38 + B_z*x39); /* magnetic-bias.dK0_dB */
-    D[34 * n + i] = b_f_xj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yx */
-    D[35 * n + i] = b_f_yj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yy */
-    D[36 * n + i] = b_f_zj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yz */
-    D[37 * n + i] = b_f_xj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zx */
-    D[38 * n + i] = b_f_yj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zy */
-    D[39 * n + i] = b_f_zj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zz */
-    D[40 * n + i] = bar_f_f_x*x67 - bar_q_f_x*x65 + f_r_x*x47; /* near-mass.T_xxx */
-    D[41 * n + i] = bar_f_f_y*x67 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x65 - f_r_x*x53 - q_r_x*x54; /* near-mass.T_xxy */
-    D[42 * n + i] = bar_f_f_z*x67 + bar_q_p_second_order_misalignment*x65 - f_r_x*x52; /* near-mass.T_xxz */
-    D[43 * n + i] = bar_f_f_x*x69 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x68 - f_r_x*x50 - q_r_x*x51; /* near-mass.T_xyy */
-    D[44 * n + i] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x48 - f_r_x*x49 - f_r_y*x52; /* near-mass.T_xyz */
-    D[45 * n + i] = bar_f_f_y*x69 - bar_q_f_y*x68 + f_r_y*x47; /* near-mass.T_yyy */
-    D[46 * n + i] = bar_f_f_z*x69 + bar_q_p_second_order_misalignment*x68 - f_r_y*x49; /* near-mass.T_yyz */
-    D[47 * n + i] = x57*fabs(f_f_i); /* odd-quadratic.K_oq */
-    D[48 * n + i] = bar_i_vibration_rectification*(-beta_x*omegadot_z + f_tau_yx*omegadot_x + f_tau_yy*omegadot_y); /* pendulum-angular.K_pa */
-    D[49 * n + i] = bar_i_vibration_rectification*(pressure - 101325.0); /* pressure-bias.dK0_dp */
-    D[50 * n + i] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z); /* second-order-misalignment.kappa */
-    D[51 * n + i] = -bar_M_xx*x70 - x71; /* self-gradient.G_xx_roll */
-    D[52 * n + i] = bar_self_gradient_Gamma_xy*x70; /* self-gradient.G_xy_roll */
-    D[53 * n + i] = bar_self_gradient_Gamma_xz*x70; /* self-gradient.G_xz_roll */
-    D[54 * n + i] = -bar_M_yy*x70 - x71; /* self-gradient.G_yy_roll */
-    D[55 * n + i] = bar_self_gradient_Gamma_yz*x70; /* self-gradient.G_yz_roll */
-    D[56 * n + i] = -bar_M_xx*x72 - x73; /* self-gradient.G_xx_pitch */
-    D[57 * n + i] = bar_self_gradient_Gamma_xy*x72; /* self-gradient.G_xy_pitch */
-    D[58 * n + i] = bar_self_gradient_Gamma_xz*x72; /* self-gradient.G_xz_pitch */
-    D[59 * n + i] = -bar_M_yy*x72 - x73; /* self-gradient.G_yy_pitch */
-    D[60 * n + i] = bar_self_gradient_Gamma_yz*x72; /* self-gradient.G_yz_pitch */
-    D[61 * n + i] = x43 + x45; /* spin-axis-tilt.alpha_x */
-    D[62 * n + i] = -x44 - x46; /* spin-axis-tilt.alpha_y */
-    D[63 * n + i] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi; /* spin-axis-wobble.w_x */
-    D[64 * n + i] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi; /* spin-axis-wobble.w_y */
-    D[65 * n + i] = bar_sin_delta_phi; /* spin-phase-offset.phi_0 */
-    D[66 * n + i] = bar_sin_delta_phi; /* spin-rate-jitter.sigma_phi */
-    D[67 * n + i] = bar_sin_delta_phi; /* spin-rate-jitter.sigma_walk */
-    D[68 * n + i] = bar_i_vibration_rectification*x74; /* thermal-bias.dK0_dT */
-    D[69 * n + i] = x64*x74; /* thermal-scale.dK1_dT */
-    D[70 * n + i] = bar_time_offset_a_x*d_a_x + bar_time_offset_a_y*d_a_y + bar_time_offset_a_z*d_a_z + bar_time_offset_omega_x*omegadot_x + bar_time_offset_omega_y*omegadot_y + bar_time_offset_omega_z*omegadot_z + bar_time_offset_omegadot_x*d_omegadot_x + bar_time_offset_omegadot_y*d_omegadot_y + bar_time_offset_omegadot_z*d_omegadot_z; /* time-offset.delta_t */
-    D[71 * n + i] = bar_i_vibration_rectification*(K2*(vibration_axis_ix*vibration_axis_ix) + K5*(vibration_axis_ox*vibration_axis_ox) + K7*(vibration_axis_px*vibration_axis_px) + vibration_axis_ox*x76 + vibration_axis_px*x75 + vibration_axis_px*x77); /* vibration-rectification.P_xx */
-    D[72 * n + i] = bar_i_vibration_rectification*(vibration_axis_iy*x78 + vibration_axis_iy*x79 + vibration_axis_iy*x81 + vibration_axis_oy*x76 + vibration_axis_oy*x80 + vibration_axis_oy*x82 + vibration_axis_py*x75 + vibration_axis_py*x77 + vibration_axis_py*x83); /* vibration-rectification.P_xy */
-    D[73 * n + i] = bar_i_vibration_rectification*(vibration_axis_iz*x78 + vibration_axis_iz*x79 + vibration_axis_iz*x81 + vibration_axis_oz*x76 + vibration_axis_oz*x80 + vibration_axis_oz*x82 + vibration_axis_pz*x75 + vibration_axis_pz*x77 + vibration_axis_pz*x83); /* vibration-rectification.P_xz */
-    D[74 * n + i] = bar_i_vibration_rectification*(K2*(vibration_axis_iy*vibration_axis_iy) + K5*(vibration_axis_oy*vibration_axis_oy) + K7*(vibration_axis_py*vibration_axis_py) + vibration_axis_oy*x85 + vibration_axis_py*x84 + vibration_axis_py*x86); /* vibration-rectification.P_yy */
-    D[75 * n + i] = bar_i_vibration_rectification*(vibration_axis_iy*vibration_axis_iz*x42 + vibration_axis_oy*vibration_axis_oz*x41 + vibration_axis_oy*x88 + vibration_axis_oz*x85 + vibration_axis_py*vibration_axis_pz*x40 + vibration_axis_py*x87 + vibration_axis_py*x89 + vibration_axis_pz*x84 + vibration_axis_pz*x86); /* vibration-rectification.P_yz */
-    D[76 * n + i] = bar_i_vibration_rectification*(K2*(vibration_axis_iz*vibration_axis_iz) + K5*(vibration_axis_oz*vibration_axis_oz) + K7*(vibration_axis_pz*vibration_axis_pz) + vibration_axis_oz*x88 + vibration_axis_pz*x87 + vibration_axis_pz*x89); /* vibration-rectification.P_zz */
+    double rows[ROWS][STEP]; /* which overlap nothing: the loop becomes one of vectors */
+    for (size_t i = 0; i < n; ++i) {
+        const double time = t[at + i];
+        const double cos_phi = cosine[i];
+        const double sin_phi = sine[i];
+        const double a_x = in_a_x[i];
+        const double a_y = in_a_y[i];
+        const double a_z = in_a_z[i];
+        const double omega_x = in_omega_x[i];
+        const double omega_y = in_omega_y[i];
+        const double omega_z = in_omega_z[i];
+        const double omegadot_x = in_omegadot_x[i];
+        const double omegadot_y = in_omegadot_y[i];
+        const double omegadot_z = in_omegadot_z[i];
+        const double Gamma_xx = in_Gamma_xx[i];
+        const double Gamma_xy = in_Gamma_xy[i];
+        const double Gamma_xz = in_Gamma_xz[i];
+        const double Gamma_yy = in_Gamma_yy[i];
+        const double Gamma_yz = in_Gamma_yz[i];
+        const double Gamma_zz = in_Gamma_zz[i];
+        const double B_x = in_B_x[i];
+        const double B_y = in_B_y[i];
+        const double B_z = in_B_z[i];
+        const double d_a_x = in_d_a_x[i];
+        const double d_a_y = in_d_a_y[i];
+        const double d_a_z = in_d_a_z[i];
+        const double d_omegadot_x = in_d_omegadot_x[i];
+        const double d_omegadot_y = in_d_omegadot_y[i];
+        const double d_omegadot_z = in_d_omegadot_z[i];
+        const double pitch = in_pitch[i];
+        const double pressure = in_pressure[i];
+        const double roll = in_roll[i];
+        const double temperature = in_temperature[i];
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double x2 = x0 + x1;
+        const double M_xx = -Gamma_xx - x2;
+        const double x3 = omega_x*omega_y;
+        const double M_xy = -Gamma_xy - omegadot_z + x3;
+        const double x4 = omega_x*omega_z;
+        const double x5 = omegadot_y + x4;
+        const double M_xz = -Gamma_xz + x5;
+        const double x6 = omegadot_z + x3;
+        const double M_yx = -Gamma_xy + x6;
+        const double x7 = (omega_x*omega_x);
+        const double x8 = x1 + x7;
+        const double M_yy = -Gamma_yy - x8;
+        const double x9 = omega_y*omega_z;
+        const double M_yz = -Gamma_yz - omegadot_x + x9;
+        const double M_zx = -Gamma_xz - omegadot_y + x4;
+        const double x10 = omegadot_x + x9;
+        const double M_zy = -Gamma_yz + x10;
+        const double x11 = x0 + x7;
+        const double M_zz = -Gamma_zz - x11;
+        const double cos_psi = FMA(-sin_j, sin_phi, cos_j*cos_phi);
+        const double sin_psi = FMA(cos_phi, sin_j, cos_j*sin_phi);
+        const double x12 = dR + radius;
+        const double b_disc_r_x = x12;
+        const double x13 = beta_z*x12;
+        const double b_disc_r_y = x13;
+        const double x14 = beta_x*x12;
+        const double b_disc_r_z = x14;
+        const double x15 = -beta_x*beta_z;
+        const double b_disc_tau_zy = x15;
+        const double b_r_x = FMA(-b_disc_r_y, sin_psi, b_disc_r_x*cos_psi);
+        const double b_r_y = FMA(b_disc_r_y, cos_psi, b_disc_r_x*sin_psi);
+        const double x16 = FMA(beta_z, cos_psi, sin_psi);
+        const double x17 = -x16;
+        const double b_tau_xx = x17;
+        const double x18 = FMA(-beta_z, sin_psi, cos_psi);
+        const double b_tau_xy = x18;
+        const double b_tau_yx = x18;
+        const double b_tau_yy = x16;
+        const double x19 = beta_x*cos_psi;
+        const double b_tau_zx = FMA(-b_disc_tau_zy, sin_psi, -x19);
+        const double x20 = beta_x*sin_psi;
+        const double b_tau_zy = FMA(b_disc_tau_zy, cos_psi, -x20);
+        const double b_f_x = FMA(M_xz, b_disc_r_z, FMA(M_xy, b_r_y, FMA(M_xx, b_r_x, a_x)));
+        const double b_f_y = FMA(M_yz, b_disc_r_z, FMA(M_yy, b_r_y, FMA(M_yx, b_r_x, a_y)));
+        const double b_f_z = FMA(M_zz, b_disc_r_z, FMA(M_zy, b_r_y, FMA(M_zx, b_r_x, a_z)));
+        const double b_f_xj = FMA(b_f_y, b_tau_xy, b_f_x*b_tau_xx);
+        const double b_f_yj = FMA(-b_f_z, beta_x, FMA(b_f_y, b_tau_yy, b_f_x*b_tau_yx));
+        const double b_f_zj = FMA(b_f_y, b_tau_zy, FMA(b_f_x, b_tau_zx, -b_f_z));
+        const double f_disc_r_x = x12;
+        const double f_disc_r_y = x13;
+        const double f_disc_r_z = x14;
+        const double f_disc_tau_zy = x15;
+        const double f_r_x = FMA(-f_disc_r_y, sin_psi, cos_psi*f_disc_r_x);
+        const double f_r_y = FMA(f_disc_r_x, sin_psi, cos_psi*f_disc_r_y);
+        const double f_tau_xx = x17;
+        const double f_tau_xy = x18;
+        const double f_tau_yx = x18;
+        const double f_tau_yy = x16;
+        const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -x19);
+        const double f_tau_zy = FMA(cos_psi, f_disc_tau_zy, -x20);
+        const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
+        const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
+        const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
+        const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
+        const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
+        const double f_f_o = FMA(f_f_zj, vartheta_x, FMA(-f_f_xj, vartheta_z, f_f_yj));
+        const double f_f_p = FMA(-f_f_yj, vartheta_x, FMA(f_f_xj, vartheta_y, f_f_zj));
+        const double q_disc_r_x = x12;
+        const double q_r_x = cos_psi*q_disc_r_x;
+        const double q_r_y = q_disc_r_x*sin_psi;
+        const double q_f_x = FMA(M_xy, q_r_y, FMA(M_xx, q_r_x, a_x));
+        const double q_f_y = FMA(M_yy, q_r_y, FMA(M_yx, q_r_x, a_y));
+        const double q_f_z = FMA(M_zy, q_r_y, FMA(M_zx, q_r_x, a_z));
+        const double q_f_xj = FMA(-q_f_x, sin_psi, cos_psi*q_f_y);
+        const double q_f_yj = FMA(q_f_y, sin_psi, cos_psi*q_f_x);
+        const double x21 = K6*q_f_xj;
+        const double x22 = K4*q_f_xj;
+        const double x23 = K8*q_f_yj;
+        const double i_sensed = FMA(-q_f_z, x23, FMA(-q_f_z, x22, FMA(q_f_yj, x21, FMA(K7, q_f_z*q_f_z, FMA(K5, q_f_yj*q_f_yj, FMA(K2, q_f_xj*q_f_xj, K0 + f_f_i))))));
+        const double x24 = 2.0*omega_y;
+        const double x25 = omegadot_y*x24;
+        const double x26 = 2.0*omega_z;
+        const double x27 = omegadot_z*x26;
+        const double rate_M_xx = -x25 - x27;
+        const double x28 = FMA(omega_y, omegadot_x, omega_x*omegadot_y);
+        const double rate_M_xy = -d_omegadot_z + x28;
+        const double x29 = FMA(omega_z, omegadot_x, omega_x*omegadot_z);
+        const double rate_M_xz = d_omegadot_y + x29;
+        const double x30 = 2.0*sin_phi;
+        const double x31 = 3.141592653589793*spin_frequency;
+        const double rate_cos_phi_true = -x30*x31;
+        const double rate_sin_phi_true = 2.0*cos_phi*x31;
+        const double rate_cos_psi = FMA(-rate_sin_phi_true, sin_j, cos_j*rate_cos_phi_true);
+        const double rate_sin_psi = FMA(rate_cos_phi_true, sin_j, cos_j*rate_sin_phi_true);
+        const double rate_M_yx = d_omegadot_z + x28;
+        const double x32 = 2.0*omega_x;
+        const double x33 = omegadot_x*x32;
+        const double rate_M_yy = -x27 - x33;
+        const double x34 = FMA(omega_z, omegadot_y, omega_y*omegadot_z);
+        const double rate_M_yz = -d_omegadot_x + x34;
+        const double rate_M_zx = -d_omegadot_y + x29;
+        const double rate_M_zy = d_omegadot_x + x34;
+        const double rate_M_zz = -x25 - x33;
+        const double rate_f_r_x = FMA(-f_disc_r_y, rate_sin_psi, f_disc_r_x*rate_cos_psi);
+        const double rate_f_r_y = FMA(f_disc_r_y, rate_cos_psi, f_disc_r_x*rate_sin_psi);
+        const double rate_f_f_x = FMA(f_r_y, rate_M_xy, FMA(f_r_x, rate_M_xx, FMA(f_disc_r_z, rate_M_xz, FMA(M_xy, rate_f_r_y, FMA(M_xx, rate_f_r_x, d_a_x)))));
+        const double rate_f_f_y = FMA(f_r_y, rate_M_yy, FMA(f_r_x, rate_M_yx, FMA(f_disc_r_z, rate_M_yz, FMA(M_yy, rate_f_r_y, FMA(M_yx, rate_f_r_x, d_a_y)))));
+        const double rate_f_f_z = FMA(f_r_y, rate_M_zy, FMA(f_r_x, rate_M_zx, FMA(f_disc_r_z, rate_M_zz, FMA(M_zy, rate_f_r_y, FMA(M_zx, rate_f_r_x, d_a_z)))));
+        const double x35 = FMA(beta_z, rate_cos_psi, rate_sin_psi);
+        const double rate_f_tau_xx = -x35;
+        const double x36 = FMA(-beta_z, rate_sin_psi, rate_cos_psi);
+        const double rate_f_tau_xy = x36;
+        const double rate_f_f_xj = FMA(f_tau_xy, rate_f_f_y, FMA(f_tau_xx, rate_f_f_x, FMA(f_f_y, rate_f_tau_xy, f_f_x*rate_f_tau_xx)));
+        const double rate_f_tau_yx = x36;
+        const double rate_f_tau_yy = x35;
+        const double rate_f_f_yj = FMA(f_tau_yy, rate_f_f_y, FMA(f_tau_yx, rate_f_f_x, FMA(f_f_y, rate_f_tau_yy, FMA(f_f_x, rate_f_tau_yx, -beta_x*rate_f_f_z))));
+        const double rate_f_tau_zx = FMA(-f_disc_tau_zy, rate_sin_psi, -beta_x*rate_cos_psi);
+        const double rate_f_tau_zy = FMA(f_disc_tau_zy, rate_cos_psi, -beta_x*rate_sin_psi);
+        const double rate_f_f_zj = FMA(f_tau_zy, rate_f_f_y, FMA(f_tau_zx, rate_f_f_x, FMA(f_f_y, rate_f_tau_zy, FMA(f_f_x, rate_f_tau_zx, -rate_f_f_z))));
+        const double rate_f_f_i = FMA(-rate_f_f_zj, vartheta_y, FMA(rate_f_f_yj, vartheta_z, rate_f_f_xj));
+        const double x37 = FMA(-f_tau_zx, vartheta_y, FMA(f_tau_yx, vartheta_z, f_tau_xx));
+        const double vibration_axis_ix = x37;
+        const double x38 = FMA(-f_tau_zy, vartheta_y, FMA(f_tau_yy, vartheta_z, f_tau_xy));
+        const double vibration_axis_iy = x38;
+        const double x39 = FMA(-beta_x, vartheta_z, vartheta_y);
+        const double vibration_axis_iz = x39;
+        const double vibration_axis_ox = FMA(f_tau_zx, vartheta_x, FMA(-f_tau_xx, vartheta_z, f_tau_yx));
+        const double vibration_axis_oy = FMA(f_tau_zy, vartheta_x, FMA(-f_tau_xy, vartheta_z, f_tau_yy));
+        const double vibration_axis_oz = -beta_x - vartheta_x;
+        const double vibration_axis_px = FMA(-f_tau_yx, vartheta_x, FMA(f_tau_xx, vartheta_y, f_tau_zx));
+        const double vibration_axis_py = FMA(-f_tau_yy, vartheta_x, FMA(f_tau_xy, vartheta_y, f_tau_zy));
+        const double vibration_axis_pz = FMA(beta_x, vartheta_x, -(1.0));
+        const double bar_i_vibration_rectification = K1*k_VI;
+        const double x40 = 2.0*K7;
+        const double bar_q_p_second_order_misalignment = bar_i_vibration_rectification*(FMA(-q_f_z, x40, x22 + x23));
+        const double x41 = 2.0*K5;
+        const double bar_q_o_second_order_misalignment = bar_i_vibration_rectification*(FMA(q_f_yj, x41, FMA(-K8, q_f_z, x21)));
+        const double x42 = 2.0*K2;
+        const double bar_q_i_second_order_misalignment = bar_i_vibration_rectification*(FMA(q_f_xj, x42, FMA(K6, q_f_yj, -K4*q_f_z)));
+        const double bar_q_f_y = FMA(bar_q_o_second_order_misalignment, sin_psi, bar_q_i_second_order_misalignment*cos_psi);
+        const double bar_q_f_x = FMA(bar_q_o_second_order_misalignment, cos_psi, -bar_q_i_second_order_misalignment*sin_psi);
+        const double bar_q_spin_axis_wobble_tau_zy = bar_q_p_second_order_misalignment*q_f_y;
+        const double bar_q_spin_axis_wobble_tau_zx = bar_q_p_second_order_misalignment*q_f_x;
+        const double bar_q_spin_axis_wobble_tau_yz = bar_q_o_second_order_misalignment*q_f_z;
+        const double bar_q_spin_axis_wobble_tau_yy = bar_q_o_second_order_misalignment*q_f_y;
+        const double bar_q_spin_axis_wobble_tau_yx = bar_q_o_second_order_misalignment*q_f_x;
+        const double bar_q_spin_axis_wobble_tau_xz = bar_q_i_second_order_misalignment*q_f_z;
+        const double bar_q_spin_axis_wobble_tau_xy = bar_q_i_second_order_misalignment*q_f_y;
+        const double bar_q_spin_axis_wobble_tau_xx = bar_q_i_second_order_misalignment*q_f_x;
+        const double bar_q_spin_axis_wobble_r_z = FMA(-M_zz, bar_q_p_second_order_misalignment, FMA(M_yz, bar_q_f_y, M_xz*bar_q_f_x));
+        const double bar_q_spin_axis_wobble_r_y = FMA(-M_zy, bar_q_p_second_order_misalignment, FMA(M_yy, bar_q_f_y, M_xy*bar_q_f_x));
+        const double bar_q_spin_axis_wobble_r_x = FMA(-M_zx, bar_q_p_second_order_misalignment, FMA(M_yx, bar_q_f_y, M_xx*bar_q_f_x));
+        const double bar_q_disc_r_x = FMA(bar_q_spin_axis_wobble_r_y, sin_psi, bar_q_spin_axis_wobble_r_x*cos_psi);
+        const double bar_f_f_zj = -bar_i_vibration_rectification*vartheta_y;
+        const double bar_f_f_yj = bar_i_vibration_rectification*vartheta_z;
+        const double bar_f_f_z = FMA(-bar_f_f_yj, beta_x, -bar_f_f_zj);
+        const double bar_f_f_y = FMA(bar_i_vibration_rectification, f_tau_xy, FMA(bar_f_f_zj, f_tau_zy, bar_f_f_yj*f_tau_yy));
+        const double bar_f_f_x = FMA(bar_i_vibration_rectification, f_tau_xx, FMA(bar_f_f_zj, f_tau_zx, bar_f_f_yj*f_tau_yx));
+        const double bar_f_spin_axis_wobble_tau_zz = bar_f_f_zj*f_f_z;
+        const double bar_f_spin_axis_wobble_tau_zy = bar_f_f_zj*f_f_y;
+        const double bar_f_spin_axis_wobble_tau_zx = bar_f_f_zj*f_f_x;
+        const double bar_f_spin_axis_wobble_tau_yz = bar_f_f_yj*f_f_z;
+        const double bar_f_spin_axis_wobble_tau_yy = bar_f_f_yj*f_f_y;
+        const double bar_f_spin_axis_wobble_tau_yx = bar_f_f_yj*f_f_x;
+        const double bar_f_spin_axis_wobble_tau_xz = bar_i_vibration_rectification*f_f_z;
+        const double bar_f_spin_axis_wobble_tau_xy = bar_i_vibration_rectification*f_f_y;
+        const double bar_f_spin_axis_wobble_tau_xx = bar_i_vibration_rectification*f_f_x;
+        const double bar_f_spin_axis_wobble_r_z = FMA(M_zz, bar_f_f_z, FMA(M_yz, bar_f_f_y, M_xz*bar_f_f_x));
+        const double bar_f_spin_axis_wobble_r_y = FMA(M_zy, bar_f_f_z, FMA(M_yy, bar_f_f_y, M_xy*bar_f_f_x));
+        const double bar_f_spin_axis_wobble_r_x = FMA(M_zx, bar_f_f_z, FMA(M_yx, bar_f_f_y, M_xx*bar_f_f_x));
+        const double bar_f_disc_r_y = FMA(bar_f_spin_axis_wobble_r_y, cos_psi, -bar_f_spin_axis_wobble_r_x*sin_psi);
+        const double bar_f_disc_r_x = FMA(bar_f_spin_axis_wobble_r_y, sin_psi, bar_f_spin_axis_wobble_r_x*cos_psi);
+        const double bar_K1_thermal_scale = i_sensed*k_VI;
+        const double bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj;
+        const double bar_vartheta_y_mount_compliance = -bar_i_vibration_rectification*f_f_zj;
+        const double bar_dR_arm_stretch = FMA(bar_f_spin_axis_wobble_r_z, beta_x, FMA(bar_f_disc_r_y, beta_z, bar_f_disc_r_x + bar_q_disc_r_x));
+        const double x43 = FMA(bar_q_spin_axis_wobble_tau_yz, sin_psi, FMA(bar_q_spin_axis_wobble_tau_xz, cos_psi, FMA(bar_q_spin_axis_wobble_r_z, q_r_y, FMA(bar_f_spin_axis_wobble_tau_zz, f_tau_zy, FMA(bar_f_spin_axis_wobble_tau_yz, f_tau_yy, FMA(bar_f_spin_axis_wobble_tau_xz, f_tau_xy, bar_f_spin_axis_wobble_r_z*f_r_y))))));
+        const double bar_wobble_zy = x43;
+        const double x44 = FMA(bar_q_spin_axis_wobble_tau_yz, cos_psi, FMA(-bar_q_spin_axis_wobble_tau_xz, sin_psi, FMA(bar_q_spin_axis_wobble_r_z, q_r_x, FMA(bar_f_spin_axis_wobble_tau_zz, f_tau_zx, FMA(bar_f_spin_axis_wobble_tau_yz, f_tau_yx, FMA(bar_f_spin_axis_wobble_tau_xz, f_tau_xx, bar_f_spin_axis_wobble_r_z*f_r_x))))));
+        const double bar_wobble_zx = x44;
+        const double x45 = FMA(bar_f_spin_axis_wobble_tau_yy, beta_x, FMA(-bar_f_spin_axis_wobble_r_y, f_disc_r_z, bar_f_spin_axis_wobble_tau_zy + bar_q_spin_axis_wobble_tau_zy));
+        const double bar_wobble_yz = -x45;
+        const double x46 = FMA(bar_f_spin_axis_wobble_tau_yx, beta_x, FMA(-bar_f_spin_axis_wobble_r_x, f_disc_r_z, bar_f_spin_axis_wobble_tau_zx + bar_q_spin_axis_wobble_tau_zx));
+        const double bar_wobble_xz = -x46;
+        const double bar_sin_psi = FMA(bar_q_spin_axis_wobble_r_y, q_disc_r_x, FMA(-bar_f_spin_axis_wobble_tau_zy, beta_x, FMA(-bar_f_spin_axis_wobble_tau_zx, f_disc_tau_zy, FMA(-bar_f_spin_axis_wobble_tau_yx, beta_z, FMA(-bar_f_spin_axis_wobble_tau_xy, beta_z, FMA(bar_f_spin_axis_wobble_r_y, f_disc_r_x, FMA(-bar_f_spin_axis_wobble_r_x, f_disc_r_y, -bar_f_spin_axis_wobble_tau_xx + bar_f_spin_axis_wobble_tau_yy - bar_q_spin_axis_wobble_tau_xx + bar_q_spin_axis_wobble_tau_yy)))))));
+        const double bar_cos_psi = FMA(bar_q_spin_axis_wobble_r_x, q_disc_r_x, FMA(bar_f_spin_axis_wobble_tau_zy, f_disc_tau_zy, FMA(-bar_f_spin_axis_wobble_tau_zx, beta_x, FMA(bar_f_spin_axis_wobble_tau_yy, beta_z, FMA(-bar_f_spin_axis_wobble_tau_xx, beta_z, FMA(bar_f_spin_axis_wobble_r_y, f_disc_r_y, FMA(bar_f_spin_axis_wobble_r_x, f_disc_r_x, bar_f_spin_axis_wobble_tau_xy + bar_f_spin_axis_wobble_tau_yx + bar_q_spin_axis_wobble_tau_xy + bar_q_spin_axis_wobble_tau_yx)))))));
+        const double bar_sin_phi_true = FMA(bar_sin_psi, cos_j, -bar_cos_psi*sin_j);
+        const double bar_cos_phi_true = FMA(bar_sin_psi, sin_j, bar_cos_psi*cos_j);
+        const double bar_sin_delta_phi = FMA(bar_sin_phi_true, cos_phi, -bar_cos_phi_true*sin_phi);
+        const double x47 = bar_f_f_z*f_disc_r_z;
+        const double bar_M_zz = x47;
+        const double x48 = bar_f_f_z*f_r_y;
+        const double bar_M_zy = FMA(-bar_q_p_second_order_misalignment, q_r_y, x48);
+        const double bar_M_zx = FMA(-bar_q_p_second_order_misalignment, q_r_x, bar_f_f_z*f_r_x);
+        const double x49 = bar_f_f_y*f_disc_r_z;
+        const double bar_M_yz = x49;
+        const double x50 = bar_f_f_y*f_r_y;
+        const double x51 = bar_q_f_y*q_r_y;
+        const double bar_M_yy = x50 + x51;
+        const double bar_M_yx = FMA(bar_q_f_y, q_r_x, bar_f_f_y*f_r_x);
+        const double x52 = bar_f_f_x*f_disc_r_z;
+        const double bar_M_xz = x52;
+        const double x53 = bar_f_f_x*f_r_y;
+        const double x54 = bar_q_f_x*q_r_y;
+        const double bar_M_xy = x53 + x54;
+        const double bar_M_xx = FMA(bar_q_f_x, q_r_x, bar_f_f_x*f_r_x);
+        const double bar_time_offset_omegadot_z = -bar_M_xy + bar_M_yx;
+        const double bar_time_offset_omegadot_y = bar_M_xz - bar_M_zx;
+        const double bar_time_offset_omegadot_x = -bar_M_yz + bar_M_zy;
+        const double bar_time_offset_omega_z = FMA(bar_M_zy, omega_y, FMA(bar_M_zx, omega_x, FMA(bar_M_yz, omega_y, FMA(-bar_M_yy, x26, FMA(bar_M_xz, omega_x, -bar_M_xx*x26)))));
+        const double bar_time_offset_omega_y = FMA(-bar_M_zz, x24, FMA(bar_M_zy, omega_z, FMA(bar_M_yz, omega_z, FMA(bar_M_yx, omega_x, FMA(bar_M_xy, omega_x, -bar_M_xx*x24)))));
+        const double bar_time_offset_omega_x = FMA(-bar_M_zz, x32, FMA(bar_M_zx, omega_z, FMA(-bar_M_yy, x32, FMA(bar_M_yx, omega_y, FMA(bar_M_xz, omega_z, bar_M_xy*omega_y)))));
+        const double bar_time_offset_a_z = bar_f_f_z - bar_q_p_second_order_misalignment;
+        const double bar_time_offset_a_y = bar_f_f_y + bar_q_f_y;
+        const double bar_time_offset_a_x = bar_f_f_x + bar_q_f_x;
+        const double bar_self_gradient_Gamma_yz = -bar_M_yz - bar_M_zy;
+        const double bar_self_gradient_Gamma_xz = -bar_M_xz - bar_M_zx;
+        const double bar_self_gradient_Gamma_xy = -bar_M_xy - bar_M_yx;
+        const double bar_imu_turn_zy = FMA(bar_time_offset_omegadot_z, omegadot_y, FMA(bar_time_offset_omega_z, omega_y, a_y*bar_time_offset_a_z));
+        const double bar_imu_turn_zx = FMA(bar_time_offset_omegadot_z, omegadot_x, FMA(bar_time_offset_omega_z, omega_x, a_x*bar_time_offset_a_z));
+        const double bar_imu_turn_yz = FMA(bar_time_offset_omegadot_y, omegadot_z, FMA(bar_time_offset_omega_y, omega_z, a_z*bar_time_offset_a_y));
+        const double bar_imu_turn_yx = FMA(bar_time_offset_omegadot_y, omegadot_x, FMA(bar_time_offset_omega_y, omega_x, a_x*bar_time_offset_a_y));
+        const double bar_imu_turn_xz = FMA(bar_time_offset_omegadot_x, omegadot_z, FMA(bar_time_offset_omega_x, omega_z, a_z*bar_time_offset_a_x));
+        const double bar_imu_turn_xy = FMA(bar_time_offset_omegadot_x, omegadot_y, FMA(bar_time_offset_omega_x, omega_y, a_y*bar_time_offset_a_x));
+        const double x55 = bar_i_vibration_rectification*(f_f_i*f_f_i);
+        const double x56 = (f_f_o*f_f_o);
+        const double x57 = bar_i_vibration_rectification*f_f_i;
+        const double x58 = (f_f_p*f_f_p);
+        const double x59 = bar_sin_delta_phi*cos_phi;
+        const double x60 = (cos_phi*cos_phi);
+        const double x61 = (sin_phi*sin_phi);
+        const double x62 = (cos_phi*cos_phi*cos_phi);
+        const double x63 = (sin_phi*sin_phi*sin_phi);
+        const double x64 = K1*bar_K1_thermal_scale;
+        const double x65 = 0.5*(q_r_x*q_r_x);
+        const double x66 = 0.5*(f_disc_r_z*f_disc_r_z);
+        const double x67 = FMA(-0.5, f_r_x*f_r_x, x66);
+        const double x68 = 0.5*(q_r_y*q_r_y);
+        const double x69 = FMA(-0.5, f_r_y*f_r_y, x66);
+        const double x70 = sin(roll);
+        const double x71 = -bar_M_zz*x70;
+        const double x72 = sin(pitch);
+        const double x73 = -bar_M_zz*x72;
+        const double x74 = FMA(-293.15, (1.0), temperature);
+        const double x75 = K4*vibration_axis_ix;
+        const double x76 = K6*vibration_axis_ix;
+        const double x77 = K8*vibration_axis_ox;
+        const double x78 = K4*vibration_axis_px;
+        const double x79 = K6*vibration_axis_ox;
+        const double x80 = K8*vibration_axis_px;
+        const double x81 = vibration_axis_ix*x42;
+        const double x82 = vibration_axis_ox*x41;
+        const double x83 = vibration_axis_px*x40;
+        const double x84 = K4*vibration_axis_iy;
+        const double x85 = K6*vibration_axis_iy;
+        const double x86 = K8*vibration_axis_oy;
+        const double x87 = K4*vibration_axis_iz;
+        const double x88 = K6*vibration_axis_iz;
+        const double x89 = K8*vibration_axis_oz;
+
+        rows[0][i] = b_f_zj*bar_dR_arm_stretch; /* arm-sag.c_z */
+        rows[1][i] = b_f_yj*bar_dR_arm_stretch; /* arm-stretch.c_r */
+        rows[2][i] = bar_i_vibration_rectification*time; /* bias-drift.dK0_dt */
+        rows[3][i] = f_f_o*x55; /* cubic-cross.K_iio */
+        rows[4][i] = f_f_p*x55; /* cubic-cross.K_iip */
+        rows[5][i] = x56*x57; /* cubic-cross.K_ioo */
+        rows[6][i] = f_f_o*f_f_p*x57; /* cubic-cross.K_iop */
+        rows[7][i] = x57*x58; /* cubic-cross.K_ipp */
+        rows[8][i] = bar_i_vibration_rectification*(f_f_o*f_f_o*f_f_o); /* cubic-cross.K_ooo */
+        rows[9][i] = bar_i_vibration_rectification*f_f_p*x56; /* cubic-cross.K_oop */
+        rows[10][i] = bar_i_vibration_rectification*f_f_o*x58; /* cubic-cross.K_opp */
+        rows[11][i] = bar_i_vibration_rectification*(f_f_p*f_f_p*f_f_p); /* cubic-cross.K_ppp */
+        rows[12][i] = bar_i_vibration_rectification*(f_f_i*f_f_i*f_f_i); /* cubic-input.K_iii */
+        rows[13][i] = x59; /* encoder-harmonic.c_1 */
+        rows[14][i] = bar_sin_delta_phi*sin_phi; /* encoder-harmonic.s_1 */
+        rows[15][i] = bar_sin_delta_phi*(x60 - x61); /* encoder-harmonic.c_2 */
+        rows[16][i] = x30*x59; /* encoder-harmonic.s_2 */
+        rows[17][i] = bar_sin_delta_phi*(FMA(-3.0, cos_phi*x61, x62)); /* encoder-harmonic.c_3 */
+        rows[18][i] = bar_sin_delta_phi*(FMA(3.0, sin_phi*x60, -x63)); /* encoder-harmonic.s_3 */
+        rows[19][i] = bar_sin_delta_phi*(FMA(-6.0, x60*x61, FMA(sin_phi, sin_phi*sin_phi*sin_phi, cos_phi*cos_phi*cos_phi*cos_phi))); /* encoder-harmonic.c_4 */
+        rows[20][i] = bar_sin_delta_phi*(FMA(4.0, sin_phi*x62, -4.0*cos_phi*x63)); /* encoder-harmonic.s_4 */
+        rows[21][i] = time*x64; /* gain-drift.dK1_dt */
+        rows[22][i] = x64; /* gain-step.dK1 */
+        rows[23][i] = FMA(-bar_time_offset_omegadot_x, omegadot_x, -bar_time_offset_omega_x*omega_x); /* gyro-scale.s_x */
+        rows[24][i] = FMA(-bar_time_offset_omegadot_y, omegadot_y, -bar_time_offset_omega_y*omega_y); /* gyro-scale.s_y */
+        rows[25][i] = FMA(-bar_time_offset_omegadot_z, omegadot_z, -bar_time_offset_omega_z*omega_z); /* gyro-scale.s_z */
+        rows[26][i] = FMA(bar_time_offset_a_z, (omegadot_y - x4), FMA(-bar_time_offset_a_y, x6, bar_time_offset_a_x*x2)); /* imu-lever-arm.l_x */
+        rows[27][i] = FMA(-bar_time_offset_a_z, x10, FMA(bar_time_offset_a_y, x8, bar_time_offset_a_x*(omegadot_z - x3))); /* imu-lever-arm.l_y */
+        rows[28][i] = FMA(bar_time_offset_a_z, x11, FMA(bar_time_offset_a_y, (omegadot_x - x9), -bar_time_offset_a_x*x5)); /* imu-lever-arm.l_z */
+        rows[29][i] = -bar_imu_turn_yz + bar_imu_turn_zy; /* imu-misalignment.e_x */
+        rows[30][i] = bar_imu_turn_xz - bar_imu_turn_zx; /* imu-misalignment.e_y */
+        rows[31][i] = -bar_imu_turn_xy + bar_imu_turn_yx; /* imu-misalignment.e_z */
+        rows[32][i] = -bar_i_vibration_rectification*rate_f_f_i; /* lag.tau */
+        rows[33][i] = bar_i_vibration_rectification*(FMA(B_z, x39, FMA(B_y, x38, B_x*x37))); /* magnetic-bias.dK0_dB */
+        rows[34][i] = b_f_xj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yx */
+        rows[35][i] = b_f_yj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yy */
+        rows[36][i] = b_f_zj*bar_vartheta_y_mount_compliance; /* mount-compliance.c_yz */
+        rows[37][i] = b_f_xj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zx */
+        rows[38][i] = b_f_yj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zy */
+        rows[39][i] = b_f_zj*bar_vartheta_z_mount_compliance; /* mount-compliance.c_zz */
+        rows[40][i] = FMA(f_r_x, x47, FMA(-bar_q_f_x, x65, bar_f_f_x*x67)); /* near-mass.T_xxx */
+        rows[41][i] = FMA(-q_r_x, x54, FMA(-f_r_x, x53, FMA(-bar_q_f_y, x65, FMA(bar_f_f_z, f_disc_r_z*f_r_y, bar_f_f_y*x67)))); /* near-mass.T_xxy */
+        rows[42][i] = FMA(-f_r_x, x52, FMA(bar_q_p_second_order_misalignment, x65, bar_f_f_z*x67)); /* near-mass.T_xxz */
+        rows[43][i] = FMA(-q_r_x, x51, FMA(-f_r_x, x50, FMA(-bar_q_f_x, x68, FMA(bar_f_f_z, f_disc_r_z*f_r_x, bar_f_f_x*x69)))); /* near-mass.T_xyy */
+        rows[44][i] = FMA(-f_r_y, x52, FMA(-f_r_x, x49, FMA(-f_r_x, x48, bar_q_p_second_order_misalignment*q_r_x*q_r_y))); /* near-mass.T_xyz */
+        rows[45][i] = FMA(f_r_y, x47, FMA(-bar_q_f_y, x68, bar_f_f_y*x69)); /* near-mass.T_yyy */
+        rows[46][i] = FMA(-f_r_y, x49, FMA(bar_q_p_second_order_misalignment, x68, bar_f_f_z*x69)); /* near-mass.T_yyz */
+        rows[47][i] = x57*fabs(f_f_i); /* odd-quadratic.K_oq */
+        rows[48][i] = bar_i_vibration_rectification*(FMA(f_tau_yy, omegadot_y, FMA(f_tau_yx, omegadot_x, -beta_x*omegadot_z))); /* pendulum-angular.K_pa */
+        rows[49][i] = bar_i_vibration_rectification*(FMA(-101325.0, (1.0), pressure)); /* pressure-bias.dK0_dp */
+        rows[50][i] = FMA(bar_q_p_second_order_misalignment, (f_f_p + q_f_z), FMA(bar_q_o_second_order_misalignment, (f_f_o - q_f_yj), bar_q_i_second_order_misalignment*(f_f_i - q_f_xj))); /* second-order-misalignment.kappa */
+        rows[51][i] = FMA(-bar_M_xx, x70, -x71); /* self-gradient.G_xx_roll */
+        rows[52][i] = bar_self_gradient_Gamma_xy*x70; /* self-gradient.G_xy_roll */
+        rows[53][i] = bar_self_gradient_Gamma_xz*x70; /* self-gradient.G_xz_roll */
+        rows[54][i] = FMA(-bar_M_yy, x70, -x71); /* self-gradient.G_yy_roll */
+        rows[55][i] = bar_self_gradient_Gamma_yz*x70; /* self-gradient.G_yz_roll */
+        rows[56][i] = FMA(-bar_M_xx, x72, -x73); /* self-gradient.G_xx_pitch */
+        rows[57][i] = bar_self_gradient_Gamma_xy*x72; /* self-gradient.G_xy_pitch */
+        rows[58][i] = bar_self_gradient_Gamma_xz*x72; /* self-gradient.G_xz_pitch */
+        rows[59][i] = FMA(-bar_M_yy, x72, -x73); /* self-gradient.G_yy_pitch */
+        rows[60][i] = bar_self_gradient_Gamma_yz*x72; /* self-gradient.G_yz_pitch */
+        rows[61][i] = x43 + x45; /* spin-axis-tilt.alpha_x */
+        rows[62][i] = -x44 - x46; /* spin-axis-tilt.alpha_y */
+        rows[63][i] = FMA(bar_wobble_zy, cos_phi, FMA(-bar_wobble_zx, sin_phi, FMA(-bar_wobble_yz, cos_phi, bar_wobble_xz*sin_phi))); /* spin-axis-wobble.w_x */
+        rows[64][i] = FMA(-bar_wobble_zy, sin_phi, FMA(-bar_wobble_zx, cos_phi, FMA(bar_wobble_yz, sin_phi, bar_wobble_xz*cos_phi))); /* spin-axis-wobble.w_y */
+        rows[65][i] = bar_sin_delta_phi; /* spin-phase-offset.phi_0 */
+        rows[66][i] = bar_sin_delta_phi; /* spin-rate-jitter.sigma_phi */
+        rows[67][i] = bar_sin_delta_phi; /* spin-rate-jitter.sigma_walk */
+        rows[68][i] = bar_i_vibration_rectification*x74; /* thermal-bias.dK0_dT */
+        rows[69][i] = x64*x74; /* thermal-scale.dK1_dT */
+        rows[70][i] = FMA(bar_time_offset_omegadot_z, d_omegadot_z, FMA(bar_time_offset_omegadot_y, d_omegadot_y, FMA(bar_time_offset_omegadot_x, d_omegadot_x, FMA(bar_time_offset_omega_z, omegadot_z, FMA(bar_time_offset_omega_y, omegadot_y, FMA(bar_time_offset_omega_x, omegadot_x, FMA(bar_time_offset_a_z, d_a_z, FMA(bar_time_offset_a_y, d_a_y, bar_time_offset_a_x*d_a_x)))))))); /* time-offset.delta_t */
+        rows[71][i] = bar_i_vibration_rectification*(FMA(vibration_axis_px, x77, FMA(vibration_axis_px, x75, FMA(vibration_axis_ox, x76, FMA(K7, vibration_axis_px*vibration_axis_px, FMA(K5, vibration_axis_ox*vibration_axis_ox, K2*vibration_axis_ix*vibration_axis_ix)))))); /* vibration-rectification.P_xx */
+        rows[72][i] = bar_i_vibration_rectification*(FMA(vibration_axis_py, x83, FMA(vibration_axis_py, x77, FMA(vibration_axis_py, x75, FMA(vibration_axis_oy, x82, FMA(vibration_axis_oy, x80, FMA(vibration_axis_oy, x76, FMA(vibration_axis_iy, x81, FMA(vibration_axis_iy, x79, vibration_axis_iy*x78))))))))); /* vibration-rectification.P_xy */
+        rows[73][i] = bar_i_vibration_rectification*(FMA(vibration_axis_pz, x83, FMA(vibration_axis_pz, x77, FMA(vibration_axis_pz, x75, FMA(vibration_axis_oz, x82, FMA(vibration_axis_oz, x80, FMA(vibration_axis_oz, x76, FMA(vibration_axis_iz, x81, FMA(vibration_axis_iz, x79, vibration_axis_iz*x78))))))))); /* vibration-rectification.P_xz */
+        rows[74][i] = bar_i_vibration_rectification*(FMA(vibration_axis_py, x86, FMA(vibration_axis_py, x84, FMA(vibration_axis_oy, x85, FMA(K7, vibration_axis_py*vibration_axis_py, FMA(K5, vibration_axis_oy*vibration_axis_oy, K2*vibration_axis_iy*vibration_axis_iy)))))); /* vibration-rectification.P_yy */
+        rows[75][i] = bar_i_vibration_rectification*(FMA(vibration_axis_pz, x86, FMA(vibration_axis_pz, x84, FMA(vibration_axis_py, x89, FMA(vibration_axis_py, x87, FMA(vibration_axis_py, vibration_axis_pz*x40, FMA(vibration_axis_oz, x85, FMA(vibration_axis_oy, x88, FMA(vibration_axis_oy, vibration_axis_oz*x41, vibration_axis_iy*vibration_axis_iz*x42))))))))); /* vibration-rectification.P_yz */
+        rows[76][i] = bar_i_vibration_rectification*(FMA(vibration_axis_pz, x89, FMA(vibration_axis_pz, x87, FMA(vibration_axis_oz, x88, FMA(K7, vibration_axis_pz*vibration_axis_pz, FMA(K5, vibration_axis_oz*vibration_axis_oz, K2*vibration_axis_iz*vibration_axis_iz)))))); /* vibration-rectification.P_zz */
+    }
+    for (size_t k = 0; k < ROWS; ++k) {
+        for (size_t i = 0; i < n; ++i) {
+            out_D[k * stride + i] = rows[k][i];
+        }
+    }
 }
 
 void ragg_signatures_voltages(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
                         double *V) {
-    for (size_t i = 0; i < n; ++i) {
-        const double phi = angle ? angle[i] : disc_angle(t[i], p[1]);
-        const double c = cos(phi), s = sin(phi);
+    double cosine[BLOCK], sine[BLOCK];
+    for (size_t at = 0, size; at < n; at += size) {
+        size = turning(at, n, t, p[1], angle, cosine, sine);
         for (size_t j = 0; j < 4; ++j) {
-            V[j * n + i] = accelerometer(j, i, t[i], c, s, in, p);
+            block(j, size, at, t, cosine, sine, in, p, V + j * n + at);
         }
     }
 }
 
 void ragg_signatures_output(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
                       double *G) {
-    for (size_t i = 0; i < n; ++i) {
-        const double phi = angle ? angle[i] : disc_angle(t[i], p[1]);
-        const double c = cos(phi), s = sin(phi);
-        double v[4];
+    double cosine[BLOCK], sine[BLOCK], v[4][BLOCK];
+    for (size_t at = 0, size; at < n; at += size) {
+        size = turning(at, n, t, p[1], angle, cosine, sine);
         for (size_t j = 0; j < 4; ++j) {
-            v[j] = accelerometer(j, i, t[i], c, s, in, p);
+            block(j, size, at, t, cosine, sine, in, p, v[j]);
         }
-        G[i] = (v[0] + v[1]) - (v[2] + v[3]);
+        for (size_t i = 0; i < size; ++i) {
+            G[at + i] = (v[0][i] + v[1][i]) - (v[2][i] + v[3][i]);
+        }
     }
 }
 
 void ragg_signatures_derivatives(size_t j, size_t n, const double *t, const double *const *in, const double *p,
                            const double *angle, double *D) {
-    for (size_t i = 0; i < n; ++i) {
-        const double phi = angle ? angle[i] : disc_angle(t[i], p[1]);
-        slopes(j, i, t[i], cos(phi), sin(phi), in, p, n, D);
+    double cosine[BLOCK], sine[BLOCK];
+    for (size_t at = 0, size; at < n; at += size) {
+        size = turning(at, n, t, p[1], angle, cosine, sine);
+        for (size_t k = 0; k < size; k += STEP) {
+            slopes(j, size - k < STEP ? size - k : STEP, at + k, n, t, cosine + k, sine + k, in, p, D + at + k);
+        }
     }
 }

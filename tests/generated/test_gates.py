@@ -21,7 +21,7 @@ import generated
 from derive import tree
 from derive.propagation import collect, motion_numbers
 from derive.symbols import MOTION, symbol
-from generated import analytical, chain
+from generated import analytical, chain, folded
 from tests.generated import compiled, draws
 from tests.generated import fifty_digits as fifty
 
@@ -149,6 +149,8 @@ def test_generated_code_is_the_instrument_at_50_digits(tmp_path: Path) -> None:
         found = {
             "analytical.py": analytical.output(t, inputs, p),
             "analytical.c": library["analytical"].output(t, inputs, p),
+            "folded.py": folded.output(t, inputs, p),
+            "folded.c": library["folded"].output(t, inputs, p),
             "chain.py": chain.output(t, np.cos(angle), np.sin(angle), inputs, p),
             "chain.c": library["chain"].output(t, inputs, p),
         }

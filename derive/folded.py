@@ -1,0 +1,186 @@
+"""G_out folded, for evaluation: a polynomial in the twelve motion numbers as the turning disc sees them.
+
+Seen from the disc, an accelerometer stands still: with a and M resolved along the radial, the tangential and
+the axial direction, its output holds no disc angle at all (this is verified, not assumed). The four differ
+from the first by quarter turns, which only swap and change the signs of the numbers. So G_out is one
+polynomial in twelve numbers whose coefficients are sums over the accelerometers, and everything that the
+instrument's parameters contribute is folded into them beforehand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import sympy as sp
+from sympy.polys.domains import QQ_I
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyElement, PolyRing
+
+from derive import stages
+from derive.chain import accelerometer, recorded_motion
+from derive.harmonics import Series, constant, rotating, series, split
+from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
+from derive.stages import PAPER, Order
+from derive.symbols import (
+    COS_J,
+    COS_PHI,
+    INSTRUMENT,
+    MOTION,
+    QUARTER_TURNS,
+    SIGNS,
+    SIN_J,
+    SIN_PHI,
+    Channel,
+    Parameter,
+    symbol,
+)
+from derive.tape import Program, Tape, simplify
+
+DIRECTIONS = "rtz"
+"""Radial, tangential and axial direction of A1."""
+
+TURNED: tuple[str, ...] = (
+    *(f"a_{k}" for k in DIRECTIONS if k != "z"), "a_z",
+    *(f"M_{i}{k}" for i in DIRECTIONS for k in DIRECTIONS),
+)  # fmt: skip
+"""a and M along the directions of the turning disc; a_z and M_zz are those of the measurement frame."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """What one accelerometer adds to a coefficient: sign times an expression in its parameters."""
+
+    sign: int
+    expression: int
+    accelerometer: int
+
+
+@dataclass(frozen=True)
+class Folded:
+    """G_out by the numbers that the disc sees.
+
+    Attributes
+    ----------
+    expressions
+        What coefficients are made of, in the parameters of one accelerometer (k1, R, ...).
+    coefficients
+        c[0], c[1], ...: each a sum of parts.
+    numbers
+        The motion numbers by the inputs and the cosine and sine of the disc angle.
+    value
+        G_out by the coefficients, as symbols ``c[k]``, and the numbers; nested, so that every product is
+        formed once.
+    """
+
+    name: str
+    title: str
+    expressions: tuple[sp.Expr, ...]
+    coefficients: tuple[tuple[Part, ...], ...]
+    numbers: Program
+    value: sp.Expr
+    inputs: tuple[Channel, ...] = MOTION
+    parameters: tuple[Parameter, ...] = INSTRUMENT
+
+
+def folded(name: str, title: str, order: Order = PAPER) -> Folded:
+    """Derive the folded form under an order counting (``order.rotation`` must be finite)."""
+    own = _standing(order)
+    expressions: dict[sp.Expr, int] = {}
+    sums: dict[tuple[int, ...], list[Part]] = {}
+    for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
+        for j, (sign, quarter) in enumerate(zip(SIGNS, QUARTER_TURNS, strict=True)):
+            for powers, coefficient in own.items():
+                target, turned_sign = _turned(powers, quarter)
+                part = _part(coefficient, nominal)
+                if part:
+                    number = expressions.setdefault(_readable(part), len(expressions))
+                    sums.setdefault(target, []).append(Part(sign * turned_sign, number, j))
+    keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
+    value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
+    return Folded(name, title, tuple(expressions), tuple(tuple(sums[m]) for m in keys), _numbers(), value)
+
+
+def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
+    """V_j of an accelerometer by the numbers along its own directions: powers of TURNED -> coefficient."""
+    ring = PolyRing([symbol(n) for n in (*COEFFICIENT_PARAMETERS, *TURNED)], QQ_I, lex)
+    known: dict[sp.Symbol, Series] = {}
+    known[COS_PHI], known[SIN_PHI] = rotating(ring)
+    known[COS_J], known[SIN_J] = constant(ring, ring.one), constant(ring, ring.zero)
+    spin = _spin()
+    a = spin * sp.Matrix([symbol(n) for n in TURNED[:3]])
+    M = spin * sp.Matrix(3, 3, [symbol(n) for n in TURNED[3:]]) * spin.T
+    for i, x in enumerate("xyz"):
+        known[symbol(f"a_{x}")] = series((), a[i], ring, known)
+        for k, y in enumerate("xyz"):
+            known[symbol(f"M_{x}{y}")] = series((), M[i, k], ring, known)
+    generator = {s.name: constant(ring, g) for s, g in zip(ring.symbols, ring.gens, strict=True)}
+    known[symbol("a_z")] = generator["a_z"]
+    known[symbol("k_VI")] = constant(ring, ring.one)  # k1 = k_VI K1 and R = radius + dR (Eq. 6a)
+    known[symbol("K1")] = generator["k1"]
+    known[symbol("radius")] = constant(ring, ring.zero)
+    known[symbol("dR")] = generator["R"]
+    chain = accelerometer((), order)
+    voltage = series(chain.tape.assignments, chain.voltage, ring, known)
+    if voltage.highest:
+        raise ValueError(
+            "seen from the disc the output still turns: the model is not symmetric about its axis"
+        )
+    n = len(COEFFICIENT_PARAMETERS)
+    return split(voltage.cosine(0), range(n, n + len(TURNED)), COEFFICIENTS, range(n))
+
+
+def _spin() -> sp.Matrix:
+    """From the directions of the disc to the measurement frame."""
+    return sp.Matrix([[COS_PHI, -SIN_PHI, 0], [SIN_PHI, COS_PHI, 0], [0, 0, 1]])
+
+
+def _turned(powers: tuple[int, ...], quarter: int) -> tuple[tuple[int, ...], int]:
+    """A monomial in an accelerometer's own numbers, ``quarter`` turns ahead, by those of the disc; its sign."""
+    place = (("r", 1), ("t", 1)), (("t", 1), ("r", -1)), (("r", -1), ("t", -1)), (("t", -1), ("r", 1))
+    to = {**dict(zip("rt", place[quarter], strict=True)), "z": ("z", 1)}
+    found, sign = [0] * len(TURNED), 1
+    for name, power in zip(TURNED, powers, strict=True):
+        letter, directions = name.split("_")
+        sign *= sp.prod(to[d][1] for d in directions) ** power
+        found[TURNED.index(f"{letter}_{''.join(to[d][0] for d in directions)}")] += power
+    return tuple(found), int(sign)
+
+
+def _part(p: PolyElement, nominal: bool) -> PolyElement:
+    """Of a coefficient the part k1^m R^n that all accelerometers share but for scale, or the rest."""
+    return p.ring.from_dict({m: c for m, c in p.terms() if nominal != any(m[2:])})
+
+
+def _readable(p: PolyElement) -> sp.Expr:
+    content, primitive = p.primitive()
+    lowest = tuple(min(m[n] for m in primitive.monoms()) for n in range(len(p.ring.gens)))
+    divided = {tuple(a - b for a, b in zip(m, lowest, strict=True)): c for m, c in primitive.terms()}
+    common = p.ring.from_dict({lowest: content}).as_expr()
+    return sp.Mul(common, p.ring.from_dict(divided).as_expr(), evaluate=len(divided) == 1)
+
+
+def _nested(terms: Mapping[tuple[int, ...], sp.Symbol], first: int) -> sp.Expr:
+    """A polynomial as c + v (... ) + w (...): every variable multiplies what holds it, from ``first`` on."""
+    rest = dict(terms)
+    total = rest.pop((0,) * len(TURNED), sp.Integer(0))
+    for n in range(first, len(TURNED)):
+        having = {m: c for m, c in rest.items() if m[n]}
+        if having:
+            lower = {(*m[:n], m[n] - 1, *m[n + 1 :]): c for m, c in having.items()}
+            total += symbol(TURNED[n]) * _nested(lower, n)
+            rest = {m: c for m, c in rest.items() if m not in having}
+    return total
+
+
+def _numbers() -> Program:
+    """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
+    tape = Tape()
+    motion = recorded_motion()
+    gradient = stages.gradient(motion)
+    M = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{'xyz'[k]}", gradient[i, k]))
+    spin = _spin()
+    half = M * spin  # along x, y, z of what a step along r, t, z changes
+    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
+    outputs = zip(TURNED, (*(spin.T * motion.a), *(spin.T * half)), strict=True)
+    return simplify(tape.assignments, outputs, {})
