@@ -52,7 +52,7 @@ bench-diagnosis: $(PEERS)  ## measure the diagnosis on 250 flights, beside other
 	.venv-peers/bin/python -m benchmarks.diagnosis --jobs 2
 
 faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
-	$(BIN)/python -m tests.faults --trials 200
+	$(BIN)/python -m tests.faults
 
 fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for longer)
 	$(BIN)/python -m tests.fuzz --seconds 50 $(FUZZ)
@@ -65,7 +65,7 @@ test-oldest: export OPENBLAS_NUM_THREADS := 1
 test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	$(PYTHON) -m venv .venv-oldest
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-oldest.lock
-	.venv-oldest/bin/python -m pytest -q -n 2 tests/runtime tests/fuzz tests/derive/test_expression.py
+	.venv-oldest/bin/python -m pytest -q -n 2 -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
 docs: $(STAMP)  ## write the generated pages of docs/
 	$(BIN)/ragg derive

@@ -246,7 +246,7 @@ def survey(
     from ragg_runtime import texts, workflow
     from ragg_runtime.survey import progress, text
 
-    m = workflow.load(model_dir)
+    m = _load(model_dir)
     with progress.results_file(resume) as file, progress.shown() as show:
         s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
     read = [(r["flight"], r["sha256"]) for r in s.done]

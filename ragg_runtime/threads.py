@@ -6,6 +6,7 @@ import functools
 from collections.abc import Callable
 from typing import ParamSpec, TypeVar
 
+import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
 import threadpoolctl
 
 P = ParamSpec("P")

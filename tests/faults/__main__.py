@@ -1,4 +1,4 @@
-"""``python -m tests.faults [--trials 200] [--seed 0]``: the trials, with a table of what was struck."""
+"""``python -m tests.faults [--trials N] [--surveys N] [--seed K]``: the trials, with a table of what was struck."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ragg_runtime.cli import main as command_line
 
+from . import surveys
 from .injected import Fault, run
 from .trials import COMMANDS, KINDS, Command, trial, warm
 
@@ -29,7 +30,8 @@ def undisturbed(command: Command, base: Path) -> float:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--trials", type=int, default=200)
+    parser.add_argument("--trials", type=int, default=188, help="of add, remove and derive")
+    parser.add_argument("--surveys", type=int, default=12, help="trials of survey, which take longer")
     parser.add_argument("--seed", type=int, default=0)
     a = parser.parse_args()
     chance = random.Random(a.seed)
@@ -51,10 +53,21 @@ def main() -> int:
             for wrong in outcome.wrong:
                 failed += 1
                 print(f"trial {n}: {command.name}, {outcome.fault}: {wrong}", flush=True)
+        if a.surveys:
+            base = Path(folder) / "surveys"
+            base.mkdir()
+            place = surveys.made(base)
+            for n in range(a.surveys):
+                kind = surveys.KINDS[n % len(surveys.KINDS)]
+                how, found = surveys.trial(place, kind, n, chance)
+                counts["survey", kind, how] += 1
+                failed += len(found)
+                for wrong in found:
+                    print(f"survey {n}: {kind}: {wrong}", flush=True)
     print(f"{'command':8} {'fault':10} {'state found':14} trials")
     for (name, kind, how), count in sorted(counts.items()):
         print(f"{name:8} {kind:10} {how:14} {count:4}")
-    print(f"{a.trials} trials, {failed} failures (seed {a.seed})")
+    print(f"{a.trials + a.surveys} trials, {failed} failures (seed {a.seed})")
     return int(failed > 0)
 
 

@@ -19,6 +19,7 @@ from ragg_runtime.lock import locked
 from ragg_runtime.model_dir import load_model_dir
 from ragg_runtime.publish import publish, settle
 
+from . import surveys
 from .injected import Fault, run
 from .trials import COMMANDS, KINDS, model_state, trial, warm
 
@@ -41,6 +42,13 @@ def test_old_or_new_and_nothing_left_over(command: object, kind: str, tmp_path: 
             folder.chmod(0o755)
     outcome = trial(command, kind, tmp_path, random.Random(f"{command.name} {kind}"), 0.1)  # type: ignore[attr-defined, arg-type]
     assert not outcome.wrong, outcome
+
+
+def test_a_survey_continues_after_its_disc_was_full(tmp_path: Path) -> None:
+    place = surveys.made(tmp_path)
+    how, wrong = surveys.trial(place, "quota", 0, random.Random(3))
+    assert not wrong
+    assert how.startswith("struck")
 
 
 def test_two_processes_on_one_model(tmp_path: Path) -> None:
