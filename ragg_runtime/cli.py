@@ -343,6 +343,23 @@ def trust(model_dir: Path, forget: bool) -> None:
 
 
 @cli.command()
+@click.argument("model_dir", type=DIRECTORY, required=False)
+def build(model_dir: Path | None) -> None:
+    """Compile the model's C beforehand (otherwise on first use); without MODEL_DIR, the paper's model."""
+    from ragg_runtime import native
+    from ragg_runtime.load import packaged
+
+    model = packaged() if model_dir is None else _load(model_dir).model
+    try:
+        made = native.build(model.sources)
+    except native.BuildError as error:
+        raise UserError(
+            "the model cannot be compiled", where=model_dir, found=error, remedy="without it NumPy serves"
+        ) from None
+    click.echo(f"{made.library}: {'compiled' if made.fresh else 'there already'}\n{made.command}")
+
+
+@cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @_json
 def history(model_dir: Path, json_file: str | None) -> None:

@@ -5,14 +5,17 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import resources
 from types import ModuleType
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ragg_runtime.native import Evaluator
 
 Array = NDArray[np.float64]
 
@@ -82,6 +85,10 @@ class Model:
         Generated modules.
     digest
         Digest of the derivation.
+    sources
+        The model in C: file name -> text, as derived.
+    folded
+        The generated module of the folded form, which only the paper's model has.
     """
 
     effects: tuple[Effect, ...]
@@ -89,6 +96,14 @@ class Model:
     chain: Chain
     signatures: Chain
     digest: str
+    sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    folded: ModuleType | None = field(default=None, repr=False, compare=False)
+
+    def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
+        """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
+        from ragg_runtime.native import evaluator
+
+        return evaluator(self.chain, self.sources, self.folded, backend)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
@@ -99,10 +114,13 @@ class Model:
 def packaged() -> Model:
     """The model of the paper, without further effects, as derived and committed."""
     import generated
-    from generated import chain, signatures
+    from generated import chain, folded, signatures
 
-    manifest = json.loads(resources.files(generated).joinpath("manifest.json").read_text("utf-8"))
-    return _model(manifest, chain, signatures)
+    root = resources.files(generated)
+    manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
+    names = (f"{n}.{kind}" for n in ("chain", "folded") for kind in ("c", "h"))
+    sources = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
+    return replace(_model(manifest, chain, signatures), sources=sources, folded=folded)
 
 
 def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
@@ -119,7 +137,8 @@ def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
         sys.modules[module.__name__] = module
         exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
         modules[name] = module
-    return _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
+    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
+    return replace(model, sources={f"chain.{kind}": files[f"c/chain.{kind}"] for kind in ("c", "h")})
 
 
 def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None) -> Model:

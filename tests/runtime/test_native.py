@@ -1,0 +1,311 @@
+"""Models in machine code: equal to NumPy, the same bits in any number of threads, and NumPy without a compiler."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import stat
+import subprocess
+import sys
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from derive.effects import catalogue
+from derive.pipeline import derive_model
+from ragg_runtime.errors import UserError
+from ragg_runtime.load import Model, from_files, packaged
+from ragg_runtime.native import BuildError, Compiled, Interpreted, NativeWarning, backends, build, evaluator
+from ragg_runtime.native.arguments import cut
+from ragg_runtime.native.compiler import COMMON, Built, find_compiler, private_folder
+from tests.generated import draws
+from tests.generated.draws import Array
+
+needs_compiler = pytest.mark.skipif(
+    not any(shutil.which(c) for c in ("cc", "gcc", "clang")), reason="no C compiler is installed"
+)
+LENGTH = 3 * 4096 + 77
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One cache for all tests of this file, apart from the user's."""
+    place = tmp_path_factory.getbasetemp() / "native-cache"
+    place.mkdir(mode=0o700, exist_ok=True)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(place))
+    monkeypatch.delenv("RAGG_NATIVE", raising=False)
+    monkeypatch.setattr(backends, "_said", [])
+
+
+@pytest.fixture(scope="module")
+def case() -> tuple[Array, Array, Array]:
+    """(t, inputs, p) of the base model: some blocks and a part."""
+    draw = np.random.default_rng(40)
+    return np.sort(draw.uniform(0, 1e4, LENGTH)), draws.motion(draw, LENGTH), draws.instrument(draw)
+
+
+@pytest.fixture(scope="module")
+def extended() -> Model:
+    """A model with two effects, one of an auxiliary channel."""
+    chosen = [e for e in catalogue() if e.id in ("cubic-input", "thermal-scale")]
+    return from_files(derive_model(chosen, ()))
+
+
+def parameters(model: Model, p: Array) -> Array:
+    return np.concatenate([p, np.full(model.chain.SIZE - len(p), 1e-7)])
+
+
+@needs_compiler
+def test_base_model_is_that_of_numpy(case: tuple[Array, Array, Array]) -> None:
+    t, inputs, p = case
+    c, n = packaged().compiled("c"), packaged().compiled("numpy")
+    assert (c.backend, n.backend) == ("c", "numpy")
+    assert c.inputs == n.inputs == packaged().chain.INPUTS
+    size = np.max(np.abs(n.voltages(t, inputs, p)))
+    for angle in (None, np.mod(t, 7.0)):
+        np.testing.assert_allclose(
+            c.output(t, inputs, p, angle), n.output(t, inputs, p, angle), rtol=0, atol=1e-14 * size
+        )
+        np.testing.assert_allclose(
+            c.voltages(t, inputs, p, angle), n.voltages(t, inputs, p, angle), rtol=0, atol=1e-14 * size
+        )
+        V = c.voltages(t, inputs, p, angle)
+        np.testing.assert_allclose(
+            c.output(t, inputs, p, angle), V[0] + V[1] - V[2] - V[3], rtol=0, atol=1e-14 * size
+        )
+        for j in range(4):
+            D = n.derivatives(j, t, inputs, p, angle)
+            rows = np.max(np.abs(D), axis=1, keepdims=True)
+            assert np.all(np.abs(c.derivatives(j, t, inputs, p, angle) - D) <= 1e-11 * rows)
+
+
+@needs_compiler
+def test_extended_model_is_that_of_numpy(extended: Model, case: tuple[Array, Array, Array]) -> None:
+    t, motion, p = case
+    q = parameters(extended, p)
+    assert extended.chain.INPUTS[-1] == "temperature"
+    inputs = np.vstack([motion, 290.0 + np.sin(t)])
+    c, n = extended.compiled("c"), extended.compiled("numpy")
+    assert isinstance(c, Compiled)
+    size = np.max(np.abs(n.voltages(t, inputs, q)))
+    np.testing.assert_allclose(c.output(t, inputs, q), n.output(t, inputs, q), rtol=0, atol=4e-14 * size)
+    base = packaged().compiled("numpy").output(t, motion, p)
+    assert np.max(np.abs(c.output(t, inputs, q) - base)) > 1e-9 * size  # the effects act
+    D = n.derivatives(2, t, inputs, q)
+    assert len(D) == len(extended.chain.ROWS)
+    rows = np.max(np.abs(D), axis=1, keepdims=True)
+    assert np.all(np.abs(c.derivatives(2, t, inputs, q) - D) <= 1e-11 * rows)
+
+
+@needs_compiler
+def test_any_number_of_threads_gives_the_same_bytes(
+    extended: Model, case: tuple[Array, Array, Array]
+) -> None:
+    t, motion, p = case
+    for model in (packaged(), extended):
+        inputs = [*motion, *([np.cos(t)] if model is extended else [])]
+        c, q = model.compiled("c"), parameters(model, p)
+        one = c.output(t, inputs, q, threads=1), c.voltages(t, inputs, q, threads=1)
+        slopes = c.derivatives(1, t, inputs, q, threads=1)
+        for threads in (None, 2, 3, 7):
+            assert c.output(t, inputs, q, threads=threads).tobytes() == one[0].tobytes()
+            assert c.voltages(t, inputs, q, threads=threads).tobytes() == one[1].tobytes()
+            assert c.derivatives(1, t, inputs, q, threads=threads).tobytes() == slopes.tobytes()
+
+
+def test_parts_for_threads_cover_everything_once() -> None:
+    for n in (0, 1, 4096, 4097, 100_000):
+        for threads in (1, 2, 3, 7, 1000):
+            parts = cut(n, threads)
+            assert [i for a, b in parts for i in (a, b)] == sorted(i for a, b in parts for i in (a, b))
+            assert sum(b - a for a, b in parts) == n
+            assert len(parts) <= threads
+            assert all(a % 512 == 0 for a, _ in parts)  # the block of the generated C
+
+
+@needs_compiler
+def test_series_are_used_where_they_lie_or_converted(case: tuple[Array, Array, Array]) -> None:
+    t, inputs, p = case
+    c = packaged().compiled("c")
+    G = c.output(t, inputs, p)
+    kept = [x.copy() for x in inputs]
+    np.testing.assert_array_equal(c.output(t, np.asfortranarray(inputs), p), G)  # not contiguous
+    np.testing.assert_array_equal(c.output(t, np.repeat(inputs, 2, axis=1)[:, ::2], p), G)
+    np.testing.assert_array_equal(c.output(t[::-1], inputs[:, ::-1], p), G[::-1])  # no negative strides in C
+    np.testing.assert_array_equal(c.output(list(t), [list(x) for x in inputs], list(p)), G)
+    narrow = inputs.astype(np.float32)
+    np.testing.assert_array_equal(c.output(t, narrow, p), c.output(t, narrow.astype(np.float64), p))
+    swapped = inputs.astype(inputs.dtype.newbyteorder())
+    np.testing.assert_array_equal(c.output(t, swapped, p), G)
+    np.testing.assert_array_equal(inputs, kept)  # nothing is written to
+    missing = [None if n.startswith("Gamma") else x for n, x in zip(c.inputs, inputs, strict=True)]
+    zero = np.where(np.array([n.startswith("Gamma") for n in c.inputs])[:, None], 0.0, inputs)
+    np.testing.assert_array_equal(c.output(t, missing, p), c.output(t, zero, p))
+    out = np.empty(len(t))
+    assert c.output(t, inputs, p, out=out) is out
+    np.testing.assert_array_equal(out, G)
+    assert len(c.output(t[:0], inputs[:, :0], p)) == 0
+    bad = inputs.copy()
+    bad[4, 1000] = np.nan
+    assert np.flatnonzero(np.isnan(c.output(t, bad, p))).tolist() == [1000]
+
+
+@pytest.mark.parametrize("backend", ["c", "numpy"])
+def test_wrong_arguments_are_said(backend: str, case: tuple[Array, Array, Array]) -> None:
+    if backend == "c" and not shutil.which("cc"):
+        pytest.skip("no C compiler is installed")
+    t, inputs, p = case
+    e = packaged().compiled(backend)  # type: ignore[arg-type]
+    with pytest.raises(UserError, match="wrong number of input series"):
+        e.output(t, inputs[:14], p)
+    with pytest.raises(UserError, match="omega_y is no series"):
+        e.output(t, [x[:-1] if n == "omega_y" else x for n, x in zip(e.inputs, inputs, strict=True)], p)
+    with pytest.raises(UserError, match="wrong number of parameters"):
+        e.output(t, inputs, p[:-1])
+    with pytest.raises(UserError, match="angle is no series"):
+        e.output(t, inputs, p, angle=np.zeros((2, len(t))))
+    with pytest.raises(UserError, match="out cannot be written to"):
+        e.output(t, inputs, p, out=np.empty(2 * len(t))[::2])
+    with pytest.raises(UserError, match="no such accelerometer"):
+        e.derivatives(4, t, inputs, p)
+    with pytest.raises(UserError, match="unknown backend"):
+        packaged().compiled("fortran")  # type: ignore[arg-type]
+
+
+def test_without_a_compiler_numpy_serves_and_says_so_once(
+    case: tuple[Array, Array, Array], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    t, inputs, p = case
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CC", raising=False)
+    with pytest.warns(NativeWarning, match="slower NumPy code serves: there is no C compiler") as said:
+        e = packaged().compiled()
+    assert len(said) == 1
+    assert isinstance(e, Interpreted)
+    assert packaged().compiled().backend == "numpy"  # silently: warnings are errors here
+    assert np.all(np.isfinite(e.output(t, inputs, p)))
+    with pytest.raises(UserError, match="there is no C compiler"):
+        packaged().compiled("c")
+
+
+def test_a_compiler_that_fails_is_quoted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    broken = tmp_path / "broken-cc"
+    broken.write_text("#!/bin/sh\necho 'x.c:1: error: out of luck' >&2\nexit 3\n")
+    broken.chmod(0o755)
+    monkeypatch.setenv("CC", str(broken))
+    with pytest.raises(BuildError, match=r"broken-cc fails: x.c:1: error: out of luck"):
+        build(packaged().sources)
+    with pytest.warns(NativeWarning, match="out of luck"):
+        assert packaged().compiled().backend == "numpy"
+    assert [p for p in private_folder().iterdir() if p.name.startswith(".compile")] == []
+    monkeypatch.setenv("RAGG_NATIVE", "off")
+    with pytest.raises(UserError, match="RAGG_NATIVE is off"):
+        packaged().compiled("c")
+
+
+@needs_compiler
+def test_library_is_made_once_and_anew_when_anything_changes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = {"one.c": "int one(void) { return 1; }\n"}
+    first = build(source, tmp_path)
+    assert first.fresh
+    assert not (again := build(source, tmp_path)).fresh
+    assert (again.library, again.command) == (first.library, first.command)
+    assert all(option in first.command for option in COMMON)
+    assert "-ffast-math" not in first.command
+    assert build({"one.c": "int one(void) { return 2; }\n"}, tmp_path).library != first.library
+    monkeypatch.setenv("CC", f"{find_compiler()[0]} -DX=1")
+    assert build(source, tmp_path).library != first.library
+    monkeypatch.delenv("CC")
+    first.library.write_bytes(first.library.read_bytes()[:100])  # damaged
+    mended = build(source, tmp_path)
+    assert mended.fresh
+    assert mended.library == first.library
+
+
+@needs_compiler
+def test_two_at_once_make_one_library(tmp_path: Path) -> None:
+    source = {"two.c": "int two(void) { return 2; }\n"}
+    made: list[Built] = []
+    threads = [threading.Thread(target=lambda: made.append(build(source, tmp_path))) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [m.fresh for m in made].count(True) == 1
+    assert len({m.library for m in made}) == 1
+    assert sorted(p.suffix for p in tmp_path.iterdir()) == [".so", ".txt"]
+
+
+@needs_compiler
+def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
+    tmp_path.chmod(0o777)
+    made = build({"three.c": "int three(void) { return 3; }\n"}, tmp_path)
+    assert made.library.parent != tmp_path
+    assert stat.S_IMODE(made.library.parent.stat().st_mode) == 0o700
+    assert list(tmp_path.iterdir()) == []
+    tmp_path.chmod(0o700)
+    made = build({"three.c": "int three(void) { return 3; }\n"}, tmp_path)
+    made.library.chmod(0o666)
+    assert build({"three.c": "int three(void) { return 3; }\n"}, tmp_path).fresh
+
+
+@needs_compiler
+@pytest.mark.skipif(shutil.which("objdump") is None, reason="objdump is not installed")
+def test_loops_are_vectors_and_call_no_sine(extended: Model) -> None:
+    """Of base and extended model: nothing of libm is called, and the arithmetic is on whole registers."""
+    for model in (packaged(), extended):
+        listing = subprocess.run(
+            ["objdump", "-d", "--no-show-raw-insn", str(build(model.sources).library)],
+            capture_output=True, text=True, check=True,
+        ).stdout  # fmt: skip
+        assert not re.search(r"call.*<(sin|cos|sincos|fma|rint|nearbyint|floor)", listing)
+        if "fma " in Path("/proc/cpuinfo").read_text():
+            packed = re.findall(r"\bvfn?m(?:add|sub)\w*pd\b.*%[yz]mm", listing)
+            single = re.findall(r"\bvfn?m(?:add|sub)\w*sd\b", listing)
+            assert (
+                len(packed) > 200
+            )  # a loop of vectors each, and one of single numbers for what is left over
+            assert len(packed) >= 0.9 * len(single)
+
+
+def test_sources_of_models_are_what_was_derived() -> None:
+    files = derive_model([e for e in catalogue() if e.id == "lag"], ())
+    assert from_files(files).sources == {"chain.c": files["c/chain.c"], "chain.h": files["c/chain.h"]}
+    assert sorted(packaged().sources) == ["chain.c", "chain.h", "folded.c", "folded.h"]
+    assert replace(packaged(), sources={}) == packaged()  # how it is evaluated is no part of what it is
+
+
+def test_numpy_in_blocks_is_numpy_at_once(extended: Model, case: tuple[Array, Array, Array]) -> None:
+    t, motion, p = case
+    q, inputs = parameters(extended, p), np.vstack([motion, np.cos(t)])
+    n = evaluator(extended.chain, {}, None, "numpy")
+    phi = np.mod(t, 6.0)
+    at_once = [
+        extended.chain.accelerometer(j, t, np.cos(phi), np.sin(phi), inputs, extended.chain.values_of(j, q))
+        for j in range(4)
+    ]
+    np.testing.assert_allclose(n.voltages(t, inputs, q, phi), np.stack(at_once), rtol=1e-14)
+
+
+@needs_compiler
+def test_build_command_says_what_it_made(tmp_path: Path) -> None:
+    model = tmp_path / "m"
+    for arguments in (["new", str(model)], ["build", str(model)], ["build"]):
+        done = subprocess.run(
+            [sys.executable, "-m", "ragg_runtime", *arguments], capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        assert arguments[0] == "new" or Path(done.stdout.split(": ")[0]).is_file()
+    environment = {**os.environ, "CC": "no-such-compiler"}
+    done = subprocess.run(
+        [sys.executable, "-m", "ragg_runtime", "build"],
+        capture_output=True, text=True, check=False, env=environment,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "there is no C compiler (no-such-compiler)" in done.stderr
