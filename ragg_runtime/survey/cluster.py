@@ -7,12 +7,14 @@ reach a scheduler can run code on its workers: that is how Dask works, and why i
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import importlib
 import logging
 import queue
 import time
 from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
 
@@ -120,12 +122,15 @@ def _client(address: str) -> Iterator[Any]:
     log.setLevel(logging.CRITICAL)  # what it has to say is said here, in one message
     try:
         try:
+            _greet(address)
             client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
         except Exception as error:
             raise UserError(
                 "the scheduler cannot be reached",
                 where=address,
-                found=f"{type(error).__name__}: {error}".split("\n")[0][:300],
+                found="no answer"
+                if isinstance(error, TimeoutError)
+                else f"{type(error).__name__}: {error}"[:300],
                 expected=f"a dask.distributed scheduler that answers within {PATIENCE:g} s",
                 remedy="check the address and that the scheduler runs; Dask must be of the same version there",
             ) from None
@@ -136,6 +141,24 @@ def _client(address: str) -> Iterator[Any]:
                 client.close(timeout=PATIENCE)
     finally:
         log.setLevel(level)
+
+
+def _greet(address: str) -> None:
+    """Ask who is there: Dask's own client waits for ever for a listener that says nothing."""
+    from distributed.core import rpc
+
+    async def asked() -> Any:
+        scheduler = rpc(address)
+        try:
+            return await asyncio.wait_for(scheduler.identity(), PATIENCE)
+        finally:
+            await scheduler.close_rpc()
+
+    # In a thread of its own: a notebook has an event loop already.
+    with ThreadPoolExecutor(1) as own:
+        answer = own.submit(asyncio.run, asked()).result()
+    if answer.get("type") != "Scheduler":
+        raise ConnectionError(f"a {answer.get('type', 'stranger')}, not a scheduler")
 
 
 def _check(client: Any, address: str) -> None:
@@ -154,7 +177,7 @@ def _check(client: Any, address: str) -> None:
         ) from None
     if not answers:
         raise UserError("the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS")
-    own = dict(fingerprint())
+    own = dict(_own())
     for worker, answer in sorted(answers.items()):
         if isinstance(answer, BaseException):
             found: object = f"{type(answer).__name__}: {answer}"
@@ -171,3 +194,7 @@ def _check(client: Any, address: str) -> None:
             expected=", ".join(f"{n} {v}" for n, v in own.items()),
             remedy="install the same versions of ragg, NumPy, SciPy and SymPy on all workers",
         )
+
+
+def _own() -> tuple[tuple[str, str], ...]:
+    return fingerprint()

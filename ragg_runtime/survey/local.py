@@ -45,16 +45,17 @@ def examined(job: Job, files: Sequence[str], jobs: int) -> Generator[tuple[str, 
     busy = 0
     try:
         for w in workers:
-            if waiting:
-                w.give(job, *waiting.popleft(), done)
-                busy += 1
+            w.give(job, *waiting.popleft(), done)
+            busy += 1
         while busy:
             w, file, attempt, future = done.get()
             busy -= 1
             error = future.exception()
             if error is None:
                 yield file, future.result()
-            elif attempt < ATTEMPTS and not isinstance(error, UserError):
+            elif isinstance(error, BrokenProcessPool) and not w.started:
+                waiting.appendleft((file, attempt))  # the flight has nothing to do with it
+            elif attempt < ATTEMPTS:
                 waiting.append((file, attempt + 1))
             else:
                 yield file, lost(file, error)
@@ -83,42 +84,41 @@ class _Worker:
     """A pool of one process."""
 
     def __init__(self) -> None:
-        self.starts = 0
-        self.renew()
+        self.failed_starts = 0
+        self._start()
 
-    def renew(self) -> None:
-        """A new process in place of a dead one. It is started by the first call."""
+    @property
+    def started(self) -> bool:
+        """Whether the process has come as far as to work."""
+        return self.ready.done() and self.ready.exception() is None
+
+    def _start(self) -> None:
         context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
         self.pool = ProcessPoolExecutor(1, context, initializer=_begin)
-        self.ready: Future[int] | None = None
+        with _inherited():
+            self.ready = self.pool.submit(os.getpid)
+
+    def renew(self) -> None:
+        """A new process in place of a dead one; UserError if none comes as far as to work."""
+        self.failed_starts = 0 if self.started else self.failed_starts + 1
+        if self.failed_starts >= ATTEMPTS:
+            raise UserError(
+                "no worker process can be started",
+                expected="a program that can be imported: workers begin by importing it",
+                remedy="in a script of your own, call survey below `if __name__ == '__main__':`",
+            )
+        self.pool.shutdown(wait=True)
+        self._start()
 
     def give(self, job: Job, file: str, attempt: int, done: queue.Queue[Any]) -> None:
         """Let the process look at a flight; ``done`` gets (worker, file, attempt, future)."""
         while True:
             try:
-                if self.ready is None:
-                    self._start()
                 future = self.pool.submit(examine, job, file)
                 break
             except BrokenProcessPool:  # died while it had nothing to do
                 self.renew()
         future.add_done_callback(lambda f: done.put((self, file, attempt, f)))
-
-    def _start(self) -> None:
-        with _inherited():
-            self.ready = self.pool.submit(_pid)
-        try:
-            self.ready.result()
-            self.starts = 0
-        except BrokenProcessPool:
-            self.starts += 1
-            if self.starts >= ATTEMPTS:
-                raise UserError(
-                    "no worker process can be started",
-                    expected="a program that can be imported: workers begin by importing it",
-                    remedy="in a script of your own, call survey below `if __name__ == '__main__':`",
-                ) from None
-            raise
 
     def end(self) -> None:
         """End the process, whatever it is at."""
@@ -164,7 +164,3 @@ def _begin() -> None:
 def _follow(parent: Any) -> None:
     parent.join()
     os._exit(1)
-
-
-def _pid() -> int:
-    return os.getpid()

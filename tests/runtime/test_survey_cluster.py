@@ -1,0 +1,211 @@
+"""Surveys on a real dask.distributed cluster, scheduler and workers on loopback: the same figures, bit for bit."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from flights_of_a_survey import make
+
+from ragg_runtime import workflow
+from ragg_runtime.errors import UserError
+from ragg_runtime.survey import Survey, cluster
+from ragg_runtime.survey.journal import lines_of
+from ragg_runtime.survey.task import Record, job
+
+Flights = tuple[Path, list[Path]]
+HERE = "127.0.0.1"
+
+
+@pytest.fixture(scope="module")
+def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
+    return make(tmp_path_factory.mktemp("survey"))
+
+
+@pytest.fixture(scope="module")
+def whole(flights: Flights) -> Survey:
+    """What the local pool says."""
+    return workflow.survey(workflow.load(flights[0]), flights[1], jobs=2)
+
+
+class Cluster:
+    """A scheduler and workers, each a process of its own, without nannies: a killed worker stays dead."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.processes: list[subprocess.Popen[bytes]] = []
+        file = folder / "scheduler.json"
+        self.scheduler = self._start(
+            "dask_scheduler", "--host", HERE, "--port", "0", "--no-dashboard", "--scheduler-file", file
+        )
+        self.address = str(self._wait(lambda: json.loads(file.read_text())["address"]))
+
+    def _start(self, module: str, *arguments: object) -> subprocess.Popen[bytes]:
+        words = [sys.executable, "-m", f"distributed.cli.{module}", *map(str, arguments)]
+        paths = [str(Path(workflow.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in paths if p)}
+        with (self.folder / f"{len(self.processes)}.log").open("wb") as log:
+            process = subprocess.Popen(
+                words, cwd=self.folder, stdout=log, stderr=subprocess.STDOUT, env=environment
+            )
+        self.processes.append(process)
+        return process
+
+    def worker(self) -> subprocess.Popen[bytes]:
+        return self._start(
+            "dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"
+        )
+
+    @staticmethod
+    def _wait(get: Any) -> Any:
+        deadline = time.monotonic() + 60
+        while True:
+            with contextlib.suppress(OSError, ValueError):
+                return get()
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+
+    def wait_for_workers(self, count: int) -> None:
+        import distributed
+
+        with distributed.Client(self.address, set_as_default=False, timeout=30) as client:
+            client.wait_for_workers(count, timeout=90)
+
+    def end(self) -> None:
+        for p in reversed(self.processes):
+            p.kill()
+            p.wait(30)
+
+
+@contextlib.contextmanager
+def running(folder: Path, workers: int) -> Iterator[Cluster]:
+    pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
+    c = Cluster(folder)
+    try:
+        for _ in range(workers):
+            c.worker()
+        if workers:
+            c.wait_for_workers(workers)
+        yield c
+    finally:
+        c.end()
+
+
+def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
+    flights: Flights, whole: Survey, tmp_path: Path
+) -> None:
+    killed: list[int] = []
+    with running(tmp_path, 2) as c:
+
+        def kill_one(done: int, total: int, record: Record | None) -> None:
+            if record is not None and not killed:
+                killed.append(c.processes[1].pid)
+                c.processes[1].send_signal(signal.SIGKILL)
+                c.processes[1].wait(30)
+
+        m = workflow.load(flights[0])
+        found = workflow.survey(m, flights[1], scheduler=c.address, progress=kill_one)
+        assert killed
+        assert json.dumps(found.summary.as_json()) == json.dumps(whole.summary.as_json())
+        for there, here in zip(found.records, whole.records, strict=True):
+            if "verdict" in here:
+                assert json.dumps(there) == json.dumps(here)
+        assert [r["flight"] for r in found.failed] == ["flight-2b.parquet"]
+
+        # A file that the workers do not see, through the command; the survey is done all the same.
+        words = [sys.executable, "-m", "ragg_runtime", "survey", flights[0], "elsewhere.parquet"]
+        done = subprocess.run(
+            [*map(str, words), "--scheduler", c.address], capture_output=True, text=True, timeout=120, check=False
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert "does not see the flight file" in done.stdout
+        assert "all workers share" in done.stdout
+
+
+def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
+    flights: Flights, whole: Survey, tmp_path: Path
+) -> None:
+    kept = tmp_path / "kept.jsonl"
+    m = workflow.load(flights[0])
+    with running(tmp_path, 1) as c:
+
+        def kill_scheduler(done: int, total: int, record: Record | None) -> None:
+            if done == 2:
+                c.scheduler.kill()
+
+        with pytest.raises(UserError, match="connection to the scheduler is lost"):
+            workflow.survey(m, flights[1], scheduler=c.address, resume=kept, progress=kill_scheduler)
+    assert 3 <= len(lines_of(kept)) < len(flights[1]) + 1
+    again = workflow.survey(m, flights[1], jobs=1, resume=kept)  # continued on this machine
+    assert json.dumps(again.summary.as_json()) == json.dumps(whole.summary.as_json())
+
+
+def test_workers_of_another_version_are_refused(
+    flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    m = workflow.load(flights[0])
+    with running(tmp_path, 0) as c:
+        monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+        with pytest.raises(UserError, match="no workers"):
+            workflow.survey(m, flights[1], scheduler=c.address)
+        c.worker()
+        c.wait_for_workers(1)
+        monkeypatch.undo()
+        own = dict(cluster.fingerprint())
+        other = tuple((own | {"numpy": "1.0"}).items())
+        monkeypatch.setattr(cluster, "_own", lambda: other)
+        with pytest.raises(UserError) as error:
+            workflow.survey(m, flights[1], scheduler=c.address)
+    assert "does not run this version" in error.value.message
+    assert f"numpy {own['numpy']}" in error.value.message
+    assert "numpy 1.0" in error.value.message
+
+
+def test_a_record_of_another_program_is_not_taken(flights: Flights) -> None:
+    from dataclasses import replace
+
+    from ragg_runtime.survey.task import examine
+
+    toml = flights[0] / "model.toml"
+    asked = replace(job(toml.read_text(), toml), program=(("numpy", "1.0"),))
+    record = examine(asked, str(flights[1][0]))
+    assert "another program" in record["error"]["message"]
+
+
+def test_a_scheduler_that_is_not_there_is_one_message(
+    flights: Flights, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
+    m = workflow.load(flights[0])
+    with socket.socket() as s:
+        s.bind((HERE, 0))
+        free = s.getsockname()[1]
+    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+    start = time.monotonic()
+    with pytest.raises(UserError, match="cannot be reached"):
+        workflow.survey(m, flights[1], scheduler=f"tcp://{HERE}:{free}")
+    with socket.socket() as silent:  # accepts, and never answers
+        silent.bind((HERE, 0))
+        silent.listen()
+        with pytest.raises(UserError, match="cannot be reached"):
+            workflow.survey(m, flights[1], scheduler=f"tcp://{HERE}:{silent.getsockname()[1]}")
+    assert time.monotonic() - start < 20
+    for address in ("127.0.0.1", "tcp://", "tcp://host", "tcp://host:port", "", "scheduler.json"):
+        with pytest.raises(UserError, match="not the address"):
+            workflow.survey(m, flights[1], scheduler=address)
+
+
+def test_without_the_extra_it_is_one_message(flights: Flights, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(UserError, match=r"ragg\[cluster\]"):
+        workflow.survey(workflow.load(flights[0]), flights[1], scheduler=f"tcp://{HERE}:8786")
