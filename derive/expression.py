@@ -88,8 +88,8 @@ def from_expression(
     ------
     ExpressionError
     """
-    if not ID.fullmatch(identifier):
-        raise ExpressionError(f"id {identifier!r}: expected lower-case words joined by hyphens")
+    if not ID.fullmatch(identifier) or len(identifier) > _LONGEST_NAME:
+        raise ExpressionError(f"id {identifier[:80]!r}: expected lower-case words joined by hyphens")
     if stage not in STAGES:
         raise ExpressionError(f"stage {stage!r}: expected one of {', '.join(STAGES)}")
     tree = _parse(add)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.errors import UserError, printable
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow import Loaded
@@ -53,7 +53,7 @@ def _load(model_dir: Path) -> Loaded:
 
     m = workflow.load(model_dir)
     for note in m.notes:
-        click.echo(f"note: {model_dir}: {note}", err=True)
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     return m
 
 
@@ -66,7 +66,7 @@ def _emit(result: Any, json_file: str | None, text: str) -> None:
     if json_file == "-":
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
-    click.echo(text)
+    click.echo(printable(text))
     if json_file is not None:
         from ragg_runtime.atomic import write_text
 
@@ -433,7 +433,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         cli.main(args=None if arguments is None else list(arguments), standalone_mode=False)
     except UserError as error:
-        click.echo(f"ragg: {error}", err=True)
+        click.echo(printable(f"ragg: {error}"), err=True)
         sys.exit(2)
     except click.exceptions.Exit as end:
         sys.exit(end.exit_code)
@@ -454,7 +454,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _REFUSALS:
             place = f"{error.filename}: " if error.filename else ""
-            click.echo(f"ragg: {place}{error.strerror}", err=True)
+            click.echo(printable(f"ragg: {place}{error.strerror}"), err=True)
             sys.exit(2)
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)

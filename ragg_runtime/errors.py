@@ -67,3 +67,8 @@ def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     folded = {k.casefold(): k for k in reversed(known)}
     near = difflib.get_close_matches(name.casefold(), list(folded), n=1, cutoff=0.6)
     return f"did you mean {folded[near[0]]!r}?" if near else None
+
+
+def printable(text: str) -> str:
+    """``text`` without what would steer a terminal: names in files of strangers may hold anything."""
+    return "".join(c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text)
