@@ -101,24 +101,27 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
 def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
     """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,).
 
-    A line through the first instants is carried on, doubling its length; ``None`` if they do not follow one.
+    A line through the first instants is carried on, half as far again each time; ``None`` if they do not follow one.
     """
     size = 128
     whole = (time[-1] - time[0]) / (len(time) - 1)
-    if abs(whole / step - 1) < 0.05:  # no gaps: the mean step is exact, the median of jittering ones is not
+    steady = bool(abs(whole / step - 1) < 0.05)
+    if steady:  # no gaps: the mean step is exact, the median of jittering ones is not
         step = float(whole)
-    lag = np.angle(np.mean(np.exp(2j * np.pi * (time[:size] - time[0]) / step))) / (2 * np.pi)
-    first = float(time[0] + lag * step)
+    phase = np.mod((time[:size] - time[0]) / step, 1.0)
+    lags = np.arange(64) / 64
+    worst = [float(np.max(np.abs((phase - lag + 0.5) % 1.0 - 0.5))) for lag in lags]
+    first = float(time[0] + step * (lags[int(np.argmin(worst))]))
     while True:
         t = time[:size]
         k = np.rint((t - first) / step)
         if np.any(np.diff(k) < 1):
             return None
-        if len(t) > 2:
+        if len(t) >= 512 or size >= len(time) or not steady:
             step, first = (float(c) for c in np.polyfit(k, t, 1))
         if size >= len(time):
             break
-        size *= 2
+        size += size // 2
     k = np.rint((time - first) / step)
     off = np.abs(time - first - k * step) / step
     if np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:

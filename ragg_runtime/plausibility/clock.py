@@ -17,7 +17,7 @@ from ragg_runtime.plausibility.linear import explain
 from ragg_runtime.plausibility.rows import Picker
 from ragg_runtime.timeseries import differentiate
 
-BETTER = 1.5
+BETTER = 1.1
 """Factor by which the model's residual must fall for jittering instants to be taken otherwise than they stand."""
 
 CONVINCING = 5.0
