@@ -66,11 +66,11 @@ def _emit(result: Any, json_file: str | None, text: str) -> None:
     if json_file == "-":
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
-    click.echo(printable(text))
     if json_file is not None:
         from ragg_runtime.atomic import write_text
 
         write_text(Path(json_file), json.dumps(result, indent=1, allow_nan=False) + "\n")
+    click.echo(printable(text))
 
 
 def _write_report(file: str | None, make: Callable[[], str]) -> None:

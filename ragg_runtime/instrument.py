@@ -147,7 +147,9 @@ def read_text(path: Path, longest: int = 1 << 20) -> str:
             raise UserError("the file is too long", where=path, expected=f"at most {longest} bytes")
         return data.decode("utf-8-sig")
     except FileNotFoundError:
-        raise UserError("the file does not exist", where=path) from None
+        raise UserError(
+            "the file does not exist", where=path, remedy="check the name and the folder"
+        ) from None
     except IsADirectoryError:
         raise UserError("a file is needed here, not a directory", where=path) from None
     except UnicodeDecodeError as error:

@@ -30,7 +30,7 @@ from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
-from ragg_runtime.plausibility import examined
+from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
@@ -111,6 +111,7 @@ def load(path: Path | str) -> Loaded:
 
 def _loaded(directory: ModelDir) -> Loaded:
     model = extend.model_of(directory.instrument, directory.generated)
+    check_settings(model, directory.instrument)
     note = (
         extend.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
     )

@@ -145,7 +145,13 @@ def _drop_empty(si: dict[str, Array], notes: list[str], path: Path) -> None:
     """Leave out columns without a single number, unless the motion would be incomplete."""
     for name in [n for n, v in si.items() if np.isnan(v).all()]:
         if name in _NEEDED:
-            raise UserError("the column holds no number", where=at(path, f"column {name!r}"))
+            raise UserError(
+                "the column holds no number",
+                where=at(path, f"column {name!r}"),
+                found="empty cells alone",
+                expected="numbers: the motion needs it",
+                remedy="check the recorder or the export",
+            )
         del si[name]
         notes.append(f"{name}: the column holds no number; it is left out")
 

@@ -85,7 +85,13 @@ def _header(path: Path, compressed: bool) -> tuple[int, str]:
                 if line.strip() and not line.startswith("#"):
                     return number, line.rstrip("\n")
     except _UNREADABLE as error:
-        raise UserError(_NOT_CSV, where=path, found=str(error)) from None
+        raise UserError(
+            _NOT_CSV,
+            where=path,
+            found=str(error),
+            expected="UTF-8 text: a header of `name [unit]`, then numbers",
+            remedy="copy the file again, or save it as CSV, Parquet or NetCDF-4",
+        ) from None
     raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
 
 
@@ -109,7 +115,13 @@ def _batches(
         if "Empty CSV" not in str(error):
             raise _fault(path, compressed, columns, delimiter, skip, str(error)) from None
     except (OSError, EOFError) as error:
-        raise UserError("the file is damaged or cut off", where=path, found=str(error)) from None
+        raise UserError(
+            "the file is damaged or cut off",
+            where=path,
+            found=str(error),
+            expected="a whole file" + (" (gzip)" if compressed else ""),
+            remedy="copy it again",
+        ) from None
 
 
 def _fault(

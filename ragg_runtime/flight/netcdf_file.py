@@ -74,7 +74,13 @@ def _dataset(path: Path) -> Any:
 
 
 def _damaged(path: Path, fault: str) -> UserError:
-    return UserError("the NetCDF file is damaged or not NetCDF-4", where=path, found=fault)
+    return UserError(
+        "the NetCDF file is damaged or not NetCDF-4",
+        where=path,
+        found=fault,
+        expected="a whole NetCDF-4 (HDF5) file",
+        remedy="copy it again, or save it as NetCDF-4",
+    )
 
 
 def _batches(

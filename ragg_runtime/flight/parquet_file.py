@@ -67,4 +67,6 @@ def _damaged(path: Path, error: Exception) -> UserError:
         "the Parquet file is damaged",
         where=path,
         found=(str(error) or type(error).__name__).splitlines()[0][:200],
+        expected="a whole Parquet file",
+        remedy="copy it again",
     )

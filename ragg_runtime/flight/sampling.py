@@ -57,11 +57,20 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
     where = at(path, "column 'time'")
     if len(time) < 2:
         raise UserError(
-            "too few samples", where=path, found=f"{len(time)} rows", expected="at least 2, usually thousands"
+            "too few samples",
+            where=path,
+            found=f"{len(time)} row{'s' * (len(time) != 1)}",
+            expected="at least 2, usually thousands",
         )
     if not np.all(np.isfinite(time)):
         row = int(np.flatnonzero(~np.isfinite(time))[0])
-        raise UserError("the time is missing", where=where, found=f"row {first_row + row}: {time[row]}")
+        raise UserError(
+            "the time is missing",
+            where=where,
+            found=f"row {first_row + row}: {time[row]}",
+            expected="a number in every row",
+            remedy="remove rows without a time",
+        )
     steps = np.diff(time)
     if np.any(steps <= 0):
         raise _not_increasing(time, steps, where, first_row)
@@ -164,9 +173,16 @@ def _not_increasing(time: Array, steps: Array, where: str, first_row: int) -> Us
             where=where,
             found=f"{time[0]:.10g} s in every row",
             expected="increasing time",
+            remedy="check the clock or the format in which the time was written",
         )
     if np.all(steps < 0):
-        return UserError("the time runs backwards", where=where, remedy="sort the rows by time")
+        return UserError(
+            "the time runs backwards",
+            where=where,
+            found=f"{time[0]:.10g} s first, {time[-1]:.10g} s last",
+            expected="increasing time",
+            remedy="sort the rows by time",
+        )
     row = int(np.flatnonzero(steps <= 0)[0])
     count = int(np.sum(steps <= 0))
     return UserError(

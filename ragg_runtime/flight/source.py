@@ -62,6 +62,7 @@ def format_of(path: Path) -> str:
         where=path,
         found=path.suffix or "no ending",
         expected=", ".join(FORMATS),
+        remedy="save the record in one of these formats",
     )
 
 
@@ -78,13 +79,26 @@ def check_content(path: Path, expected: str) -> bool:
         with path.open("rb") as stream:
             head = stream.read(8)
     except FileNotFoundError:
-        raise UserError("the flight file does not exist", where=path) from None
+        raise UserError(
+            "the flight file does not exist",
+            where=path,
+            expected="a CSV, Parquet or NetCDF file",
+            remedy="check the name and the folder",
+        ) from None
     except IsADirectoryError:
-        raise UserError("a flight file is needed here, not a directory", where=path) from None
+        raise UserError(
+            "a flight file is needed here, not a directory", where=path, remedy="name the files in it"
+        ) from None
     except OSError as error:
         raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
     if not head:
-        raise UserError("the flight file is empty", where=path)
+        raise UserError(
+            "the flight file is empty",
+            where=path,
+            found="0 bytes",
+            expected="a header of names and units, then rows",
+            remedy="the recording or the copy may have failed: get the file again",
+        )
     found = next((kind for magic, kind in _MAGIC if head.startswith(magic)), "csv")
     if found != expected:
         raise UserError(

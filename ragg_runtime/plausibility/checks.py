@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, VOLTAGES
 from ragg_runtime.instrument import Instrument
@@ -69,6 +69,27 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
+
+
+def check_settings(model: Model, instrument: Instrument) -> None:
+    """UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension."""
+    for e in model.effects:
+        setting = instrument.effect(e.id)
+        if setting is None:
+            continue
+        names = {q.name: q for q in e.parameters}
+        for name in setting.values:
+            if name not in names:
+                raise UserError(
+                    f"the effect {e.id} has no parameter {name!r}",
+                    where=at(instrument.path, "effects", e.id),
+                    expected="one of " + ", ".join(names),
+                    remedy=did_you_mean(name, names),
+                )
+            q = names[name]
+            where = str(instrument.path) if instrument.path else None
+            si_unit = instrument.units.base_unit(q.unit)
+            setting.si(name, si_unit, instrument.g0, shared=q.shared, where=where)
 
 
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:
@@ -138,7 +159,10 @@ def _encoder(instrument: Instrument, flight: Flight) -> list[str]:
         return []
     if abs(rate + f) < 2e-3 * f:
         return [f"spin_angle runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
-    if abs(rate / f * _DEGREE - 1) < 0.02 or abs(rate / f / _DEGREE - 1) < 0.02:
+    nyquist = flight.rate / 2
+    if any(
+        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < 1e-2 * f for x in (f / _DEGREE, f * _DEGREE)
+    ):
         return [f"spin_angle turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]
     percent = 100 * (rate / f - 1)
     return [

@@ -66,11 +66,16 @@ def _refused(flight: Flight, found: Likely, notes: list[str]) -> UserError:
     return UserError(
         f"the record does not fit the instrument; the likely mistake: {found.what}{also}",
         where=flight.path or flight.name,
-        found=f"the model leaves {100 * found.before.share:.2g} % of the output unexplained,"
-        f" {found.factor:.3g} times more than with the mistake undone{odd}",
+        found=f"{_left(found.before.share)}, {found.factor:.3g} times more than with the mistake undone{odd}",
         expected="units, signs, axes and spin rate as the header and model.toml say",
         remedy=found.remedy,
     )
+
+
+def _left(share: float) -> str:
+    if share < 1:
+        return f"the model leaves {100 * share:.2g} % of the output unexplained"
+    return f"the model misses the output by {share:.2g} times its size"
 
 
 def _remark(found: Likely) -> str:

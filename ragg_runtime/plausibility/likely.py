@@ -90,11 +90,10 @@ def likely(model: Model, instrument: Instrument, p: Picker) -> Likely | None:
         _Tried(m.what, m.remedy, m.plainness, explain(model, instrument, m.undo(rows)))
         for m, _ in promising[:MOST_TRIED]
     ]
-    best = _chosen(before, tried)
-    if best is None or best.factor < 100 * BETTER:
-        tried += [_Tried(s.what, s.remedy, 3, s.left, s.shift, False) for s in searches(model, instrument, p)]
-        best = _chosen(before, tried)
-    return best
+    tried += [
+        _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
+    ]
+    return _chosen(before, tried)
 
 
 def _chosen(before: Explained, tried: Sequence[_Tried]) -> Likely | None:

@@ -120,6 +120,7 @@ class Picker:
         spin_frequency: float | None = None,
         phase: float = 0.0,
         even: bool = False,
+        backwards: bool = False,
     ) -> Rows:
         """Rows of the flight.
 
@@ -136,6 +137,8 @@ class Picker:
             rad, added to the disc angle.
         even
             Take the samples as evenly spaced, whatever the file's instants say.
+        backwards
+            Let the disc turn the other way.
         """
         n = len(self.flight)
         inside = (rows + min(shift, output_shift, 0) >= 0) & (rows + max(shift, output_shift, 0) < n)
@@ -149,6 +152,8 @@ class Picker:
             phi = np.asarray(x.channels["spin_angle"][rows])
         else:
             phi = disc_angle(time, f)
+        if backwards:
+            phi = -phi
         moved = rows + shift
         channels = {name: np.asarray(v[moved]) for name, v in x.channels.items()}
         channels |= {name: v[moved] for name, v in self.derived.items()}

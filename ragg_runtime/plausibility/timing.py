@@ -35,6 +35,7 @@ class Found:
     remedy: str
     left: Explained
     shift: bool = False
+    plainness: int = 3
 
 
 def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
@@ -72,13 +73,12 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
             options={"xatol": 1e-9 * f0},
         ).x
     )
-    where = "the encoder's angle does not: it" if encoder else "not at the model's"
     turned = explain(model, instrument, p.pick(p.rows(), spin_frequency=best))
-    backwards = explain(model, instrument, p.pick(p.rows(), spin_frequency=-f0))
+    backwards = explain(model, instrument, p.pick(p.rows(), backwards=True))
     percent = 100 * (best / f0 - 1)
     return [
         Found(
-            f"the spin rate is {best:.6g} Hz, {where} {f0:.6g} Hz ({percent:+.2g} %)"
+            f"the spin rate is {best:.6g} Hz, not the model's {f0:.6g} Hz ({percent:+.2g} %)"
             if not encoder
             else f"the spin rate is {best:.6g} Hz, from angle 0 at the first sample; spin_angle says otherwise",
             f'write spin_frequency = "{best:.6g} Hz" in model.toml, or record spin_angle',
@@ -88,6 +88,7 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
             "the disc turns the other way",
             "reverse the sign of spin_angle, or turn the axes of the record (y and z reversed)",
             backwards,
+            plainness=1,
         ),
     ]
 
@@ -123,31 +124,32 @@ def _refined(left: Callable[[float], Explained], grid: Array, step: float) -> fl
 def _shift(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     """Motion and output apart: candidates from the cross-correlation, judged by what the model explains."""
     found = []
-    for k in _lags(instrument, p):
-        if k == 0:
-            continue
+    tried: dict[int, tuple[Explained, Explained]] = {}
+    waiting = [k for k in _lags(instrument, p) if k != 0]
+    while waiting:
+        for k in waiting:
+            tried[k] = (
+                explain(model, instrument, p.pick(p.rows(most=400), shift=k)),
+                explain(model, instrument, p.pick(p.rows(most=400), output_shift=-k)),
+            )
+        best = [min(tried, key=lambda k: tried[k][way].share) for way in (0, 1)]
+        waiting = [k + d for k in best for d in (-1, 1) if k + d != 0 and k + d not in tried]
+        waiting = sorted(set(waiting))
+    if not tried:
+        return []
+    for way, k in enumerate(best):
         seconds = abs(k) / p.flight.rate
         apart = f"{seconds:.6g} s ({abs(k)} sample{'s' * (abs(k) > 1)})"
-        moved = explain(model, instrument, p.pick(p.rows(), shift=k))
-        found.append(
-            Found(
-                f"the motion record is {apart} {'late' if k > 0 else 'early'} against the output",
-                f"shift the motion columns by {seconds:.6g} s",
-                moved,
-                True,
-            )
-        )
-        moved = explain(model, instrument, p.pick(p.rows(), output_shift=-k))
-        found.append(
-            Found(
-                f"the output is {apart} {'early' if k > 0 else 'late'} against motion and disc angle",
-                f"shift the output column by {seconds:.6g} s",
-                moved,
-                True,
-            )
-        )
-    best = sorted(found, key=lambda x: x.left.share)
-    return best[:2]
+        if way == 0:
+            what = f"the motion record is {apart} {'late' if k > 0 else 'early'} against the output"
+            remedy = f"shift the motion columns by {seconds:.6g} s"
+            left = explain(model, instrument, p.pick(p.rows(), shift=k))
+        else:
+            what = f"the output is {apart} {'early' if k > 0 else 'late'} against motion and disc angle"
+            remedy = f"shift the output column by {seconds:.6g} s"
+            left = explain(model, instrument, p.pick(p.rows(), output_shift=-k))
+        found.append(Found(what, remedy, left, True))
+    return found
 
 
 def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
@@ -179,5 +181,5 @@ def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
         like = np.abs(fft.ifft(other * np.conj(output)))
         like = np.concatenate([like[-reach:], like[: reach + 1]])
         top = int(np.argmax(like)) - reach
-        found += [k for k in range(top - 3, top + 4) if k not in found]
+        found += [k for k in range(top - 2, top + 3) if k not in found]
     return found
