@@ -25,14 +25,14 @@ from ragg_runtime.whiten import NoiseModel, estimate
 
 Array = NDArray[np.float64]
 
-TAPS = 32768
+TAPS = 24576
 """Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
 
 REACH = 5.0
 """Farthest that a parameter is fitted from its nominal value, in scales."""
 
-NOISE_SEGMENTS = 24
-"""Most segments of a flight of which the noise is estimated: 800,000 samples tell a smooth spectrum."""
+NOISE_SEGMENTS = 8
+"""Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
 
 WHITE_SEGMENTS = 4
 """Most segments on which the first fit, with noise still taken as white, is made."""
@@ -82,7 +82,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     found: list[list[Array]] = [[] for _ in o.series]
     squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
     share = []
-    for piece in pieces(at, o, plain, spread(flight_segments(o), NOISE_SEGMENTS)):
+    for piece in pieces(at, o, plain, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
         valid = piece.observation.record.valid
         if np.sum(valid) < SHORTEST:
             continue
@@ -162,7 +162,7 @@ def fit(
         triangles, rows = [], 0
         for k, o in enumerate(observations):
             if known is None:
-                passed = pieces(at, o, _white(o, eotvos), spread(flight_segments(o), WHITE_SEGMENTS))
+                passed = pieces(at, o, _white(o, eotvos), chosen=spread(flight_segments(o), WHITE_SEGMENTS))
             else:
                 passed = pieces(at, o, known[k])
             for piece in passed:

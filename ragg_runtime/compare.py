@@ -22,6 +22,7 @@ from ragg_runtime.evidence.search import Field
 from ragg_runtime.evidence.work import Flown
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.metrics import Error, Tally, channels, pooled
@@ -202,6 +203,7 @@ def observe(flight: Flight, instrument: Instrument) -> Observation:
     clipped = special.saturation(flight.outputs["G_out"], valid) if "G_out" in flight.outputs else None
     if clipped is not None:
         valid &= ~clipped[1]
+    let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}

@@ -17,8 +17,9 @@ from scipy import linalg, signal
 
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.evaluate import Record, unit_factor
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import PARAMETERS, Instrument
-from ragg_runtime.load import Chain, Effect, Model
+from ragg_runtime.load import Effect, Model
 from ragg_runtime.units import Units, units
 
 Array = NDArray[np.float64]
@@ -88,7 +89,9 @@ class Observation:
         """Some of the samples."""
         if (rows.start, rows.stop) == (0, len(self.record.time)):
             return self
-        return Observation(self.kind, self.record.part(rows), tuple(x[rows] for x in self.series), self.name)
+        series = tuple(np.array(x[rows]) for x in self.series)
+        let_go(*self.series)
+        return Observation(self.kind, self.record.part(rows), series, self.name)
 
 
 def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
@@ -130,35 +133,6 @@ def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
             column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
             columns.append((column, q.symbol))
     return columns
-
-
-CACHED = 2048
-"""Samples at which a generated module is evaluated at a time: its intermediates then stay in the cache."""
-
-
-def derivatives(chain: Chain, r: Record, p: Array) -> tuple[Array, dict[tuple[str, int | None], Array]]:
-    """V_j (4, N) and dV_j by every row of the module: (name, accelerometer or None) -> (4, N) or (N,).
-
-    A row of one accelerometer's own parameter is (N,): the derivative of its own voltage.
-    """
-    x = r.inputs(chain)
-    n = len(r.time)
-    V = np.empty((4, n))
-    rows = np.empty((4, len(chain.ROWS), n))
-    for j in range(4):
-        q = chain.values_of(j, p)
-        for start in range(0, n, CACHED):
-            at = slice(start, start + CACHED)
-            series = (r.time[at], r.cos_phi[at], r.sin_phi[at], x[:, at])
-            V[j, at] = chain.accelerometer(j, *series, q)
-            rows[j, :, at] = chain.derivatives(j, *series, q)
-    by: dict[tuple[str, int | None], Array] = {}
-    for k, (name, shared) in enumerate(chain.ROWS):
-        if shared:
-            by[name, None] = rows[:, k]
-        else:
-            by.update({(name, j + 1): rows[j, k] for j in range(4)})
-    return V, by
 
 
 _COMBINATION = np.array([1.0, 1.0, -1.0, -1.0])

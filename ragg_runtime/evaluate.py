@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Chain, Effect, Model
 from ragg_runtime.timeseries import differentiate
@@ -98,6 +99,7 @@ class Record:
         for x in wide.values():
             x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
+        let_go(*self.wide.values(), self.valid)
         return Record(
             np.array(self.time[rows]), wide, self.rate, valid, self.spin_frequency, (a - first, last - b)
         )

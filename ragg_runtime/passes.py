@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import design, gradient
-from ragg_runtime.design import Observation
+from ragg_runtime.design import Column, Observation
 from ragg_runtime.gradient import Window
 from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
+from ragg_runtime.load import Chain, Model
 from ragg_runtime.segments import ROWS, Segment, segments
 from ragg_runtime.whiten import NoiseModel, filtered
 
@@ -102,56 +103,153 @@ def flight_segments(o: Observation) -> list[Segment]:
     return segments(n, max(n, ROWS) if o.kind == "channels" else ROWS)
 
 
+CACHED = 2048
+"""Samples at which a generated module is evaluated at a time: its intermediates then stay in the cache."""
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Which rows of a generated module's derivatives make which columns, and their scales."""
+
+    column: NDArray[np.intp]
+    row: NDArray[np.intp]
+    accelerometer: NDArray[np.intp]
+    scale: Array
+
+    @staticmethod
+    def of(chain: Chain, columns: Sequence[Column], first: int, shared: bool) -> _Rows:
+        """Those of parameters with one value for the instrument, or with one for each accelerometer."""
+        place = {name: k for k, (name, _) in enumerate(chain.ROWS)}
+        found = [(first + n, c) for n, c in enumerate(columns) if (c.accelerometer is None) == shared]
+        return _Rows(
+            np.array([n for n, _ in found], dtype=np.intp),
+            np.array([place[c.name] for _, c in found], dtype=np.intp),
+            np.array([(c.accelerometer or 1) - 1 for _, c in found], dtype=np.intp),
+            np.array([c.scale for _, c in found]),
+        )
+
+    def put(self, target: Array, at: slice, rows: Array, shared: bool, signs: Array | None) -> None:
+        """Put derivatives (4, rows, n) into columns (columns, m, N) at some samples; ``signs`` combine them."""
+        if not len(self.column):
+            return
+        scale = self.scale[:, None]
+        if shared:
+            if signs is None:
+                target[self.column, :, at] = (rows[:, self.row] * scale).transpose(1, 0, 2)
+            else:
+                target[self.column, 0, at] = np.tensordot(signs, rows[:, self.row], 1) * scale
+        elif signs is None:
+            target[self.column, self.accelerometer, at] = rows[self.accelerometer, self.row] * scale
+        else:
+            scale = scale * signs[self.accelerometer][:, None]
+            target[self.column, 0, at] = rows[self.accelerometer, self.row] * scale
+
+
 def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
-    V, by = design.derivatives(at.model.chain, o.record, at.p)
-    known = [(c, by) for c, _ in design.base_columns(at.model, at.instrument)]
-    if at.with_candidates and (wanted := design.candidate_columns(at.model, at.instrument)):
+    base = [c for c, _ in design.base_columns(at.model, at.instrument)]
+    candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
+    modules = [(at.model.chain, base, 0, at.p)]
+    if candidates:
         q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
-        _, of_candidates = design.derivatives(at.model.signatures, o.record, q)
-        known += [(c, of_candidates) for c in wanted]
-    columns = np.empty((len(known) + 1, *o.data.shape))
-    for n, (c, rows) in enumerate(known):
-        v = rows[c.name, c.accelerometer]
+        modules.append((at.model.signatures, candidates, len(base), q))
+    r, m = o.record, len(o.series)
+    n = len(r.time)
+    signs = None if o.kind == "voltages" else np.array([1.0, 1.0, -1.0, -1.0])
+    columns = np.zeros((len(base) + len(candidates) + 1, m, n))
+    for chain, wanted, first, p in modules:
+        x = r.inputs(chain)
+        own, shared = (_Rows.of(chain, wanted, first, s) for s in (False, True))
+        values = [chain.values_of(j, p) for j in range(4)]
+        rows = np.empty((4, len(chain.ROWS), min(n, CACHED)))
+        V = np.empty((4, min(n, CACHED)))
+        for start in range(0, n, CACHED):
+            some = slice(start, min(start + CACHED, n))
+            size = some.stop - some.start
+            series = (r.time[some], r.cos_phi[some], r.sin_phi[some], x[:, some])
+            for j in range(4):
+                rows[j, :, :size] = chain.derivatives(j, *series, values[j])
+                if first == 0:
+                    V[j, :size] = chain.accelerometer(j, *series, values[j])
+            own.put(columns, some, rows[:, :, :size], False, signs)
+            shared.put(columns, some, rows[:, :, :size], True, signs)
+            if first == 0:
+                columns[-1, :, some] = V[:, :size] if signs is None else signs @ V[:, :size]
+    if o.kind == "channels":
+        for k in range(len(columns)):
+            columns[k] = design.narrow(columns[k], r)
+    for k, c in enumerate((*base, *candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:
-            v = np.where(o.record.time >= instant, v, 0.0)
-        columns[n] = design.observe(o, v, c.accelerometer)
-        columns[n] *= c.scale
-    columns[-1] = o.data - design.observe(o, V, None)
-    if not o.record.valid.all():
-        columns[:, :, ~o.record.valid] = 0.0
+            columns[k, :, r.time < instant] = 0.0
+    np.subtract(o.data, columns[-1], out=columns[-1])
+    if not r.valid.all():
+        columns[:, :, ~r.valid] = 0.0
     return columns
 
 
 def pieces(
-    at: Point, o: Observation, noise: Noise | None, chosen: Sequence[Segment] | None = None
+    at: Point,
+    o: Observation,
+    noise: Noise,
+    *,
+    chosen: Sequence[Segment] | None = None,
+    whitened: bool = True,
 ) -> Iterator[Piece]:
-    """The segments of a flight, in order; without ``noise`` not whitened.
+    """The segments of a flight, in order. A piece of several is emptied when the next one is asked for.
 
-    ``chosen`` are some of the segments: then filters of more than one tap start from rest in each.
+    ``chosen`` are some of the segments: then filters of more than one tap start from rest in each. If
+    ``whitened`` is not wanted, the columns alone are made.
     """
     n_base = len(design.base_columns(at.model, at.instrument))
+    found = flight_segments(o) if chosen is None else chosen
+    memory = max(len(t) for t in noise.filters) - 1
     tail: Array | None = None
-    for s in flight_segments(o) if chosen is None else chosen:
-        part = o.part(s.rows)
-        columns = linearised(at, part)
-        flat = np.empty((len(columns), 0))
-        sample = np.empty(0, dtype=np.intp)
-        windows: list[Window] = []
-        if noise is not None:
-            valid = part.record.valid
-            rows = [
-                filtered(columns[:, m], taps, None if tail is None else tail[:, m])[:, valid]
-                for m, taps in enumerate(noise.filters)
-            ]
-            flat = rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
-            windows = gradient.windows(o, s.rows, noise.filters)
+    for s, part, columns in _ahead(at, o, found):
+        flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
+        windows = gradient.windows(o, s.rows, noise.filters)
+        if whitened:
+            flat = _white(columns, noise, tail, part.record.valid)
             gradient.project(flat, windows)
-            sample = np.tile(np.flatnonzero(valid) + s.rows.start, len(rows))
-            if chosen is None:
-                tail = _carried(tail, columns, max(len(t) for t in noise.filters) - 1)
-        yield Piece(s, part, columns, n_base, flat, sample, windows)
+            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
+            tail = _carried(tail, columns, memory) if chosen is None else None
+        piece = Piece(s, part, columns, n_base, flat, sample, windows)
+        del columns, flat
+        yield piece
+        if len(found) > 1:  # the next segment needs the room
+            for name in ("columns", "white"):
+                object.__setattr__(piece, name, None)
+
+
+def _white(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) through the filters, one output after the other."""
+    rows = []
+    for m, taps in enumerate(noise.filters):
+        y = filtered(columns[:, m], taps, None if tail is None else tail[:, m])
+        rows.append(y if valid.all() else y[:, valid])
+    return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
+
+
+def _ahead(
+    at: Point, o: Observation, chosen: Sequence[Segment]
+) -> Iterator[tuple[Segment, Observation, Array]]:
+    """Segments with their columns; the next one is computed while this one is worked on."""
+
+    def made(s: Segment) -> tuple[Segment, Observation, Array]:
+        part = o.part(s.rows)
+        return s, part, linearised(at, part)
+
+    if len(chosen) == 1:
+        yield made(chosen[0])
+        return
+    with ThreadPoolExecutor(1) as pool:
+        waiting = pool.submit(made, chosen[0])
+        for following in [*chosen[1:], None]:
+            done = waiting.result()
+            if following is not None:
+                waiting = pool.submit(made, following)
+            yield done
+            del done
 
 
 def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
@@ -160,6 +258,6 @@ def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
         return None
     n = columns.shape[2]
     if n >= memory:
-        return columns[:, :, n - memory :].copy()
+        return columns[:, :, n - memory :]
     kept = columns if tail is None else np.concatenate([tail, columns], axis=2)
-    return kept[:, :, -memory:].copy()
+    return kept[:, :, -memory:]

@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 CLIPPED = 5
 """Samples at one and the same extreme value that make a saturated output."""
 
+ENOUGH = 1 << 20
+"""Samples that show a lattice, if there is one."""
+
 COARSE = 0.5
 """Quantisation step, in standard deviations of the noise, from which it is reported."""
 
@@ -160,7 +163,7 @@ def saturation(G: Array, valid: NDArray[np.bool_]) -> tuple[float, NDArray[np.bo
 
 def quantisation(G: Array, valid: NDArray[np.bool_], noise: float) -> float | None:
     """Step of the lattice on which all values of an output lie, V, if it matters beside the noise."""
-    values = np.unique(G[valid])
+    values = np.unique(G[:ENOUGH][valid[:ENOUGH]])
     if len(values) < 3:
         return None
     steps = np.diff(values)

@@ -43,14 +43,10 @@ class Flown:
             yield from self._kept
             return
         keep = len(self.observation.record.time) <= ROWS
-        for piece in pieces(self.at, self.observation, self.noise if whitened or keep else self._unwhitened):
+        for piece in pieces(self.at, self.observation, self.noise, whitened=whitened or keep):
             if keep:
                 self._kept.append(piece)
             yield piece
-
-    @property
-    def _unwhitened(self) -> Noise:
-        return Noise(self.noise.models, (np.ones(1),) * len(self.noise.filters))
 
     def released(self) -> Flown:
         """The same without the columns."""

@@ -16,11 +16,18 @@ from ragg_runtime.flight.netcdf_file import open_netcdf, write_netcdf
 from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
+from ragg_runtime.flight.spool import spooled
 from ragg_runtime.timeseries import WINDOW
 from ragg_runtime.units import Units, units
 
-MOST_BYTES = 2 << 30
-"""Most memory, bytes, that the columns of a flight may take when it is read whole."""
+IN_MEMORY = 48 << 20
+"""Most memory, bytes, that the columns of a flight may take; those of a longer one are laid down on disk."""
+
+MOST_BYTES = 32 << 30
+"""Most bytes that the columns of a flight may take there: what unfolds beyond is no flight."""
+
+PART = 32768
+"""Rows of such a flight that are read at a time."""
 
 _HALO = WINDOW
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
@@ -50,24 +57,17 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
     path = Path(path)
     source = open_source(path)
     plan = layout(path, source.columns, g0, need_output=need_output)
-    batches, held = [], 0
+    batches: list[Batch] = []
+    held = 0
     for batch in source.batches():
         held += sum(v.nbytes for v in batch.values())
-        if held > MOST_BYTES:
-            raise _too_long(path, held, len(source.columns))
+        if held > IN_MEMORY:
+            batches.clear()
+            parts = iter_flight_chunks(path, g0, PART, need_output=need_output)
+            return spooled(parts, path, MOST_BYTES)
         batches.append(batch)
     rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
     return plan.flight(rows, name=flight_name(path), digest=file_digest(path))
-
-
-def _too_long(path: Path, held: int, columns: int) -> UserError:
-    return UserError(
-        "the flight is too long to be held in memory",
-        where=path,
-        found=f"{path.stat().st_size / 1e9:.3g} GB on disk, more than {held // 8 // columns} rows",
-        expected=f"at most {MOST_BYTES // 8 // columns} rows of {columns} columns",
-        remedy="cut it into several files of one instrument; ragg diagnose and add take them together",
-    )
 
 
 def iter_flight_chunks(

@@ -53,7 +53,7 @@ def write_parquet(path: Path, columns: list[tuple[Column, Array]]) -> None:
 def _batches(path: Path, names: list[str], columns: tuple[Column, ...]) -> Iterator[Batch]:
     try:
         with pq.ParquetFile(path) as file:
-            for batch in file.iter_batches(columns=names):
+            for batch in file.iter_batches(batch_size=32768, columns=names):
                 yield {
                     c.name: batch.column(n).cast(pa.float64()).to_numpy(zero_copy_only=False)
                     for n, c in zip(names, columns, strict=True)
