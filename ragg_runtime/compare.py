@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
-from ragg_runtime import calibrate, design
+from ragg_runtime import calibrate, design, display
 from ragg_runtime.calibrate import Calibration
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
@@ -303,6 +303,9 @@ class Comparison:
         p = vector(self.fitted.model, instrument)
         (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
         return replace(self, nominal=scored.whole, nominal_values=p)
+
+    def _repr_html_(self) -> str:
+        return display.comparison(self.as_json(), [o.name for o in self.fitted.observations])
 
     def as_json(self) -> dict[str, object]:
         f = self.fitted

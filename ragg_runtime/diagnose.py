@@ -18,7 +18,7 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, design
+from ragg_runtime import compare, design, display
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
@@ -157,6 +157,9 @@ class Diagnosis:
         product = "*".join(("K_x", *term.channels, *_carrier_text(term.harmonic)))
         unit = "/".join(("m/s^2", *(f"({compare.channel_unit(c)})" for c in term.channels)))
         return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+
+    def _repr_html_(self) -> str:
+        return display.diagnosis(self.as_json())
 
     def as_json(self) -> dict[str, object]:
         return {

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ragg_runtime import display
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, Ranked
 from ragg_runtime.flight import Flight
@@ -44,9 +45,7 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
         f"{'held out':12} {_error(c.holdout)}",
         f"{'noise floor':12} {c.noise_floor:12.5g}",
         "",
-        "The model is adequate: nothing significant is left."
-        if c.adequate
-        else "The model is NOT adequate. Find what is missing: ragg diagnose",
+        display.ADEQUATE if c.adequate else display.NOT_ADEQUATE,
     ]
     where: Any = c.as_json()["where"]
     if where["motion"]:
@@ -66,25 +65,17 @@ def _ranked(r: Ranked) -> str:
 
 
 def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]) -> list[str]:
-    lines = []
-    for q in parameters:
-        which = f" of A{q.accelerometer}" if q.accelerometer else ""
-        lines.append(f"  {q.name}{which} = {q.value:.4g} +- {q.std:.2g} {q.unit}")
+    lines = [f"  {display.parameter(q.as_json())}" for q in parameters]
     if combinations:
         lines.append("  of which the record sees only:")
-        lines += [f"  {q.name} = {q.value:.4g} +- {q.std:.2g} {q.unit}" for q in combinations]
+        lines += [f"  {display.parameter(q.as_json())}" for q in combinations]
     return lines
 
 
 def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> str:
     """The result of ``diagnose``."""
-    head = {
-        "adequate": "ADEQUATE: nothing significant is missing.",
-        "missing-effect": f"MISSING: {' and '.join(d.found)}",
-        "unexplained": "UNEXPLAINED: something is missing that no effect of the catalogue accounts for.",
-    }[d.verdict]
     lines = [
-        head,
+        display.verdict(d.verdict, d.found),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
         "",
         f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
@@ -129,7 +120,7 @@ def added(a: Added) -> str:
             f"{'held out':12} {_error(a.after.holdout)}",
             f"{'noise floor':12} {a.after.noise_floor:12.5g}",
             "",
-            "The model is now adequate." if a.after.adequate else "Something is still missing: ragg diagnose",
+            display.NOW_ADEQUATE if a.after.adequate else display.STILL_MISSING,
         ]
         lines += _parameters(a.parameters, a.combinations)
     return "\n".join(lines)

@@ -21,7 +21,7 @@ import numpy as np
 
 from ragg_runtime import compare as _compare
 from ragg_runtime import diagnose as _diagnose
-from ragg_runtime import extend
+from ragg_runtime import display, extend
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.errors import UserError, at
@@ -53,6 +53,10 @@ class Loaded:
     def name(self) -> str:
         return self.directory.path.resolve().name
 
+    def _repr_html_(self) -> str:
+        steps = [s.as_json() for s in self.directory.history]
+        return display.model(self.name, [e.id for e in self.model.effects], steps)
+
 
 @dataclass(frozen=True)
 class Added:
@@ -64,6 +68,12 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    def _repr_html_(self) -> str:
+        noise, adequate = (
+            (None, False) if self.after is None else (self.after.noise_floor, self.after.adequate)
+        )
+        return display.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
 
     def as_json(self) -> dict[str, object]:
         return {

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from ragg_runtime import display
 from ragg_runtime.errors import UserError
 from ragg_runtime.survey import cluster, local, summary
 from ragg_runtime.survey.journal import Journal, journal
@@ -41,6 +42,13 @@ class Survey:
     @cached_property
     def summary(self) -> Summary:
         return summary.summarised(self.records)
+
+    def _repr_html_(self) -> str:
+        from ragg_runtime.survey import text
+
+        return display.survey(
+            self.records, text.counted(self.summary.counts), text.recommended(self, "MODEL_DIR")
+        )
 
     def as_json(self) -> dict[str, object]:
         return {**self.summary.as_json(), "flights": list(self.records)}

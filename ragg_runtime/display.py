@@ -1,0 +1,247 @@
+"""Results as notebooks show them: small tables, escaped, in the words of the terminal.
+
+Each function takes the JSON of a result (what ``as_json`` returns) and yields a fragment of HTML. The results'
+own ``_repr_html_`` call them. Sentences that the terminal says too are kept here.
+"""
+
+from __future__ import annotations
+
+import html
+import math
+import unicodedata
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+ADEQUATE = "The model is adequate: nothing significant is left."
+NOT_ADEQUATE = "The model is NOT adequate. Find what is missing: ragg diagnose"
+NOW_ADEQUATE = "The model is now adequate."
+STILL_MISSING = "Something is still missing: ragg diagnose"
+
+ERRORS = ("rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz")
+ERROR_HEADS = ("", "rms Eo", "inline Eo", "cross Eo", "in Eo/rtHz", "cr Eo/rtHz")
+
+RANKED = 8
+"""Effects of a ranking that are shown."""
+
+FLIGHTS = 60
+"""Flights of a survey that are shown one by one."""
+
+_CELL = "padding:.15em .7em;text-align:{};white-space:nowrap"
+
+
+def verdict(name: str, found: Sequence[str]) -> str:
+    """What a diagnosis says, in one line."""
+    return {
+        "adequate": "ADEQUATE: nothing significant is missing.",
+        "missing-effect": f"MISSING: {' and '.join(found)}",
+        "unexplained": "UNEXPLAINED: something is missing that no effect of the catalogue accounts for.",
+    }[name]
+
+
+def parameter(p: Mapping[str, Any]) -> str:
+    """A fitted parameter in one line."""
+    which = f" of A{p['accelerometer']}" if p["accelerometer"] else ""
+    return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}"
+
+
+def p_value(log10_p: float | None, value: float) -> str:
+    """A p-value, also where it underflows."""
+    if log10_p is None or math.isinf(log10_p):
+        return "certain"
+    return f"1e{log10_p:.0f}" if log10_p < -6.0 / math.log(10.0) else f"{value:.2g}"
+
+
+def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
+    """The result of ``compare``."""
+    rows = [
+        _error("nominal", c["error"]["nominal"]),
+        _error("calibrated", c["error"]["calibrated"]),
+        _error("held out", c["error"]["holdout"]),
+        _noise(c["noise_floor"]["rms_Eo"]),
+    ]
+    where = c["where"]["motion"]
+    return _fragment(
+        _line(
+            f"{', '.join(flights)}: {c['samples']} samples, effects in the model:"
+            f" {', '.join(c['effects']) or 'none'}"
+        ),
+        _table(ERROR_HEADS, rows),
+        _line(ADEQUATE if c["adequate"] else NOT_ADEQUATE, strong=True),
+        *(
+            [
+                _line("where it fails:"),
+                _table(
+                    ("harmonic", "motion term", "share of the power", "sigma"),
+                    [
+                        (t["harmonic"], t["term"], f"{100 * t['share']:.1f} %", f"{t['z']:+.1f}")
+                        for t in where
+                    ],
+                    words=2,
+                ),
+            ]
+            if where
+            else []
+        ),
+    )
+
+
+def diagnosis(d: Mapping[str, Any]) -> str:
+    """The result of ``diagnose``."""
+    before, after = d["error"]["before"]["rms_Eo"], d["error"]["after"]["rms_Eo"]
+    rows = [
+        (
+            r["effect"],
+            p_value(r["log10_p"], r["p_value"]),
+            number(r["delta_bic"], "{:.1f}"),
+            *(number(r[k]["rms_Eo"]) for k in ("error_before", "error_after", "error_after_holdout")),
+        )
+        for r in d["ranking"][:RANKED]
+    ]
+    parts = [
+        _line(verdict(d["verdict"], d["found"]), strong=True),
+        _line(
+            f"error {number(before)} Eo -> {number(after)} Eo rms,"
+            f" noise floor {number(d['noise_floor']['rms_Eo'])} Eo"
+        ),
+        _table(("effect", "p-value", "delta BIC", "before Eo", "after Eo", "held out Eo"), rows, d["found"]),
+    ]
+    for r in d["ranking"]:
+        if r["effect"] in d["found"]:
+            parts += _values(r["parameters"], r["combinations"])
+            if r["indistinguishable_from"]:
+                parts.append(
+                    _line(f"this record cannot tell it from: {', '.join(r['indistinguishable_from'])}")
+                )
+    if d["verdict"] == "unexplained":
+        terms = [
+            (t["harmonic"], t["term"], f"{t['coefficient']:+.4g}", t["unit"], f"{t['z']:+.1f}")
+            for t in d["unexplained"]["terms"]
+        ]
+        parts += [
+            _line("what is left:"),
+            _table(("harmonic", "motion term", "coefficient", "unit", "sigma"), terms, words=2),
+        ]
+        if d["unexplained"]["expression"]:
+            parts += [
+                _line("to keep it as an effect of your own, put this into effects of model.toml:"),
+                f"<pre>{_escaped(d['unexplained']['expression'])}</pre>",
+            ]
+    if d["not_testable"]:
+        silent = [(n["effect"], n["why"]) for n in d["not_testable"]]
+        parts.append(_folded("not testable on this record", _table(("effect", "why"), silent, words=2)))
+    return _fragment(*parts)
+
+
+def added(a: Mapping[str, Any], effects: Sequence[str], noise: float | None, adequate: bool) -> str:
+    """The result of ``add``; ``noise`` and ``adequate`` are those after it."""
+    parts = [_line(f"added {a['effect']}; effects: {', '.join(effects)}", strong=True)]
+    if a["before"] is not None and a["after"] is not None and noise is not None:
+        rows = [
+            _error("before", a["before"]["calibrated"]),
+            _error("after", a["after"]["calibrated"]),
+            _error("held out", a["after"]["holdout"]),
+            _noise(noise),
+        ]
+        parts += [_table(ERROR_HEADS, rows), _line(NOW_ADEQUATE if adequate else STILL_MISSING)]
+        parts += _values(a["parameters"], a["combinations"])
+    return _fragment(*parts)
+
+
+def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]]) -> str:
+    """A model directory and its history."""
+    rows = []
+    for s in steps:
+        errors = []
+        for key in ("before", "after"):
+            e = s[key]
+            calibrated = e.get("calibrated", e) if e else None
+            errors.append(number(calibrated["rms_Eo"]) if calibrated else "-")
+        rows.append((s["time"], s["action"], s["effect"] or "-", *errors))
+    return _fragment(
+        _line(f"{name}: effects: {', '.join(effects) or 'none'}", strong=True),
+        _table(("when", "step", "effect", "before Eo", "after Eo"), rows, words=3),
+    )
+
+
+def survey(flights: Sequence[Mapping[str, Any]], counted: str, advice: Sequence[str]) -> str:
+    """The result of ``survey``: its records, the counts of verdicts and what is recommended, in sentences."""
+    done = [r for r in flights if "verdict" in r]
+    rows = [
+        (
+            r["flight"],
+            r["verdict"],
+            " ".join(r["found"]),
+            *(number((r["error"][k] or {}).get("rms_Eo")) for k in ("calibrated", "holdout", "after")),
+            number(r["noise_floor"]["rms_Eo"]),
+        )
+        for r in done[:FLIGHTS]
+    ]
+    heads = ("flight", "verdict", "found", "calibrated Eo", "held out Eo", "after Eo", "noise Eo")
+    failed = [(r["flight"], r["error"]["message"].split("\n")[0]) for r in flights if "verdict" not in r]
+    parts = [_line(counted, strong=True), *(_line(text) for text in advice)]
+    if rows:
+        parts.append(_table(heads, rows, words=3))
+    if len(done) > FLIGHTS:
+        parts.append(_line(f"and {len(done) - FLIGHTS} more"))
+    if failed:
+        parts += [_line("flights in error:"), _table(("flight", "what is wrong"), failed, words=2)]
+    return _fragment(*parts)
+
+
+def number(x: float | None, form: str = "{:.4g}") -> str:
+    """A number in four digits; a dash for none."""
+    return "-" if x is None or not math.isfinite(x) else form.format(x)
+
+
+def _error(label: str, e: Mapping[str, Any]) -> tuple[str, ...]:
+    return (label, *(number(e[k]) for k in ERRORS))
+
+
+def _noise(x: float) -> tuple[str, ...]:
+    return ("noise floor", number(x), *[""] * (len(ERRORS) - 1))
+
+
+def _values(parameters: Sequence[Mapping[str, Any]], combined: Sequence[Mapping[str, Any]]) -> list[str]:
+    found = [_line(parameter(p)) for p in parameters]
+    if combined:
+        found.append(_line("of which the record sees only:"))
+        found += [_line(parameter(p)) for p in combined]
+    return found
+
+
+def _escaped(text: object) -> str:
+    """Text of strangers: no markup, no control characters, no marks that turn the line round."""
+    plain = "".join(
+        "\ufffd" if unicodedata.category(c) in ("Cc", "Cf", "Cs", "Co", "Cn") else c for c in str(text)
+    )
+    return html.escape(plain)
+
+
+def _line(text: str, *, strong: bool = False) -> str:
+    weight = "font-weight:600;" if strong else ""
+    return f'<div style="{weight}margin:.2em 0">{_escaped(text)}</div>'
+
+
+def _folded(title: str, content: str) -> str:
+    return f"<details><summary>{_escaped(title)}</summary>{content}</details>"
+
+
+def _table(
+    heads: Sequence[str], rows: Sequence[Sequence[str]], bold: Sequence[str] = (), words: int = 1
+) -> str:
+    """The first ``words`` columns are text, the others numbers; rows that begin with one of ``bold`` are bold."""
+
+    def cells(tag: str, row: Sequence[str]) -> str:
+        return "".join(
+            f'<{tag} style="{_CELL.format("left" if k < words else "right")}">{_escaped(x)}</{tag}>'
+            for k, x in enumerate(row)
+        )
+
+    weight = ("<tr>", '<tr style="font-weight:600">')
+    body = "".join(f"{weight[row[0] in bold]}{cells('td', row)}</tr>" for row in rows)
+    head = f"<thead><tr>{cells('th', heads)}</tr></thead>"
+    return f'<table style="border-collapse:collapse;margin:.4em 0">{head}<tbody>{body}</tbody></table>'
+
+
+def _fragment(*parts: str) -> str:
+    return f'<div class="ragg">{"".join(parts)}</div>'

@@ -1,0 +1,189 @@
+"""Results in notebooks: the words of the terminal, escaped; the example that a newcomer follows, as script and notebook."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from examples import first_notebook
+from ragg_runtime import display, texts, workflow
+from ragg_runtime.survey import Survey
+from ragg_runtime.workflow import Added
+
+EXAMPLES = Path(first_notebook.__file__).parent
+HOSTILE = "<script>alert(1)</script>&\x1b[2J\u202e"
+
+
+class Result:
+    """The demonstration, step by step."""
+
+    def __init__(self, folder: Path) -> None:
+        self.model = workflow.new(folder / "model")
+        self.flights = workflow.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
+        self.before = workflow.compare(self.model, self.flights)
+        self.diagnosis = workflow.diagnose(self.model, self.flights)
+        self.step: Added = workflow.add(self.model, self.diagnosis.found[0], self.flights)
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    return Result(tmp_path_factory.mktemp("display"))
+
+
+class Balanced(HTMLParser):
+    """Every tag is closed in its turn."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.text: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: Any) -> None:
+        self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.text.append(data)
+
+
+def shown(x: Any) -> str:
+    """The text of a result's display, whose markup is checked."""
+    parser = Balanced()
+    parser.feed(x._repr_html_())
+    parser.close()
+    assert not parser.open
+    return "\n".join(parser.text)
+
+
+def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
+    for x, said in (
+        (result.before, texts.compared(result.before, result.flights)),
+        (result.diagnosis, texts.diagnosed(result.diagnosis, Path("m"))),
+        (result.step, texts.added(result.step)),
+    ):
+        text = shown(x)
+        sentences = [
+            line for line in said.split("\n") if re.match(r"\w+ .*(adequate|ADEQUATE)|MISSING|error|  dK1", line)
+        ]  # fmt: skip
+        assert sentences
+        for sentence in sentences:
+            assert sentence.strip() in text
+    assert "demo-flight" in shown(result.before)
+    assert "thermal-scale" in shown(result.diagnosis)
+    assert f"{result.before.calibrated.rms_Eo:.4g}" in shown(result.before)
+    assert f"{result.before.noise_floor:.4g}" in shown(result.before)
+    history = shown(result.step.loaded)
+    assert "thermal-scale" in history
+    assert f"{result.step.after.calibrated.rms_Eo:.4g}" in history if result.step.after else False
+
+
+def test_every_verdict_has_its_words() -> None:
+    assert display.verdict("missing-effect", ["lag", "arm-sag"]) == "MISSING: lag and arm-sag"
+    assert display.verdict("adequate", []).startswith("ADEQUATE")
+    assert display.verdict("unexplained", []).startswith("UNEXPLAINED")
+    with pytest.raises(KeyError):
+        display.verdict("fine", [])
+
+
+def test_what_cannot_be_said_is_a_dash() -> None:
+    assert [display.number(x) for x in (None, float("nan"), float("inf"), 12345.6)] == [
+        "-",
+        "-",
+        "-",
+        "1.235e+04",
+    ]
+    assert display.p_value(-4000.0, 0.0) == "1e-4000"
+    assert display.p_value(None, 0.0) == display.p_value(float("-inf"), 0.0) == "certain"
+    assert display.p_value(-0.3, 0.5) == "0.5"
+
+
+def hostile(x: Any) -> Any:
+    """The same JSON with text of a stranger in it."""
+    if isinstance(x, dict):
+        return {k: v if k == "verdict" else hostile(v) for k, v in x.items()}
+    if isinstance(x, list):
+        return [hostile(v) for v in x]
+    return HOSTILE if isinstance(x, str) else x
+
+
+def test_names_of_strangers_are_escaped(result: Result) -> None:
+    error = {"rms_Eo": 1.0}
+    records = [
+        {"flight": HOSTILE, "verdict": "adequate", "found": [HOSTILE], "noise_floor": error,
+         "error": {"calibrated": error, "holdout": None, "after": error}},
+        {"flight": HOSTILE, "error": {"kind": "input", "message": f"{HOSTILE}\nmore"}},
+    ]  # fmt: skip
+    unexplained = hostile(result.diagnosis.as_json()) | {
+        "verdict": "unexplained",
+        "unexplained": {
+            "terms": [{"harmonic": HOSTILE, "term": HOSTILE, "coefficient": 1.0, "unit": HOSTILE, "z": 5.0}],
+            "expression": HOSTILE,
+        },
+    }
+    steps = hostile([s.as_json() for s in result.step.loaded.directory.history])
+    pages = [
+        display.comparison(hostile(result.before.as_json()), [HOSTILE]),
+        display.diagnosis(hostile(result.diagnosis.as_json())),
+        display.diagnosis(unexplained),
+        display.added(hostile(result.step.as_json()), [HOSTILE], 4.0, True),
+        display.model(HOSTILE, [HOSTILE], steps),
+        display.survey(records, HOSTILE, [HOSTILE]),
+    ]
+    for page in pages:
+        assert "<script" not in page
+        assert html.escape("<script>alert(1)</script>&") in page
+        assert "\x1b" not in page
+        assert "\u202e" not in page
+
+
+def test_a_survey_is_shown_flight_by_flight(result: Result) -> None:
+    error = {k: {"rms_Eo": 8.0} for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+    common = {"file": "", "notes": [], "ranking": [], "not_testable": [], "parameters": []}
+    own = {"verdict": "missing-effect", "found": ["lag"], "indistinguishable": {"lag": []}, "error": error}
+    records = [common | own | {"flight": f"{k:03}", "noise_floor": {"rms_Eo": 2.5}} for k in range(100)]
+    text = shown(Survey(tuple(records)))
+    assert "100 flights: 100 missing an effect" in text
+    assert "recommended: add lag, which 100 of 100 flights ask for" in text
+    assert "and 40 more" in text
+
+
+def test_the_example_runs_and_the_error_falls(tmp_path: Path) -> None:
+    shutil.copy(EXAMPLES / "demo-flight.parquet", tmp_path)
+    environment = os.environ | {"MPLBACKEND": "agg", "PYTHONPATH": str(EXAMPLES.parent)}
+    done = subprocess.run(
+        [sys.executable, "-W", "error", first_notebook.SCRIPT],
+        cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=200, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "missing-effect: thermal-scale" in done.stdout
+    assert "\nadequate; steps so far: new, add\n" in done.stdout
+    fell = re.search(r"([\d.]+) Eo before, ([\d.]+) Eo after", done.stdout)
+    assert fell is not None
+    assert float(fell[2]) < 0.6 * float(fell[1])
+    assert (tmp_path / "first-steps" / "residual.png").stat().st_size > 10_000
+
+
+def test_the_notebook_is_the_script() -> None:
+    committed = first_notebook.NOTEBOOK.read_text("utf-8")
+    assert committed == first_notebook.notebook(first_notebook.SCRIPT.read_text("utf-8")), (
+        "run: python -m examples.first_notebook"
+    )
+    cells = json.loads(committed)["cells"]
+    assert len(cells) > 10
+    assert all(not c.get("outputs") for c in cells)
+    for c in cells:
+        if c["cell_type"] == "code":
+            compile("".join(c["source"]), c["id"], "exec")
+    assert "".join(cells[0]["source"]).startswith("# First steps\n\nA recorded flight")
