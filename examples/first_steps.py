@@ -96,7 +96,7 @@ step
 fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
 for c, label in ((before, "before"), (after, "after")):
     residual = c.residual[0] / c.fitted.k_ggi
-    left.plot(flight.time, residual, lw=0.4, label=f"{label}: {np.std(residual):.2f} Eo")
+    left.plot(flight.time, residual, lw=0.4, label=f"{label}: {c.calibrated.rms_Eo:.2f} Eo rms")
     frequency, density = signal.welch(residual, flight.rate, nperseg=2048)
     right.loglog(frequency[1:], np.sqrt(density[1:]), lw=0.8, label=label)
 left.set(xlabel="time, s", ylabel="residual, Eo")
