@@ -84,10 +84,10 @@ class Ranked:
         return {
             "effect": self.effect,
             "p_value": self.p_value,
-            "log10_p": float(self.log_p / np.log(10.0)),
-            "chi2": self.chi2,
+            "log10_p": _finite(self.log_p / np.log(10.0)),
+            "chi2": _finite(self.chi2),
             "rank": self.rank,
-            "delta_bic": self.delta_bic,
+            "delta_bic": _finite(self.delta_bic),
             "error_before": self.before.as_json(),
             "error_after": self.after.as_json(),
             "error_after_holdout": self.after_holdout.as_json(),
@@ -95,6 +95,11 @@ class Ranked:
             "combinations": [p.as_json() for p in self.combinations],
             "indistinguishable_from": list(self.indistinguishable_from),
         }
+
+
+def _finite(x: float) -> float | None:
+    """``None`` where an effect is certain: JSON knows no infinity."""
+    return float(x) if np.isfinite(x) else None
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,9 @@ FALSE_ALARMS = 0.05
 CERTAIN = -30.0
 """Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
 
+BEYOND = -1e6
+"""The same of an effect that is seen in the values themselves (a saturated output): certain."""
+
 VERDICTS = ("adequate", "missing-effect", "unexplained")
 
 
@@ -209,7 +212,11 @@ def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
 
 
 def _log10_p(r: Mapping[str, Any], effect: str) -> float | None:
-    return next((x["log10_p"] for x in r["ranking"] if x["effect"] == effect), None)
+    """Of one flight; ``None`` if its record does not tell (the effect is far down its ranking)."""
+    for x in r["ranking"]:
+        if x["effect"] == effect:
+            return BEYOND if x["log10_p"] is None else float(x["log10_p"])
+    return None
 
 
 def _terms(done: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, int]]:

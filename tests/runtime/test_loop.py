@@ -131,7 +131,11 @@ def test_saturation_of_the_output_is_recognised() -> None:
     G = s.simulate({}).G_out
     limit = float(np.quantile(np.abs(G), 0.98))
     flight = s.simulate({"saturation": {"V_max": limit}}).flight()
-    assert diagnosed(s, flight).found == ("saturation",)
+    d = diagnosed(s, flight)
+    assert d.found == ("saturation",)
+    first = json.loads(json.dumps(d.as_json(), allow_nan=False))["ranking"][0]  # certain: no infinity in JSON
+    assert (first["effect"], first["p_value"], first["log10_p"]) == ("saturation", 0.0, None)
+    assert "certain" in d._repr_html_()
 
 
 def test_coloured_noise_becomes_white() -> None:

@@ -317,6 +317,14 @@ def test_few_flights_are_chance_many_are_not() -> None:
     assert [(a.effect, a.firm) for a in strong.summary.advice] == [("lag", True)]
 
 
+def test_what_is_seen_in_the_values_themselves_is_certain() -> None:
+    one = record("0", {"saturation": []})
+    one["ranking"][0] |= {"log10_p": None, "delta_bic": None}
+    s = Survey((one, *(record(f"{k}", {}) for k in range(1, 9))))
+    assert [(a.effect, a.firm) for a in s.summary.advice] == [("saturation", True)]
+    json.dumps(s.as_json(), allow_nan=False)
+
+
 def test_an_effect_that_accounts_for_all_flights_is_advised_before_those_that_fit_some() -> None:
     claims: list[dict[str, list[str]]] = [
         {"arm-sag": ["lag"]}, {"cubic-input": ["lag", "arm-sag"]}, {"lag": ["cubic-input"]}, {"lag": []},
