@@ -12,7 +12,7 @@ from benchmarks import RATIO, Row
 
 @dataclass(frozen=True)
 class Timing:
-    """Wall-clock times of one function, s, in the order of the rounds."""
+    """Times of one function, s, in the order of the rounds."""
 
     seconds: tuple[float, ...]
 
@@ -33,11 +33,18 @@ class Timing:
 
 
 def interleaved(
-    functions: Mapping[str, Callable[[], object]], repeats: int, inner: int = 1, warm: bool = True
+    functions: Mapping[str, Callable[[], object]],
+    repeats: int,
+    inner: int = 1,
+    warm: bool = True,
+    clock: Callable[[], float] = time.perf_counter,
+    prime: bool = False,
 ) -> dict[str, Timing]:
     """Call every function once in each of ``repeats`` rounds (``inner`` times in a row, and divide by that).
 
-    ``warm``: call each once before, untimed (compilation, caches).
+    ``warm``: call each once before, untimed (compilation, caches). ``clock``: ``time.process_time`` for work on
+    one core of a machine that others use too. ``prime``: call each once, untimed, before its turn, so that its
+    data are in the caches again.
     """
     if warm:
         for function in functions.values():
@@ -45,10 +52,12 @@ def interleaved(
     times: dict[str, list[float]] = {name: [] for name in functions}
     for _ in range(repeats):
         for name, function in functions.items():
-            start = time.perf_counter()
+            if prime:
+                function()
+            start = clock()
             for _ in range(inner):
                 function()
-            times[name].append((time.perf_counter() - start) / inner)
+            times[name].append((clock() - start) / inner)
     return {name: Timing(tuple(t)) for name, t in times.items()}
 
 

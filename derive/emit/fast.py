@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import sympy as sp
 
-BLOCK = 512
-"""Samples that are evaluated together in C: a few series of them fit into the first cache."""
+BLOCK = 128
+"""Samples that are evaluated together in C: few, so that arithmetic and memory traffic overlap."""
 
 NUMPY_BLOCK = 4096
 """The same in NumPy: large enough to make its calls cheap, small enough for the second cache."""

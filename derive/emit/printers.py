@@ -81,8 +81,9 @@ class _Fused(_C):
                 products.append((sign, factors))
             else:
                 plain.append(sign + factors[0])
-        if not plain:
-            sign, factors = products.pop(0)
+        if not plain:  # a positive one: the others' signs are part of a fused instruction, its own is not
+            first = next((n for n, (sign, _) in enumerate(products) if not sign), 0)
+            sign, factors = products.pop(first)
             plain.append(sign + "*".join(factors))
         total = " + ".join(plain).replace("+ -", "- ")
         for sign, (first, *others) in products:

@@ -11,7 +11,7 @@
 #define FMA(x, y, z) ((x) * (y) + (z))
 #endif
 
-enum { BLOCK = 512 }; /* samples at a time: what is between two loops stays in the first cache */
+enum { BLOCK = 128 }; /* samples at a time: what is between two loops stays in the first cache */
 
 /* x y = *high + *low, exactly. */
 static inline void two_product(double x, double y, double *high, double *low) {
@@ -171,12 +171,12 @@ static void block(size_t j, size_t n, size_t at, const double *restrict t, const
         const double f_tau_yx = x5;
         const double f_tau_yy = x4;
         const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
-        const double f_tau_zy = FMA(cos_psi, f_disc_tau_zy, -beta_x*sin_psi);
+        const double f_tau_zy = FMA(-beta_x, sin_psi, cos_psi*f_disc_tau_zy);
         const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
         const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
         const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
         const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
-        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
         const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
         const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
         const double q_disc_r_x = x3;
@@ -277,12 +277,12 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double f_tau_yx = x5;
         const double f_tau_yy = x4;
         const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
-        const double f_tau_zy = FMA(cos_psi, f_disc_tau_zy, -beta_x*sin_psi);
+        const double f_tau_zy = FMA(-beta_x, sin_psi, cos_psi*f_disc_tau_zy);
         const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
         const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
         const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
         const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
-        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
         const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
         const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
         const double q_disc_r_x = x3;
@@ -303,9 +303,9 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double bar_i_sensed = K1*k_VI;
         const double bar_q_f_yj = bar_i_sensed*(FMA(2.0, K5*q_f_yj, -x11 + x6));
         const double bar_q_f_xj = bar_i_sensed*(FMA(K6, q_f_yj, FMA(2.0, K2*q_f_xj, -x10)));
-        const double bar_q_f_z = bar_i_sensed*(FMA(-K8, q_f_yj, FMA(2.0, K7*q_f_z, -K4*q_f_xj)));
+        const double bar_q_f_z = bar_i_sensed*(FMA(-K8, q_f_yj, FMA(-K4, q_f_xj, 2.0*K7*q_f_z)));
         const double bar_q_f_y = FMA(bar_q_f_yj, sin_psi, bar_q_f_xj*cos_psi);
-        const double bar_q_f_x = FMA(bar_q_f_yj, cos_psi, -bar_q_f_xj*sin_psi);
+        const double bar_q_f_x = FMA(-bar_q_f_xj, sin_psi, bar_q_f_yj*cos_psi);
         const double bar_q_r_y = FMA(M_zy, bar_q_f_z, FMA(M_yy, bar_q_f_y, M_xy*bar_q_f_x));
         const double bar_q_r_x = FMA(M_zx, bar_q_f_z, FMA(M_yx, bar_q_f_y, M_xx*bar_q_f_x));
         const double bar_q_disc_r_x = FMA(bar_q_r_y, sin_psi, bar_q_r_x*cos_psi);
@@ -322,9 +322,9 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double bar_f_tau_xx = bar_i_sensed*f_f_x;
         const double bar_f_r_y = FMA(M_zy, bar_f_f_z, FMA(M_yy, bar_f_f_y, M_xy*bar_f_f_x));
         const double bar_f_r_x = FMA(M_zx, bar_f_f_z, FMA(M_yx, bar_f_f_y, M_xx*bar_f_f_x));
-        const double bar_f_disc_tau_zy = FMA(bar_f_tau_zy, cos_psi, -bar_f_tau_zx*sin_psi);
+        const double bar_f_disc_tau_zy = FMA(-bar_f_tau_zx, sin_psi, bar_f_tau_zy*cos_psi);
         const double bar_f_disc_r_z = FMA(M_zz, bar_f_f_z, FMA(M_yz, bar_f_f_y, M_xz*bar_f_f_x));
-        const double bar_f_disc_r_y = FMA(bar_f_r_y, cos_psi, -bar_f_r_x*sin_psi);
+        const double bar_f_disc_r_y = FMA(-bar_f_r_x, sin_psi, bar_f_r_y*cos_psi);
         const double bar_f_disc_r_x = FMA(bar_f_r_y, sin_psi, bar_f_r_x*cos_psi);
         const double x12 = bar_i_sensed*q_f_xj;
 

@@ -11,7 +11,7 @@
 #define FMA(x, y, z) ((x) * (y) + (z))
 #endif
 
-enum { BLOCK = 512 }; /* samples at a time: what is between two loops stays in the first cache */
+enum { BLOCK = 128 }; /* samples at a time: what is between two loops stays in the first cache */
 
 /* x y = *high + *low, exactly. */
 static inline void two_product(double x, double y, double *high, double *low) {
@@ -243,19 +243,19 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
         const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
         const double M_zz = -Gamma_zz - x0 - x2;
         const double M_xr = FMA(M_xy, sin_phi, M_xx*cos_phi);
-        const double M_xt = FMA(M_xy, cos_phi, -M_xx*sin_phi);
+        const double M_xt = FMA(-M_xx, sin_phi, M_xy*cos_phi);
         const double M_yr = FMA(M_yy, sin_phi, M_yx*cos_phi);
-        const double M_yt = FMA(M_yy, cos_phi, -M_yx*sin_phi);
+        const double M_yt = FMA(-M_yx, sin_phi, M_yy*cos_phi);
         const double M_zr = FMA(M_zy, sin_phi, M_zx*cos_phi);
-        const double M_zt = FMA(M_zy, cos_phi, -M_zx*sin_phi);
+        const double M_zt = FMA(-M_zx, sin_phi, M_zy*cos_phi);
         const double a_r = FMA(a_y, sin_phi, a_x*cos_phi);
-        const double a_t = FMA(a_y, cos_phi, -a_x*sin_phi);
+        const double a_t = FMA(-a_x, sin_phi, a_y*cos_phi);
         const double M_rr = FMA(M_yr, sin_phi, M_xr*cos_phi);
         const double M_rt = FMA(M_yt, sin_phi, M_xt*cos_phi);
         const double M_rz = FMA(M_yz, sin_phi, M_xz*cos_phi);
-        const double M_tr = FMA(M_yr, cos_phi, -M_xr*sin_phi);
-        const double M_tt = FMA(M_yt, cos_phi, -M_xt*sin_phi);
-        const double M_tz = FMA(M_yz, cos_phi, -M_xz*sin_phi);
+        const double M_tr = FMA(-M_xr, sin_phi, M_yr*cos_phi);
+        const double M_tt = FMA(-M_xt, sin_phi, M_yt*cos_phi);
+        const double M_tz = FMA(-M_xz, sin_phi, M_yz*cos_phi);
         G[i] = FMA(a_z, FMA(a_z, c[30], FMA(M_zt, c[36], FMA(M_zr, c[35], FMA(M_tt, c[34], FMA(M_tr, c[33], FMA(M_rt, c[32], FMA(M_rr, c[31], c[3]))))))), FMA(a_t, FMA(a_z, c[23], FMA(a_t, c[22], FMA(M_zt, c[29], FMA(M_zr, c[28], FMA(M_tt, c[27], FMA(M_tr, c[26], FMA(M_rt, c[25], FMA(M_rr, c[24], c[2])))))))), FMA(a_r, FMA(a_z, c[15], FMA(a_t, c[14], FMA(a_r, c[13], FMA(M_zt, c[21], FMA(M_zr, c[20], FMA(M_tt, c[19], FMA(M_tr, c[18], FMA(M_rt, c[17], FMA(M_rr, c[16], c[1]))))))))), FMA(M_zz, c[12], FMA(M_zt, FMA(M_zt, c[48], c[11]), FMA(M_zr, FMA(M_zr, c[47], c[10]), FMA(M_tz, c[9], FMA(M_tt, FMA(M_zt, c[46], FMA(M_tt, c[45], c[8])), FMA(M_tr, FMA(M_zr, c[44], FMA(M_tr, c[43], c[7])), FMA(M_rz, c[6], FMA(M_rt, FMA(M_zt, c[42], FMA(M_tt, c[41], FMA(M_rt, c[40], c[5]))), FMA(M_rr, FMA(M_zr, c[39], FMA(M_tr, c[38], FMA(M_rr, c[37], c[4]))), c[0]))))))))))));
     }
 }

@@ -33,7 +33,7 @@ extern "C" {
 
 #define RAGG_FOLDED_INPUTS 15
 #define RAGG_FOLDED_PARAMETERS 62
-#define RAGG_FOLDED_BLOCK 512 /* samples that are evaluated together */
+#define RAGG_FOLDED_BLOCK 128 /* samples that are evaluated together */
 
 /* G_out over n instants t, s: the same bits for a sample wherever it stands (as long as the compiler contracts
  * no products on its own). angle is the disc angle, rad,

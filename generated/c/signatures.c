@@ -11,7 +11,7 @@
 #define FMA(x, y, z) ((x) * (y) + (z))
 #endif
 
-enum { BLOCK = 512 }; /* samples at a time: what is between two loops stays in the first cache */
+enum { BLOCK = 128 }; /* samples at a time: what is between two loops stays in the first cache */
 
 /* x y = *high + *low, exactly. */
 static inline void two_product(double x, double y, double *high, double *low) {
@@ -171,12 +171,12 @@ static void block(size_t j, size_t n, size_t at, const double *restrict t, const
         const double f_tau_yx = x5;
         const double f_tau_yy = x4;
         const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
-        const double f_tau_zy = FMA(cos_psi, f_disc_tau_zy, -beta_x*sin_psi);
+        const double f_tau_zy = FMA(-beta_x, sin_psi, cos_psi*f_disc_tau_zy);
         const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
         const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
         const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
         const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
-        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
         const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
         const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
         const double q_disc_r_x = x3;
@@ -344,7 +344,7 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
         const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
         const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
-        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(f_f_x, f_tau_yx, -beta_x*f_f_z));
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
         const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
         const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
         const double f_f_o = FMA(f_f_zj, vartheta_x, FMA(-f_f_xj, vartheta_z, f_f_yj));
@@ -397,9 +397,9 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double rate_f_f_xj = FMA(f_tau_xy, rate_f_f_y, FMA(f_tau_xx, rate_f_f_x, FMA(f_f_y, rate_f_tau_xy, f_f_x*rate_f_tau_xx)));
         const double rate_f_tau_yx = x36;
         const double rate_f_tau_yy = x35;
-        const double rate_f_f_yj = FMA(f_tau_yy, rate_f_f_y, FMA(f_tau_yx, rate_f_f_x, FMA(f_f_y, rate_f_tau_yy, FMA(f_f_x, rate_f_tau_yx, -beta_x*rate_f_f_z))));
+        const double rate_f_f_yj = FMA(f_tau_yy, rate_f_f_y, FMA(f_tau_yx, rate_f_f_x, FMA(f_f_y, rate_f_tau_yy, FMA(-beta_x, rate_f_f_z, f_f_x*rate_f_tau_yx))));
         const double rate_f_tau_zx = FMA(-f_disc_tau_zy, rate_sin_psi, -beta_x*rate_cos_psi);
-        const double rate_f_tau_zy = FMA(f_disc_tau_zy, rate_cos_psi, -beta_x*rate_sin_psi);
+        const double rate_f_tau_zy = FMA(-beta_x, rate_sin_psi, f_disc_tau_zy*rate_cos_psi);
         const double rate_f_f_zj = FMA(f_tau_zy, rate_f_f_y, FMA(f_tau_zx, rate_f_f_x, FMA(f_f_y, rate_f_tau_zy, FMA(f_f_x, rate_f_tau_zx, -rate_f_f_z))));
         const double rate_f_f_i = FMA(-rate_f_f_zj, vartheta_y, FMA(rate_f_f_yj, vartheta_z, rate_f_f_xj));
         const double x37 = FMA(-f_tau_zx, vartheta_y, FMA(f_tau_yx, vartheta_z, f_tau_xx));
@@ -420,9 +420,9 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double x41 = 2.0*K5;
         const double bar_q_o_second_order_misalignment = bar_i_vibration_rectification*(FMA(q_f_yj, x41, FMA(-K8, q_f_z, x21)));
         const double x42 = 2.0*K2;
-        const double bar_q_i_second_order_misalignment = bar_i_vibration_rectification*(FMA(q_f_xj, x42, FMA(K6, q_f_yj, -K4*q_f_z)));
+        const double bar_q_i_second_order_misalignment = bar_i_vibration_rectification*(FMA(q_f_xj, x42, FMA(-K4, q_f_z, K6*q_f_yj)));
         const double bar_q_f_y = FMA(bar_q_o_second_order_misalignment, sin_psi, bar_q_i_second_order_misalignment*cos_psi);
-        const double bar_q_f_x = FMA(bar_q_o_second_order_misalignment, cos_psi, -bar_q_i_second_order_misalignment*sin_psi);
+        const double bar_q_f_x = FMA(-bar_q_i_second_order_misalignment, sin_psi, bar_q_o_second_order_misalignment*cos_psi);
         const double bar_q_spin_axis_wobble_tau_zy = bar_q_p_second_order_misalignment*q_f_y;
         const double bar_q_spin_axis_wobble_tau_zx = bar_q_p_second_order_misalignment*q_f_x;
         const double bar_q_spin_axis_wobble_tau_yz = bar_q_o_second_order_misalignment*q_f_z;
@@ -452,7 +452,7 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double bar_f_spin_axis_wobble_r_z = FMA(M_zz, bar_f_f_z, FMA(M_yz, bar_f_f_y, M_xz*bar_f_f_x));
         const double bar_f_spin_axis_wobble_r_y = FMA(M_zy, bar_f_f_z, FMA(M_yy, bar_f_f_y, M_xy*bar_f_f_x));
         const double bar_f_spin_axis_wobble_r_x = FMA(M_zx, bar_f_f_z, FMA(M_yx, bar_f_f_y, M_xx*bar_f_f_x));
-        const double bar_f_disc_r_y = FMA(bar_f_spin_axis_wobble_r_y, cos_psi, -bar_f_spin_axis_wobble_r_x*sin_psi);
+        const double bar_f_disc_r_y = FMA(-bar_f_spin_axis_wobble_r_x, sin_psi, bar_f_spin_axis_wobble_r_y*cos_psi);
         const double bar_f_disc_r_x = FMA(bar_f_spin_axis_wobble_r_y, sin_psi, bar_f_spin_axis_wobble_r_x*cos_psi);
         const double bar_K1_thermal_scale = i_sensed*k_VI;
         const double bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj;
@@ -468,9 +468,9 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double bar_wobble_xz = -x46;
         const double bar_sin_psi = FMA(bar_q_spin_axis_wobble_r_y, q_disc_r_x, FMA(-bar_f_spin_axis_wobble_tau_zy, beta_x, FMA(-bar_f_spin_axis_wobble_tau_zx, f_disc_tau_zy, FMA(-bar_f_spin_axis_wobble_tau_yx, beta_z, FMA(-bar_f_spin_axis_wobble_tau_xy, beta_z, FMA(bar_f_spin_axis_wobble_r_y, f_disc_r_x, FMA(-bar_f_spin_axis_wobble_r_x, f_disc_r_y, -bar_f_spin_axis_wobble_tau_xx + bar_f_spin_axis_wobble_tau_yy - bar_q_spin_axis_wobble_tau_xx + bar_q_spin_axis_wobble_tau_yy)))))));
         const double bar_cos_psi = FMA(bar_q_spin_axis_wobble_r_x, q_disc_r_x, FMA(bar_f_spin_axis_wobble_tau_zy, f_disc_tau_zy, FMA(-bar_f_spin_axis_wobble_tau_zx, beta_x, FMA(bar_f_spin_axis_wobble_tau_yy, beta_z, FMA(-bar_f_spin_axis_wobble_tau_xx, beta_z, FMA(bar_f_spin_axis_wobble_r_y, f_disc_r_y, FMA(bar_f_spin_axis_wobble_r_x, f_disc_r_x, bar_f_spin_axis_wobble_tau_xy + bar_f_spin_axis_wobble_tau_yx + bar_q_spin_axis_wobble_tau_xy + bar_q_spin_axis_wobble_tau_yx)))))));
-        const double bar_sin_phi_true = FMA(bar_sin_psi, cos_j, -bar_cos_psi*sin_j);
+        const double bar_sin_phi_true = FMA(-bar_cos_psi, sin_j, bar_sin_psi*cos_j);
         const double bar_cos_phi_true = FMA(bar_sin_psi, sin_j, bar_cos_psi*cos_j);
-        const double bar_sin_delta_phi = FMA(bar_sin_phi_true, cos_phi, -bar_cos_phi_true*sin_phi);
+        const double bar_sin_delta_phi = FMA(-bar_cos_phi_true, sin_phi, bar_sin_phi_true*cos_phi);
         const double x47 = bar_f_f_z*f_disc_r_z;
         const double bar_M_zz = x47;
         const double x48 = bar_f_f_z*f_r_y;
@@ -491,8 +491,8 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         const double bar_time_offset_omegadot_z = -bar_M_xy + bar_M_yx;
         const double bar_time_offset_omegadot_y = bar_M_xz - bar_M_zx;
         const double bar_time_offset_omegadot_x = -bar_M_yz + bar_M_zy;
-        const double bar_time_offset_omega_z = FMA(bar_M_zy, omega_y, FMA(bar_M_zx, omega_x, FMA(bar_M_yz, omega_y, FMA(-bar_M_yy, x26, FMA(bar_M_xz, omega_x, -bar_M_xx*x26)))));
-        const double bar_time_offset_omega_y = FMA(-bar_M_zz, x24, FMA(bar_M_zy, omega_z, FMA(bar_M_yz, omega_z, FMA(bar_M_yx, omega_x, FMA(bar_M_xy, omega_x, -bar_M_xx*x24)))));
+        const double bar_time_offset_omega_z = FMA(bar_M_zy, omega_y, FMA(bar_M_zx, omega_x, FMA(bar_M_yz, omega_y, FMA(-bar_M_yy, x26, FMA(-bar_M_xx, x26, bar_M_xz*omega_x)))));
+        const double bar_time_offset_omega_y = FMA(-bar_M_zz, x24, FMA(bar_M_zy, omega_z, FMA(bar_M_yz, omega_z, FMA(bar_M_yx, omega_x, FMA(-bar_M_xx, x24, bar_M_xy*omega_x)))));
         const double bar_time_offset_omega_x = FMA(-bar_M_zz, x32, FMA(bar_M_zx, omega_z, FMA(-bar_M_yy, x32, FMA(bar_M_yx, omega_y, FMA(bar_M_xz, omega_z, bar_M_xy*omega_y)))));
         const double bar_time_offset_a_z = bar_f_f_z - bar_q_p_second_order_misalignment;
         const double bar_time_offset_a_y = bar_f_f_y + bar_q_f_y;
@@ -562,7 +562,7 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[17][i] = bar_sin_delta_phi*(FMA(-3.0, cos_phi*x61, x62)); /* encoder-harmonic.c_3 */
         rows[18][i] = bar_sin_delta_phi*(FMA(3.0, sin_phi*x60, -x63)); /* encoder-harmonic.s_3 */
         rows[19][i] = bar_sin_delta_phi*(FMA(-6.0, x60*x61, FMA(sin_phi, sin_phi*sin_phi*sin_phi, cos_phi*cos_phi*cos_phi*cos_phi))); /* encoder-harmonic.c_4 */
-        rows[20][i] = bar_sin_delta_phi*(FMA(4.0, sin_phi*x62, -4.0*cos_phi*x63)); /* encoder-harmonic.s_4 */
+        rows[20][i] = bar_sin_delta_phi*(FMA(-4.0, cos_phi*x63, 4.0*sin_phi*x62)); /* encoder-harmonic.s_4 */
         rows[21][i] = time*x64; /* gain-drift.dK1_dt */
         rows[22][i] = x64; /* gain-step.dK1 */
         rows[23][i] = FMA(-bar_time_offset_omegadot_x, omegadot_x, -bar_time_offset_omega_x*omega_x); /* gyro-scale.s_x */
@@ -570,7 +570,7 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[25][i] = FMA(-bar_time_offset_omegadot_z, omegadot_z, -bar_time_offset_omega_z*omega_z); /* gyro-scale.s_z */
         rows[26][i] = FMA(bar_time_offset_a_z, (omegadot_y - x4), FMA(-bar_time_offset_a_y, x6, bar_time_offset_a_x*x2)); /* imu-lever-arm.l_x */
         rows[27][i] = FMA(-bar_time_offset_a_z, x10, FMA(bar_time_offset_a_y, x8, bar_time_offset_a_x*(omegadot_z - x3))); /* imu-lever-arm.l_y */
-        rows[28][i] = FMA(bar_time_offset_a_z, x11, FMA(bar_time_offset_a_y, (omegadot_x - x9), -bar_time_offset_a_x*x5)); /* imu-lever-arm.l_z */
+        rows[28][i] = FMA(bar_time_offset_a_z, x11, FMA(-bar_time_offset_a_x, x5, bar_time_offset_a_y*(omegadot_x - x9))); /* imu-lever-arm.l_z */
         rows[29][i] = -bar_imu_turn_yz + bar_imu_turn_zy; /* imu-misalignment.e_x */
         rows[30][i] = bar_imu_turn_xz - bar_imu_turn_zx; /* imu-misalignment.e_y */
         rows[31][i] = -bar_imu_turn_xy + bar_imu_turn_yx; /* imu-misalignment.e_z */
@@ -590,7 +590,7 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[45][i] = FMA(f_r_y, x47, FMA(-bar_q_f_y, x68, bar_f_f_y*x69)); /* near-mass.T_yyy */
         rows[46][i] = FMA(-f_r_y, x49, FMA(bar_q_p_second_order_misalignment, x68, bar_f_f_z*x69)); /* near-mass.T_yyz */
         rows[47][i] = x57*fabs(f_f_i); /* odd-quadratic.K_oq */
-        rows[48][i] = bar_i_vibration_rectification*(FMA(f_tau_yy, omegadot_y, FMA(f_tau_yx, omegadot_x, -beta_x*omegadot_z))); /* pendulum-angular.K_pa */
+        rows[48][i] = bar_i_vibration_rectification*(FMA(f_tau_yy, omegadot_y, FMA(-beta_x, omegadot_z, f_tau_yx*omegadot_x))); /* pendulum-angular.K_pa */
         rows[49][i] = bar_i_vibration_rectification*(FMA(-101325.0, (1.0), pressure)); /* pressure-bias.dK0_dp */
         rows[50][i] = FMA(bar_q_p_second_order_misalignment, (f_f_p + q_f_z), FMA(bar_q_o_second_order_misalignment, (f_f_o - q_f_yj), bar_q_i_second_order_misalignment*(f_f_i - q_f_xj))); /* second-order-misalignment.kappa */
         rows[51][i] = FMA(-bar_M_xx, x70, -x71); /* self-gradient.G_xx_roll */

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Protocol
+from typing import Protocol, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,11 @@ BLOCK = 4096
 
 WORTH_A_THREAD = 1 << 16
 """Fewer samples than these are not worth a thread."""
+
+
+def address(x: Array) -> int:
+    """Where an array begins."""
+    return int(x.__array_interface__["data"][0])
 
 
 class Module(Protocol):
@@ -45,16 +50,31 @@ class Module(Protocol):
 
 @dataclass(frozen=True)
 class Case:
-    """Checked arguments."""
+    """Checked arguments: contiguous series, the inputs as rows of a matrix where they came as one."""
 
     t: Array
-    inputs: tuple[Array, ...]
+    inputs: Array | tuple[Array, ...]
     p: Array
     angle: Array | None
+
+    @property
+    def matrix(self) -> Array:
+        """(n_inputs, N)."""
+        return self.inputs if isinstance(self.inputs, np.ndarray) else np.stack(self.inputs)
+
+    @property
+    def addresses(self) -> list[int]:
+        """Where each input series begins."""
+        if isinstance(self.inputs, np.ndarray):
+            first, step = address(self.inputs), self.inputs.strides[0]
+            return [first + step * k for k in range(len(self.inputs))]
+        return [address(x) for x in self.inputs]
 
     def part(self, first: int, last: int) -> Case:
         cut = slice(first, last)
         angle = None if self.angle is None else self.angle[cut]
+        if isinstance(self.inputs, np.ndarray):
+            return Case(self.t[cut], self.inputs[:, cut], self.p, angle)
         return Case(self.t[cut], tuple(x[cut] for x in self.inputs), self.p, angle)
 
 
@@ -77,19 +97,36 @@ class Base:
                 found=len(inputs),
                 expected=f"{len(self.chain.INPUTS)}: {names}",
             )
-        zero: Array | None = None
-        rows: list[Array] = []
-        for name, x in zip(self.chain.INPUTS, inputs, strict=True):
-            if x is None:
-                zero = np.zeros(len(time)) if zero is None else zero
-                rows.append(zero)
-            else:
-                rows.append(_series(x, name, len(time)))
+        rows = inputs if _is_matrix(inputs, len(time)) else self._each(inputs, len(time))
         values = np.ascontiguousarray(p, dtype=np.float64)
         if values.shape != (self.chain.SIZE,):
             raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
         phi = None if angle is None else _series(angle, "angle", len(time))
-        return Case(time, tuple(rows), values, phi)
+        return Case(time, rows, values, phi)
+
+    def _each(self, inputs: Series, length: int) -> tuple[Array, ...]:
+        zero: Array | None = None
+        rows: list[Array] = []
+        for name, x in zip(self.chain.INPUTS, inputs, strict=True):
+            if x is None:
+                zero = np.zeros(length) if zero is None else zero
+                rows.append(zero)
+            else:
+                rows.append(_series(x, name, length))
+        return tuple(rows)
+
+
+def _is_matrix(x: Series, length: int) -> TypeGuard[Array]:
+    """Whether series are the contiguous rows of a float64 matrix, to be used where they lie."""
+    return (
+        isinstance(x, np.ndarray)
+        and x.dtype == np.float64
+        and x.dtype.isnative
+        and x.ndim == 2
+        and x.shape[1] == length
+        and (x.strides[1] == x.itemsize or length <= 1)
+        and x.flags.aligned
+    )
 
 
 def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:

@@ -91,7 +91,7 @@ class Compiled(Base):
         name = "folded" if self.folded else "chain"
 
         def work(c: Case, first: int, last: int) -> None:
-            self.library.series(name, "output", c.t, c.inputs, c.p, c.angle, G[first:last])
+            self.library.series(name, "output", c, G[first:last])
 
         in_parts(case, threads, work)
         return G
@@ -126,7 +126,7 @@ class Compiled(Base):
         def work(c: Case, first: int, last: int) -> None:
             whole = last - first == found.shape[1]
             part = found if whole else np.empty((rows, last - first))
-            self.library.series("chain", function, c.t, c.inputs, c.p, c.angle, part, leading)
+            self.library.series("chain", function, c, part, leading)
             if not whole:
                 found[:, first:last] = part
 
@@ -159,7 +159,7 @@ class Interpreted(Base):
         G = into(out, len(c.t))
         for first, last in cut(len(G), len(G)):
             b = c.part(first, last)
-            G[first:last] = self.folded.output(b.t, np.stack(b.inputs), b.p, b.angle)
+            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle)
         return G
 
     def voltages(
@@ -197,7 +197,7 @@ class Interpreted(Base):
         for first, last in cut(len(c.t), len(c.t)):
             b = c.part(first, last)
             phi = disc_angle(b.t, float(c.p[1])) if b.angle is None else b.angle
-            found[..., first:last] = function(j, b.t, np.cos(phi), np.sin(phi), np.stack(b.inputs), q)
+            found[..., first:last] = function(j, b.t, np.cos(phi), np.sin(phi), b.matrix, q)
 
 
 def _accelerometer(j: int) -> int:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.native.arguments import Case, address
 from ragg_runtime.native.compiler import BuildError
 
 Array = NDArray[np.float64]
@@ -22,30 +23,28 @@ class Library:
             self._library = ctypes.CDLL(str(file))
         except OSError as error:
             raise BuildError(f"the compiled model cannot be loaded: {error}") from None
+        self._functions: dict[tuple[str, str], ctypes._NamedFuncPointer] = {}
 
     def series(
-        self,
-        model: str,
-        function: str,
-        t: Array,
-        inputs: Sequence[Array],
-        p: Array,
-        angle: Array | None,
-        found: Array,
-        leading: Sequence[int] = (),
+        self, model: str, function: str, case: Case, found: Array, leading: Sequence[int] = ()
     ) -> None:
-        """Evaluate a function over N samples into ``found``, (N,) or (rows, N).
-
-        All arrays are contiguous float64 of the lengths that the function wants: this is not looked at again.
-        """
-        pointers = (ctypes.c_void_p * len(inputs))(*(x.ctypes.data for x in inputs))
-        call = getattr(self._library, f"ragg_{model}_{function}")
-        call.restype = None
-        call(
-            *(ctypes.c_size_t(v) for v in (*leading, len(t))),
-            ctypes.c_void_p(t.ctypes.data),
-            pointers,
-            ctypes.c_void_p(p.ctypes.data),
-            ctypes.c_void_p(None if angle is None else angle.ctypes.data),
-            ctypes.c_void_p(found.ctypes.data),
+        """Evaluate a function over N samples into ``found``, contiguous float64, (N,) or (rows, N)."""
+        addresses = case.addresses
+        self._function(model, function, len(leading))(
+            *leading,
+            len(case.t),
+            address(case.t),
+            (ctypes.c_void_p * len(addresses))(*addresses),
+            address(case.p),
+            None if case.angle is None else address(case.angle),
+            address(found),
         )
+
+    def _function(self, model: str, function: str, leading: int) -> ctypes._NamedFuncPointer:
+        call = self._functions.get((model, function))
+        if call is None:
+            call = getattr(self._library, f"ragg_{model}_{function}")
+            call.restype = None
+            call.argtypes = [ctypes.c_size_t] * (leading + 1) + [ctypes.c_void_p] * 5
+            self._functions[model, function] = call
+        return call
