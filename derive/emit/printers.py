@@ -82,8 +82,8 @@ class _Fused(_C):
             else:
                 plain.append(sign + factors[0])
         if not plain:  # a positive one: the others' signs are part of a fused instruction, its own is not
-            first = next((n for n, (sign, _) in enumerate(products) if not sign), 0)
-            sign, factors = products.pop(first)
+            positive = next((n for n, (sign, _) in enumerate(products) if not sign), 0)
+            sign, factors = products.pop(positive)
             plain.append(sign + "*".join(factors))
         total = " + ".join(plain).replace("+ -", "- ")
         for sign, (first, *others) in products:

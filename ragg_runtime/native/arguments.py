@@ -27,7 +27,7 @@ WORTH_A_THREAD = 1 << 16
 
 def address(x: Array) -> int:
     """Where an array begins."""
-    return int(x.__array_interface__["data"][0])
+    return x.ctypes.data
 
 
 class Module(Protocol):
