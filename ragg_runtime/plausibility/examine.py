@@ -146,7 +146,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
                 for j in range(4)
             ]
         )
-        left[:, start : start + _CHUNK] = (rows.data - rows.seen(volts, None)) / eotvos
+        left[:, start : start + _CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
     notes = []
     for name, e in zip(names, left, strict=True):
         mask = spikes(e, p.usable)

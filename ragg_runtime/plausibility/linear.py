@@ -71,11 +71,14 @@ def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
             else:
                 by[name, j + 1] = slope
     found = design.base_columns(model, instrument)
-    columns = [rows.seen(by[c.name, c.accelerometer], c.accelerometer) * (c.scale / eotvos) for c, _ in found]
+    columns = [
+        rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) * (c.scale / eotvos)
+        for c, _ in found
+    ]
     columns += _gradient(rows)
     inner = rows.inner
-    X = np.stack(columns)[:, :, inner].reshape(len(columns), -1)
-    y = ((rows.data - rows.seen(volts, None)) / eotvos)[:, inner].reshape(-1)
+    X = rows.seen(np.stack(columns))[:, :, inner].reshape(len(columns), -1)
+    y = ((rows.data - rows.seen(rows.before_demodulation(volts, None))) / eotvos)[:, inner].reshape(-1)
     theta, kept = robust(X, y)
     left = (y - theta @ X)[kept]
     size = rows.data[:, inner] / eotvos
@@ -91,11 +94,12 @@ def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
 
 
 def _gradient(rows: Rows) -> list[Array]:
-    """Columns (m, n) of a constant gradient where none was recorded."""
+    """Columns of a constant gradient where none was recorded, before demodulation."""
     if rows.gradient_recorded:
         return []
     volts = np.array([0.25, 0.25, -0.25, -0.25])[:, None] * GRADIENT_SCALE
-    return [rows.seen(volts * carrier, None) for carrier in (np.sin(2 * rows.phi), np.cos(2 * rows.phi))]
+    carriers = (np.sin(2 * rows.phi), np.cos(2 * rows.phi))
+    return [rows.before_demodulation(volts * carrier, None) for carrier in carriers]
 
 
 def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_]]:

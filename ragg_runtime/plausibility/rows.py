@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import signal
 
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.evaluate import GRADIENTS, disc_angle
@@ -61,8 +62,8 @@ class Rows:
                 x[n] = self.channels[name]
         return x
 
-    def seen(self, volts: Array, accelerometer: int | None) -> Array:
-        """(m, n) of voltages (4, n), or of one accelerometer's (n,): what the recorded output sees."""
+    def before_demodulation(self, volts: Array, accelerometer: int | None) -> Array:
+        """(4, n) or (1, n): the voltages, or G_out, of voltages (4, n), or of one accelerometer's (n,)."""
         if self.kind == "voltages":
             if accelerometer is None:
                 return volts
@@ -71,12 +72,15 @@ class Rows:
             return full
         signs = np.array([1.0, 1.0, -1.0, -1.0])
         G = signs @ volts if accelerometer is None else signs[accelerometer - 1] * volts
-        if self.kind == "G_out":
-            return np.asarray(G[None])
-        return np.stack([self._low(2 * G * np.sin(2 * self.phi)), self._low(2 * G * np.cos(2 * self.phi))])
+        return np.asarray(G[None])
 
-    def _low(self, x: Array) -> Array:
-        return np.convolve(x, self.taps, mode="same")
+    def seen(self, raw: Array) -> Array:
+        """(..., m, n): what the recorded output sees of :meth:`before_demodulation`."""
+        if self.kind != "channels":
+            return raw
+        carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
+        taps = self.taps.reshape((1,) * (raw.ndim - 1) + (-1,))
+        return np.asarray(signal.oaconvolve(raw * carriers, taps, mode="same", axes=-1))
 
     @property
     def inner(self) -> Mask:
@@ -108,7 +112,7 @@ class Picker:
         there = np.flatnonzero(self.usable[first:last]) + first
         if self.kind == "channels":
             whole = np.arange(first, len(self.usable) if last is None else last)
-            return whole[: max(4 * most, 8 * len(self.taps))]
+            return whole[: max(most, 3 * len(self.taps))]
         return np.asarray(there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)])
 
     def pick(

@@ -40,7 +40,9 @@ class Found:
 
 def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     """The best of each kind of mistake."""
-    found = [*_spin(model, instrument, p), *_shift(model, instrument, p)]
+    found = _shift(model, instrument, p)
+    if p.kind != "channels":  # a demodulator at the wrong rate lets nothing through
+        found += _spin(model, instrument, p)
     if "spin_angle" not in p.flight.channels or p.kind == "channels":
         found += _phase(model, instrument, p)
     return found
@@ -133,8 +135,8 @@ def _shift(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
                 explain(model, instrument, p.pick(p.rows(most=400), output_shift=-k)),
             )
         best = [min(tried, key=lambda k: tried[k][way].share) for way in (0, 1)]
-        waiting = [k + d for k in best for d in (-1, 1) if k + d != 0 and k + d not in tried]
-        waiting = sorted(set(waiting))
+        near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it stands
+        waiting = sorted(near - set(tried))
     if not tried:
         return []
     for way, k in enumerate(best):

@@ -1,0 +1,164 @@
+"""Likely mistakes: named where they are, never where the record is right, whatever effect is hidden in it."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ragg_runtime import load
+from ragg_runtime.errors import UserError
+from ragg_runtime.flight import Flight
+from ragg_runtime.plausibility import examined, likely
+from ragg_runtime.plausibility.linear import explain, shrunken
+from ragg_runtime.plausibility.rows import picker
+from ragg_runtime.reference.scenario import Scenario, scenario
+
+G0 = 9.8
+MODEL = load.packaged()
+
+
+def flown(
+    seed: int, effects: dict[str, Any] | None = None, voltages: bool = False, **options: Any
+) -> tuple[Scenario, Flight]:
+    record_gradient = options.pop("record_gradient", True)
+    s = scenario(seed, duration=300.0, **options)
+    return s, s.simulate(effects or {}, record_gradient=record_gradient).flight(voltages=voltages)
+
+
+def scaled(x: Flight, stem: str, factor: float) -> Flight:
+    return dataclasses.replace(
+        x, channels={n: factor * v if n.rsplit("_", 1)[0] == stem else v for n, v in x.channels.items()}
+    )
+
+
+@pytest.mark.parametrize("trim", ["matched", "table-v"])
+@pytest.mark.parametrize("seed", range(8))
+def test_a_good_flight_is_left_alone(trim: str, seed: int) -> None:
+    for options in (
+        {},
+        {"voltages": True},
+        {"record_gradient": False, "gradient_rms": 20e-9},
+        {"red_corner": 0.05},
+        {"perturbation": 10.0},
+    ):
+        s, x = flown(100 + seed, trim=trim, **options)
+        found = examined(MODEL, s.sheet, x)
+        assert found.notes == ()
+        assert found.valid.all()
+
+
+HIDDEN: dict[str, dict[str, Any]] = {
+    "thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]},
+    "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]},
+    "bias-drift": {"dK0_dt": [2e-8 * G0, 0, 0, 0]},
+    "gain-step": {"dK1": [0, 2e-6, 0, 0], "t_step": 150.0},
+    "imu-lever-arm": {"l_x": 3e-2, "l_y": -2e-2},
+    "imu-misalignment": {"e_x": 3e-3, "e_y": -3e-3, "e_z": 3e-3},
+    "gyro-scale": {"s_x": 1e-2, "s_y": -1e-2},
+    "time-offset": {"delta_t": 1e-2},
+    "spin-phase-offset": {"phi_0": 1e-2},
+    "spin-axis-tilt": {"alpha_x": 1e-3},
+    "encoder-harmonic": {"c_1": 1e-3},
+    "spin-rate-jitter": {"sigma_phi": 1e-5},
+    "quantisation": {"q": 5e-3},
+}
+
+
+@pytest.mark.parametrize("effect", sorted(HIDDEN))
+@pytest.mark.parametrize(("trim", "voltages"), [("matched", False), ("table-v", True)])
+def test_a_hidden_effect_is_no_mistake(effect: str, trim: str, voltages: bool) -> None:
+    s, x = flown(7, {effect: HIDDEN[effect]}, voltages, trim=trim)
+    found = examined(MODEL, s.sheet, x)
+    assert found.notes == ()
+    assert found.valid.all()
+
+
+@pytest.mark.parametrize("trim", ["matched", "table-v"])
+@pytest.mark.parametrize("voltages", [False, True])
+def test_the_mistake_is_named_on_any_instrument_without_a_known_gradient(trim: str, voltages: bool) -> None:
+    s, x = flown(9, None, voltages, trim=trim, record_gradient=False)
+    c = x.channels
+    for wrong, words in (
+        (scaled(x, "a", 1 / G0), "a_x, a_y, a_z are in g, not in m/s^2"),
+        (dataclasses.replace(x, outputs={n: 1e3 * v for n, v in x.outputs.items()}), "in mV, not in V"),
+        (
+            dataclasses.replace(x, channels={**c, "a_x": c["a_z"], "a_z": c["a_x"]}),
+            "a_x and a_z are exchanged",
+        ),
+    ):
+        with pytest.raises(UserError, match="likely mistake") as caught:
+            examined(MODEL, s.sheet, wrong)
+        assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("error", [-0.03, -0.01, 0.004, 0.02])
+def test_the_spin_rate_is_measured(error: float) -> None:
+    s, x = flown(10)
+    sheet = dataclasses.replace(s.sheet, spin_frequency=0.25 * (1 + error))
+    found = likely(MODEL, sheet, picker(x, sheet))
+    assert found is not None
+    rate = float(found.what.split()[4])
+    assert rate == pytest.approx(0.25, rel=1e-6)
+
+
+@pytest.mark.parametrize("samples", [1, -3, 40, -200])
+def test_the_shift_of_the_motion_is_measured(samples: int) -> None:
+    s, x = flown(11)
+    moved = {n: np.roll(v, samples) if n[:2] in ("a_", "om") else v for n, v in x.channels.items()}
+    wrong = dataclasses.replace(x, channels=moved)
+    found = likely(MODEL, s.sheet, picker(wrong, s.sheet))
+    assert found is not None
+    assert found.timing
+    assert f"({abs(samples)} sample" in found.what
+    assert ("late" if samples > 0 else "early") in found.what
+    examined(MODEL, s.sheet, wrong)  # a note, no refusal
+
+
+def test_columns_that_contradict_each_other_are_remarked() -> None:
+    s, x = flown(12)
+    for wrong, words in (
+        (scaled(x, "omegadot", -1.0), "minus the derivative of omega_x"),
+        (scaled(x, "omegadot", 180 / np.pi), "degrees for radians"),
+        (
+            dataclasses.replace(
+                x,
+                channels={
+                    **x.channels,
+                    "omegadot_x": x.channels["omegadot_y"],
+                    "omegadot_y": x.channels["omegadot_x"],
+                },
+            ),
+            "omegadot_x is the derivative of omega_y, not of omega_x",
+        ),
+    ):
+        try:
+            said = "\n".join(examined(MODEL, s.sheet, wrong).notes)
+        except UserError as error:
+            said = str(error)
+        assert words in said
+
+
+def test_the_fit_finds_parameters_and_noise_by_itself() -> None:
+    rng = np.random.default_rng(0)
+    X = rng.normal(size=(10, 1000)) * 10.0 ** np.arange(-4, 6)[:, None]
+    theta = rng.normal(size=10)
+    y = theta @ X + 0.01 * rng.normal(size=1000)
+    found = shrunken(X, y)
+    assert np.std(y - found @ X) == pytest.approx(0.01, rel=0.05)
+    assert found[4:] == pytest.approx(theta[4:], abs=2e-3)
+    assert abs(found[0]) < 1.0  # hardly seen: the prior holds it
+
+
+def test_outliers_do_not_move_the_fit() -> None:
+    s, x = flown(13)
+    rng = np.random.default_rng(1)
+    hit = rng.random(len(x)) < 0.02
+    spoiled = dataclasses.replace(
+        x, outputs={"G_out": np.where(hit, 50 * x.outputs["G_out"], x.outputs["G_out"])}
+    )
+    a, b = (picker(f, s.sheet) for f in (x, spoiled))
+    clean, dirty = explain(MODEL, s.sheet, a.pick(a.rows())), explain(MODEL, s.sheet, b.pick(b.rows()))
+    assert dirty.rms == pytest.approx(clean.rms, rel=0.05)
