@@ -187,7 +187,9 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
         from ragg_runtime.report import compare_html
 
         title = f"{m.name} and {', '.join(x.name for x in read)}"
-        return compare_html(c, title=title, command=_command(), sources=workflow.sources(m, read))
+        return compare_html(
+            c, title=title, command=_command(), sources=workflow.sources(m, read), notes=texts.notes(m, read)
+        )
 
     _write_report(report_file, page)
     _emit(c.as_json() | texts.origin(m, read, _command()), json_file, texts.compared(c, read))
@@ -214,7 +216,9 @@ def diagnose(
         from ragg_runtime.report import diagnose_html
 
         title = f"{m.name} and {', '.join(x.name for x in read)}"
-        return diagnose_html(d, title=title, command=_command(), sources=workflow.sources(m, read))
+        return diagnose_html(
+            d, title=title, command=_command(), sources=workflow.sources(m, read), notes=texts.notes(m, read)
+        )
 
     _write_report(report_file, page)
     _emit(d.as_json() | texts.origin(m, read, _command()), json_file, texts.diagnosed(d, model_dir, read))
@@ -291,10 +295,20 @@ def add(
         history = [s.as_json() for s in result.loaded.directory.history]
         title = f"{m.name}: {effect} added"
         origin = workflow.sources(result.loaded, read)
-        return add_html(history, result.before, result.after, title=title, command=_command(), sources=origin)
+        return add_html(
+            history,
+            result.before,
+            result.after,
+            title=title,
+            command=_command(),
+            sources=origin,
+            notes=texts.notes(result.loaded, read),
+        )
 
     _write_report(report_file, page)
-    _emit(result.as_json() | texts.origin(result.loaded, read, _command()), json_file, texts.added(result))
+    _emit(
+        result.as_json() | texts.origin(result.loaded, read, _command()), json_file, texts.added(result, read)
+    )
 
 
 @cli.command()

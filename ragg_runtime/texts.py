@@ -18,9 +18,14 @@ from ragg_runtime.workflow import Added, Loaded
 def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, object]:
     """What makes a result again (``provenance``), and what the reader did to the flights (``notes``)."""
     return {
-        "notes": [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)],
+        "notes": notes(m, flights),
         "provenance": provenance(command, m.directory, flights, m.model.digest),
     }
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
 
 
 def _error(e: Error) -> str:
@@ -109,7 +114,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
     return "\n".join(lines)
 
 
-def added(a: Added) -> str:
+def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     """The result of ``add``."""
     lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
     if a.before is not None and a.after is not None:
@@ -123,6 +128,7 @@ def added(a: Added) -> str:
             display.NOW_ADEQUATE if a.after.adequate else display.STILL_MISSING,
         ]
         lines += _parameters(a.parameters, a.combinations)
+    lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 

@@ -34,6 +34,7 @@ def add_html(
     title: str,
     command: str,
     sources: Sequence[tuple[str, str]],
+    notes: Sequence[str] = (),
 ) -> str:
     """The report as one HTML document.
 
@@ -67,7 +68,7 @@ def add_html(
         "still": _still(after),
         "digest": f.model.digest,
     }
-    return page.render("add.html.j2", Origin(title, command, sources), context)
+    return page.render("add.html.j2", Origin(title, command, sources, notes), context)
 
 
 def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Comparison) -> str:

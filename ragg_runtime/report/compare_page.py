@@ -12,7 +12,12 @@ from ragg_runtime.report.page import Origin
 
 
 def compare_html(
-    comparison: Comparison, *, title: str, command: str, sources: Sequence[tuple[str, str]]
+    comparison: Comparison,
+    *,
+    title: str,
+    command: str,
+    sources: Sequence[tuple[str, str]],
+    notes: Sequence[str] = (),
 ) -> str:
     """The report as one HTML document.
 
@@ -24,6 +29,8 @@ def compare_html(
         The command line that made it.
     sources
         (name, sha256) of the model file and the flights.
+    notes
+        What was done to the records, or looks odd in them.
     """
     f = comparison.fitted
     context: dict[str, Any] = {
@@ -40,7 +47,7 @@ def compare_html(
         "visibility": parameters.visibility(f),
         "digest": f.model.digest,
     }
-    return page.render("compare.html.j2", Origin(title, command, sources), context)
+    return page.render("compare.html.j2", Origin(title, command, sources, notes), context)
 
 
 def headline(c: Comparison) -> str:

@@ -21,7 +21,12 @@ SHOWN_BARS = 12
 
 
 def diagnose_html(
-    diagnosis: Diagnosis, *, title: str, command: str, sources: Sequence[tuple[str, str]]
+    diagnosis: Diagnosis,
+    *,
+    title: str,
+    command: str,
+    sources: Sequence[tuple[str, str]],
+    notes: Sequence[str] = (),
 ) -> str:
     """The report as one HTML document; parameters as of :func:`ragg_runtime.report.compare_html`."""
     d = diagnosis
@@ -46,7 +51,7 @@ def diagnose_html(
         "sizes": sizes(d),
         "digest": f.model.digest,
     }
-    return page.render("diagnose.html.j2", Origin(title, command, sources), context)
+    return page.render("diagnose.html.j2", Origin(title, command, sources, notes), context)
 
 
 def headline(d: Diagnosis) -> str:

@@ -20,11 +20,14 @@ LIBRARIES = ("numpy", "scipy", "sympy", "matplotlib", "jinja2")
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a report comes from: its title, the command line, and (name, sha256) of every file it read."""
+    """Where a report comes from: its title, the command line, (name, sha256) of every file it read, and what
+    was done to the records or looks odd in them.
+    """
 
     title: str
     command: str
     sources: Sequence[tuple[str, str]]
+    notes: Sequence[str] = ()
 
 
 @cache
@@ -51,6 +54,7 @@ def render(template: str, origin: Origin, context: Mapping[str, Any]) -> str:
             title=origin.title,
             command=origin.command,
             sources=list(origin.sources),
+            notes=list(origin.notes),
             versions=versions(),
             style=Markup(_style()),
             **context,
