@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
@@ -28,11 +30,14 @@ GLITCH = 12.0
 
 _FORETOLD = np.array([1.0, -6.0, 15.0, 0.0, 15.0, -6.0, 1.0]) / 20.0
 
+PART = 1 << 18
+"""Samples that are looked at together in a long record."""
+
 MOST = 0.05
 """Largest fraction of the samples that can be spikes; more of them are no glitches but the signal."""
 
 
-def spikes(residual: Array, valid: Mask) -> Mask:
+def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
     """(N,) bool: the samples of a residual that are spikes.
 
     Parameters
@@ -42,12 +47,19 @@ def spikes(residual: Array, valid: Mask) -> Mask:
     valid
         (N,) bool: False where there is no sample; such samples are never spikes, and neighbours on either
         side of them count as neighbours.
+    part
+        Samples that are looked at together: the memory that a long record takes.
 
     A spike stands off the medians of the samples before and of those after it, to the same side: a step does
     not. It is at most ``WIDEST`` samples wide and ``FAR`` beyond the usual scatter of the whole record and of
     its own stretch of it. Where more than ``MOST`` of the samples would be spikes, none is.
     """
-    found = np.zeros(len(residual), dtype=np.bool_)
+    n = len(residual)
+    found = np.zeros(n, dtype=np.bool_)
+    if n > 2 * part:
+        for rows, inner in _parts(n, part):
+            found[rows][inner] = spikes(residual[rows], valid[rows], n)[inner]
+        return found
     places = np.flatnonzero(valid & np.isfinite(residual))
     if len(places) < 8 * SIDE:
         return found
@@ -76,14 +88,24 @@ def spikes(residual: Array, valid: Mask) -> Mask:
     return found
 
 
-def glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
+def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     """Spikes of a smooth record (N,), and the record with them interpolated.
 
     A glitch is off what its neighbours foretell (a polynomial of the fifth degree through three samples on
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
     within a dozen samples. The largest go first, since they spoil what is foretold of the others.
     """
-    found = np.zeros(len(x), dtype=np.bool_)
+    n = len(x)
+    found = np.zeros(n, dtype=np.bool_)
+    if n > 2 * part:
+        whole = x
+        for rows, inner in _parts(n, part):
+            mask, mended = glitches(x[rows], valid[rows], n)
+            if mask[inner].any():
+                whole = np.array(whole) if whole is x else whole
+                whole[rows][inner] = mended[inner]
+                found[rows][inner] = mask[inner]
+        return found, whole
     places = np.flatnonzero(valid & np.isfinite(x))
     if len(places) < 8 * SIDE:
         return found, x
@@ -120,6 +142,13 @@ def glitches(x: Array, valid: Mask) -> tuple[Mask, Array]:
     mended = np.array(x)
     mended[places] = y
     return found, mended
+
+
+def _parts(n: int, part: int) -> Iterator[tuple[slice, slice]]:
+    """Parts of a long record: rows with some of the neighbours, and the part proper within them."""
+    for start in range(0, n, part):
+        first, last = max(0, start - BLOCK), min(n, start + part + BLOCK)
+        yield slice(first, last), slice(start - first, min(n, start + part) - first)
 
 
 def told(name: str, mask: Mask, time: Array, done: str) -> str:

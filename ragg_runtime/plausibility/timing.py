@@ -23,6 +23,9 @@ FARTHEST = 60.0
 SPIN_RANGE = 0.05
 """Relative error of the spin rate that is looked for."""
 
+LONGEST = 1 << 18
+"""Samples of which a shift is estimated."""
+
 LEAST_PHASE = np.deg2rad(5.0)
 """Angle at the start from which it is a mistake; smaller ones are a matter of calibration (spin-phase-offset)."""
 
@@ -159,10 +162,10 @@ def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
     x = p.flight
     if p.kind == "channels" or x.duration < 3 / instrument.spin_frequency:
         return ()
-    n = len(x)
+    n = min(len(x), LONGEST)
     whole = p.pick(np.arange(n))
     data = whole.data if p.kind == "G_out" else (whole.data[0] - whole.data[1])[None]
-    usable = p.usable
+    usable = p.usable[:n]
     carried = np.where(usable, data[0], 0.0) * np.exp(1j * whole.phi)
     taps = low_pass(x.rate)
     narrow = fft.next_fast_len(n + len(taps))

@@ -66,3 +66,14 @@ def test_glitches_of_smooth_motion_are_interpolated() -> None:
     mask, same = glitches(smooth, ALL)
     assert not mask.any()
     assert same is smooth
+
+
+def test_a_long_record_is_looked_at_in_parts() -> None:
+    e = NOISE.copy()
+    e[PLACES] += 1e3
+    assert np.array_equal(spikes(e, ALL, part=1000), spikes(e, ALL))
+    smooth = np.sin(TIME)
+    smooth[PLACES] += 50
+    whole, parts = glitches(smooth, ALL), glitches(smooth, ALL, part=1000)
+    assert np.array_equal(whole[0], parts[0])
+    assert parts[1] == pytest.approx(whole[1], abs=1e-9)
