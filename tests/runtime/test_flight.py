@@ -270,7 +270,7 @@ T = np.arange(N) / RATE
         (TEXT[: TEXT.rindex(",")], ("line 6", "7", "8")),
         (TEXT.replace("\n0.125,", "\n,"), ("'time'", "missing", "row 3")),
         (TEXT.splitlines()[0] + "\n", ("too few samples", "0 rows")),
-        ("\n".join(TEXT.splitlines()[:2]), ("too few samples", "1 rows")),
+        ("\n".join(TEXT.splitlines()[:2]), ("too few samples", "1 row")),
         ("", ("empty",)),
         ("\n\n", ("no header",)),
         (edited(time=np.full(N, 3.0)), ("stands still", "3 s")),
