@@ -930,6 +930,8 @@ def page() -> str:
         "be handled is handled, and the result says so in its notes (on the terminal, in `notes` of the JSON, in the",
         "report). A likely mistake is recognised by undoing it: the model, which leaves most of the record unexplained",
         "as it stands, explains it then. Where two mistakes would explain a record equally well both are named.",
+        "What no record can tell is not guessed: on an instrument with matched scale factors, of which G_out alone was",
+        "recorded, a specific force 9.8 times too large is made up for by scale factors that match a little better still.",
         "",
         f"{len(rows())} inputs:",
     ]
