@@ -198,10 +198,21 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="WHAT=SIZE",
+    help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
+)
 @_json
 @_report
 def diagnose(
-    model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    model_dir: Path,
+    flights: Sequence[Path],
+    limits: Sequence[str],
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """Which physical effect is missing?"""
     from ragg_runtime import texts, workflow
@@ -210,7 +221,7 @@ def diagnose(
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating, then testing every effect of the catalogue")
-    d = workflow.diagnose(m, read)
+    d = workflow.diagnose(m, read, workflow.motion_limits(m, limits))
 
     def page() -> str:
         from ragg_runtime.report import diagnose_html

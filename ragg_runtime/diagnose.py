@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import comb
@@ -18,7 +18,7 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, design, display
+from ragg_runtime import compare, design, display, next_motion
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
@@ -30,6 +30,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error
+from ragg_runtime.next_motion import Proposal
 from ragg_runtime.segments import BLOCKS
 from ragg_runtime.threads import one_thread
 
@@ -127,6 +128,7 @@ class Diagnosis:
     sizes: tuple[tuple[str, str], ...]
     target: Fitted
     coefficients: Array
+    next_motion: tuple[Proposal, ...]
 
     @property
     def after(self) -> Error:
@@ -180,6 +182,7 @@ class Diagnosis:
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
         }
 
@@ -202,7 +205,11 @@ def _carrier_text(harmonic: str) -> tuple[str, ...]:
 
 @one_thread
 def diagnose(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], extend: Extend | None = None
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
     """Find which of the model's candidate effects the flights need.
 
@@ -213,15 +220,22 @@ def diagnose(
     extend
         Derives the model with the chosen effects in it, for the final, nonlinear check. Without it the
         check is linear.
+    limits
+        Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
     observations = [compare.observe(x, instrument) for x in flights]
     f = compare.fit(model, instrument, observations)
-    return diagnose_fitted(f, flights, extend)
+    return diagnose_fitted(f, flights, extend, limits)
 
 
 @one_thread
-def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None = None) -> Diagnosis:
-    """As :func:`diagnose`, on flights that are already fitted."""
+def diagnose_fitted(
+    f: Fitted,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
+) -> Diagnosis:
+    """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
     output = _output_effects(f, flights)
     field, f, instants = _with_steps(f)
     choice = search.choose(field)
@@ -265,6 +279,7 @@ def diagnose_fitted(f: Fitted, flights: Sequence[Flight], extend: Extend | None 
         tuple(_sizes(f, field)),
         target,
         v,
+        tuple(next_motion.proposals(f, field, next_motion.pairs_of(search.rivals(field, choice)), limits)),
     )
 
 

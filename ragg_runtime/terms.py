@@ -67,10 +67,7 @@ class Dictionary:
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         self.terms: tuple[Term, ...] = tuple(
-            Term(h, c)
-            for c in products
-            for h in harmonics(HIGHEST if len(c) > 1 else HIGHEST_OF_ONE)
-            if h != "const" or c
+            Term(h, c) for c in products for h in harmonics(HIGHEST if len(c) > 1 else HIGHEST_OF_ONE)
         )
         self.first_order = sum(len(t.channels) <= 1 for t in self.terms)
         """Constants and single channels: so many of the terms, the first."""

@@ -105,6 +105,9 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
                 "\n  to keep it as an effect of your own, put this into `effects` of model.toml:",
                 f"  {d.expression()}",
             ]
+    if d.next_motion:
+        lines.append("\n  next motion:")
+        lines += [f"  {p.in_words()}" for p in d.next_motion]
     if d.not_testable:
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]

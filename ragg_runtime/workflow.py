@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -30,11 +30,12 @@ from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
+from ragg_runtime.next_motion import LIMITS
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
-from ragg_runtime.units import RawQuantity
+from ragg_runtime.units import RawQuantity, read_quantity
 
 
 @dataclass(frozen=True)
@@ -138,11 +139,35 @@ def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
     return _compare.compare(m.model, m.instrument, flights)
 
 
-def diagnose(m: Loaded, flights: Sequence[Flight]) -> Diagnosis:
-    """Which physical effect the model lacks."""
-    return _diagnose.diagnose(
-        m.model, m.instrument, flights, lambda model, ids: extend.with_effects(m.instrument, model, ids)
-    )
+def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+
+    def extended(model: Model, ids: Sequence[str]) -> Model:
+        return extend.with_effects(m.instrument, model, ids)
+
+    return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
+
+
+def motion_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
+    """Largest amplitudes of a motion to fly next, SI, from texts such as ``a=50mg`` and ``omega=500deg/h``."""
+    found = dict(LIMITS)
+    for text in texts:
+        name, _, size = text.partition("=")
+        if name not in found or not size:
+            raise UserError(
+                "the limit of a motion cannot be read",
+                where="--limit",
+                found=text,
+                expected="a=50mg or omega=500deg/h",
+            )
+        q = read_quantity(size, f"--limit {name}", count=1)
+        value = m.instrument.units.to_si(
+            np.asarray(q.value), q.unit, "m/s^2" if name == "a" else "rad/s", f"--limit {name}"
+        )
+        if not float(value) > 0.0:
+            raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
+        found[name] = float(value)
+    return MappingProxyType(found)
 
 
 def survey(

@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 FAMILY = 0.03
 """Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
 
+FURTHER = 0.005
+"""The same for each effect beside the first: a chance companion would spoil what is found."""
+
 MOST = 4
 """Most effects that are claimed at once."""
 
@@ -108,9 +111,9 @@ class Choice:
     chi2: float
 
 
-def significant(t: Test, count: int) -> bool:
+def significant(t: Test, count: int, family: float = FAMILY) -> bool:
     """Whether a test of one of ``count`` effects is significant over the family."""
-    return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(FAMILY)
+    return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
 
 
 def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
@@ -124,7 +127,7 @@ def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
         ranked = sorted((t.log_p, e) for e, t in remaining.items() if e not in exclude)
-        if not ranked or not significant(remaining[ranked[0][1]], count):
+        if not ranked or not significant(remaining[ranked[0][1]], count, FURTHER if chosen else FAMILY):
             break
         best = ranked[0][1]
         chosen.append(best)

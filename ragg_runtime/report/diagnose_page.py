@@ -48,6 +48,7 @@ def diagnose_html(
         "combined": effect_rows(d, parameters.by_combination),
         "patterns": [name for name, _ in parameters.PATTERNS],
         "not_testable": [(n.effect, n.why) for n in d.not_testable],
+        "next_motion": [words.clean(p.in_words()) for p in d.next_motion],
         "sizes": sizes(d),
         "digest": f.model.digest,
     }
