@@ -37,8 +37,19 @@ lint: $(STAMP)  ## style, types, layers
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-bench: $(STAMP)  ## measure speed, as ratios within one run
-	$(BIN)/python -m benchmarks
+# The rivals of the evaluation are optional: one that cannot be installed here is reported as missing.
+RIVALS := .venv-bench/.complete
+$(RIVALS): requirements.lock pyproject.toml
+	$(PYTHON) -m venv .venv-bench
+	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	@for name in casadi heyoka jax numba symforce statsmodels; do \
+	  .venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -c requirements.lock $$name \
+	    || echo "$$name cannot be installed here"; done
+	@touch $@
+
+bench: $(RIVALS)  ## measure speed, as ratios within one run (below 10 minutes; docs/benchmarks.md)
+	.venv-bench/bin/python -m benchmarks
 
 # The other methods want older versions of the numerical packages than the lock: an environment of their own.
 PEERS := .venv-peers/.complete

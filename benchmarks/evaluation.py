@@ -192,4 +192,4 @@ def threads(t: Any, x: Any, p: Any, cores: int) -> list[Row]:
     )
     r = ratio(times["1"], times[str(cores)])
     name = f"one thread / {cores} threads, streaming"
-    return [Row(name, r.value, RATIO, "same bits", low=r.low, high=r.high, better="higher")]
+    return [Row(name, r.value, RATIO, "wall clock; same bits", low=r.low, high=r.high, better="higher")]

@@ -226,6 +226,7 @@ def casadi(code: Program, f: float) -> Rival:
 
 def symforce(code: Program, f: float) -> Rival:
     """C++ by symforce's code generator, without the headers that scalars do not need."""
+    importlib.import_module("symforce").set_epsilon_to_number()  # there is nothing singular; it asks for one
     sf = importlib.import_module("symforce.symbolic")
     codegen = importlib.import_module("symforce.codegen")
     inputs = [sf.Symbol(n) for n in ("cos_phi", "sin_phi", *INPUTS)]
