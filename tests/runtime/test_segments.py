@@ -1,0 +1,114 @@
+"""Long flights: worked on in segments and from disk, with the figures of the whole."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ragg_runtime import calibrate, compare, load, passes
+from ragg_runtime.diagnose import diagnose
+from ragg_runtime.evidence import work
+from ragg_runtime.flight import Flight, files, read_flight, write_flight
+from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.segments import BLOCKS, segments
+
+G0 = 9.8
+
+
+@pytest.fixture(scope="module")
+def flown() -> tuple[Scenario, Flight]:
+    s = scenario(61, duration=600.0)
+    return s, s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
+
+
+@pytest.mark.parametrize("samples", [24, 1000, 32768, 40000, 360_000, 8_640_000])
+def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
+    found = segments(samples)
+    assert [s.rows.start for s in found] == [0, *(s.rows.stop for s in found[:-1])]
+    assert found[-1].rows.stop == samples
+    assert max(s.rows.stop - s.rows.start for s in found) <= 32768
+    blocks = [b for s in found for b in s.blocks]
+    assert [rows.start for _, rows in blocks] == [0, *(rows.stop for _, rows in blocks[:-1])]
+    assert sorted({b for b, _ in blocks}) == list(range(BLOCKS))
+
+
+@pytest.mark.parametrize("gap", [False, True])
+def test_the_division_leaves_no_trace(
+    flown: tuple[Scenario, Flight], gap: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The same noise, calibration and evidence, from one segment and from many, to 1e-8."""
+    s, flight = flown
+    if gap:
+        valid = np.ones(len(flight.time), dtype=bool)
+        valid[4000:4130] = False
+        flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
+    o = compare.observe(flight, s.sheet)
+    whole = compare.fit(load.packaged(), s.sheet, [o])
+    for module in (passes, work):
+        monkeypatch.setattr(module, "ROWS", 1700)
+    monkeypatch.setattr(calibrate, "WHITE_SEGMENTS", 1000)
+    assert len(passes.flight_segments(o)) > 5
+    parts = compare.fit(load.packaged(), s.sheet, [o], whole.calibration.noise)
+    scale = np.array([c.scale for c in whole.calibration.columns])
+    moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
+    assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
+    effects = compare.testable_effects(whole)
+    expected, found = (f.field(effects).tests() for f in (whole, parts))
+    for e in effects:
+        assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-6, abs=1e-6)
+    zero = np.zeros(whole.size)
+    for a, b in zip(whole.score([zero]), parts.score([zero]), strict=True):
+        for name in ("rms_V", "rms_Eo", "inline_Eo", "cross_Eo"):
+            assert getattr(b.whole, name) == pytest.approx(getattr(a.whole, name), rel=1e-8)
+            assert getattr(b.held_out, name) == pytest.approx(getattr(a.held_out, name), rel=1e-8)
+    np.testing.assert_allclose(
+        parts.residuals(np.zeros(parts.n_base))[0], whole.residuals(zero[: whole.n_base])[0], atol=1e-9
+    )
+    a, b = compare.remainder(whole), compare.remainder(parts)
+    assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
+    assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
+
+
+@pytest.mark.parametrize("kind", ["parquet", "csv", "nc"])
+def test_a_flight_on_disk_is_the_flight_in_memory(
+    flown: tuple[Scenario, Flight], kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, flight = flown
+    path = tmp_path / f"flight.{kind}"
+    write_flight(flight, path)
+    expected = read_flight(path, G0)
+    monkeypatch.setattr(files, "IN_MEMORY", 100_000)
+    monkeypatch.setattr(files, "PART", 2000)
+    found = read_flight(path, G0)
+    base = found.time.base
+    while base is not None and not isinstance(base, np.memmap):
+        base = base.base
+    assert base is not None
+    np.testing.assert_array_equal(found.time, expected.time)
+    np.testing.assert_array_equal(found.valid, expected.valid)
+    for group in ("channels", "outputs"):
+        a, b = getattr(expected, group), getattr(found, group)
+        assert set(a) == set(b)
+        for n in a:
+            np.testing.assert_array_equal(b[n], a[n])
+    assert (found.name, found.digest, found.units) == (expected.name, expected.digest, expected.units)
+
+
+def test_the_diagnosis_of_a_flight_on_disk_is_the_same_to_the_last_digit(
+    flown: tuple[Scenario, Flight], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    s, flight = flown
+    path = tmp_path / "flight.parquet"
+    write_flight(flight, path)
+    for module in (passes, work, compare):
+        monkeypatch.setattr(module, "ROWS", 4000)
+    said = []
+    for most in (1 << 30, 100_000):
+        monkeypatch.setattr(files, "IN_MEMORY", most)
+        d = diagnose(load.packaged(), s.sheet, [read_flight(path, G0)])
+        assert d.found == ("thermal-scale",)
+        said.append(json.dumps(d.as_json()))
+    assert said[0] == said[1]
