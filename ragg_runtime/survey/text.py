@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -110,10 +111,9 @@ def recommended(s: Survey, model_dir: Path | str) -> list[str]:
         lines.append(f"in so few flights that it may be chance: {names}")
     firm = [a for a in x.advice if a.firm]
     if firm:
-        lines.append(
-            f"next: ragg add {model_dir} {firm[0].effect} {' '.join(map(_quoted, firm[0].flights[:3]))}"
-            f"{' ...' if len(firm[0].flights) > 3 else ''}"
-        )
+        files = [_place(r) for r in s.done if r["flight"] in firm[0].flights]
+        more = " ..." if len(files) > 3 else ""
+        lines.append(f"next: ragg add {model_dir} {firm[0].effect} {' '.join(files[:3])}{more}")
     elif not x.advice and s.done and not x.counts["unexplained"]:
         lines.append("The model is adequate for every flight that was diagnosed.")
     if x.counts["unexplained"]:
@@ -131,7 +131,8 @@ def advised(a: Advice, done: int) -> str:
     return f"add {a.effect}, which {len(a.flights)} of {done} flights ask for{other}"
 
 
-def _quoted(flight: str) -> str:
-    import shlex
-
-    return shlex.quote(clean(flight))
+def _place(r: Mapping[str, Any]) -> str:
+    """Where a flight is, from here if it is below, as a shell wants it."""
+    path = Path(r["file"])
+    below = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
+    return shlex.quote(clean(str(below)))
