@@ -48,6 +48,7 @@ class Grid:
     jitters: bool = False
 
 
+@np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
 def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | None = None) -> Grid:
     """The grid of a record's instants (n,), s.
 
@@ -76,6 +77,13 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
         raise _not_increasing(time, steps, where, first_row)
     if step is None:
         step = _step(steps)
+    if not (time[-1] - time[0]) / step < 2.0**53:
+        raise UserError(
+            "the record is not uniformly sampled",
+            where=where,
+            found=f"steps of {step:.6g} s in a record of {time[-1] - time[0]:.6g} s",
+            remedy="resample the record to a constant rate",
+        )
     # A gap of more samples than memory holds is refused below, whatever their number.
     jumps = np.rint(np.minimum(steps / step, 2.0**31)).astype(np.int64)
     deviation = np.abs(steps - jumps * step) / step
@@ -133,7 +141,7 @@ def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None
         size += size // 2
     k = np.rint((time - first) / step)
     off = np.abs(time - first - k * step) / step
-    if np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
+    if not np.max(np.abs(k)) < 2.0**53 or np.any(np.diff(k) < 1) or np.max(off) > JITTER_TRACKED:
         return None
     return (k - k[0]).astype(np.int64), off[1:]
 

@@ -25,6 +25,9 @@ from ragg_runtime.survey.task import Job, Record, examine, fingerprint
 PATIENCE = 5.0
 """How long the scheduler, and then its first worker, is waited for, s."""
 
+RECONNECTED = 20.0
+"""How long a scheduler whose connection broke is waited for, s."""
+
 WITHOUT_WORKERS = 60.0
 """How long a survey waits for a worker when all are gone, s."""
 
@@ -43,8 +46,20 @@ def examined(job: Job, files: Sequence[str], address: str) -> Generator[tuple[st
         try:
             for file, future in zip(files, futures, strict=True):
                 future.add_done_callback(lambda f, file=file: done.put((file, f)))
-            for _ in files:
+            waiting, again = len(futures), dict.fromkeys(files, 0)
+            while waiting:
                 file, future = _next(client, address, done)
+                # A client that has lost its scheduler for a moment cancels everything; the flights are done again.
+                if future.status == "cancelled" and again[file] < ATTEMPTS and _connected(client):
+                    again[file] += 1
+                    name = f"ragg-survey-again-{again[file]}-{files.index(file)}"
+                    anew = client.submit(
+                        partial(examine, job), file, pure=False, retries=ATTEMPTS - 1, key=name
+                    )
+                    anew.add_done_callback(lambda f, file=file: done.put((file, f)))
+                    futures.append(anew)
+                    continue
+                waiting -= 1
                 yield file, _record(client, address, file, future)
         finally:
             with contextlib.suppress(Exception):
@@ -64,6 +79,14 @@ def _record(client: Any, address: str, file: str, future: Any) -> Record:
     raise _gone(address)  # cancelled: the scheduler has forgotten it
 
 
+def _connected(client: Any) -> bool:
+    """Whether the scheduler is there, or comes back within ``RECONNECTED``."""
+    until = time.monotonic() + RECONNECTED
+    while client.status == "connecting" and time.monotonic() < until:
+        time.sleep(0.2)
+    return bool(client.status == "running")
+
+
 def lost_worker(file: str) -> Record:
     """The record of a flight at which worker after worker died."""
     return lost(file, RuntimeError("every worker that was given the flight died (out of memory, or killed)"))
@@ -74,7 +97,7 @@ def _next(client: Any, address: str, done: queue.Queue[tuple[str, Any]]) -> tupl
     while True:
         with contextlib.suppress(queue.Empty):
             return done.get(timeout=1.0)
-        if client.status != "running":
+        if not _connected(client):
             raise _gone(address)
         try:
             workers = client.nthreads()
