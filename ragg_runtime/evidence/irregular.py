@@ -73,7 +73,9 @@ class BlockScores:
         good = good[: self.count]
         if blocks < 2 or not good.any():
             return None
-        variance = self.norm2[used] * (self.square[used] / self.rows[used])[:, None]
+        # over the whole the residual is as loud as its noise model says; blocks may be louder or quieter
+        level = self.square[used] / self.rows[used] / (np.sum(self.square) / np.sum(self.rows))
+        variance = self.norm2[used] * level[:, None]
         chi2 = np.sum(self.dot[used] ** 2 / np.where(variance > 0.0, variance, np.inf), axis=0)
         chi2 = np.where(good, chi2, 0.0)
         k = int(np.argmax(chi2))

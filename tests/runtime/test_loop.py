@@ -15,6 +15,7 @@ import pytest
 from derive.expression import ExpressionError, from_expression
 from ragg_runtime import extend, load, workflow
 from ragg_runtime.compare import compare
+from ragg_runtime.demodulate import demodulate
 from ragg_runtime.diagnose import Diagnosis, diagnose
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.model_toml import write_instrument
@@ -124,6 +125,29 @@ def test_voltages_gaps_and_several_flights() -> None:
     assert diagnosed(s, broken).found == ("cubic-input",)
     halves = [run.flight().part(slice(0, 4800)), run.flight().part(slice(4800, 9600))]
     assert "cubic-input" in claimed(diagnosed(s, *halves))
+
+
+@pytest.mark.parametrize("hidden", [False, True])
+def test_demodulated_channels_alone_tell_as_much_as_they_can(hidden: bool) -> None:
+    s = scenario(73, duration=600.0)
+    effects = {"thermal-scale": {"dK1_dT": [0, 0, 1e-6, 0]}} if hidden else {}
+    whole = s.simulate(effects).flight()
+    a = s.sheet.accelerometers
+    k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (s.sheet.radius + a["dR"])))
+    phi = 2 * np.pi * s.sheet.spin_frequency * whole.time
+    c = demodulate(whole.outputs["G_out"], phi, whole.rate, k_ggi)
+    inline, cross = np.full(len(phi), np.nan), np.full(len(phi), np.nan)
+    inline[c.valid], cross[c.valid] = c.inline, c.cross
+    channels = dataclasses.replace(
+        whole, outputs={"inline": inline, "cross": cross}, valid=np.isfinite(inline), units={}
+    )
+    d = diagnosed(s, channels)
+    if hidden:
+        assert d.verdict == "missing-effect"
+        assert "thermal-scale" in claimed(d)
+        assert d.after.inline_Eo < 0.01 * d.before.inline_Eo
+    else:
+        assert (d.verdict, d.found) == ("adequate", ())
 
 
 def test_saturation_of_the_output_is_recognised() -> None:
