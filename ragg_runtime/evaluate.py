@@ -99,7 +99,7 @@ class Record:
         for x in wide.values():
             x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
-        let_go(*self.wide.values(), self.valid)
+        let_go(*self.wide.values(), self.valid, self.time)
         return Record(
             np.array(self.time[rows]), wide, self.rate, valid, self.spin_frequency, (a - first, last - b)
         )
@@ -137,7 +137,8 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
 
 def record(flight: Flight, instrument: Instrument) -> Record:
     """What of this flight enters a model of this instrument."""
-    time = flight.time - flight.time[0]
+    # a long flight's columns stay on disk, unless they have to be shifted
+    time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
     return Record(time, flight.channels, flight.rate, flight.valid, instrument.spin_frequency)
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 BLOCKS = 24
 """Stretches of time of which each keeps a triangle of its own."""
 
-ROWS = 32768
+ROWS = 30000
 """Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""
 
 
