@@ -26,6 +26,7 @@ from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
@@ -131,7 +132,7 @@ def _loaded(directory: ModelDir) -> Loaded:
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
     """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [examined(m.model, m.instrument, read_flight(p, m.instrument.g0)) for p in paths]
+    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
 
 
 def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:

@@ -69,7 +69,6 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
         found: dict[str, Array] = {n: np.memmap(p, dtype=np.float64, mode="r") for n, p in places.items()}
     finally:
         shutil.rmtree(folder)  # what is mapped stays until it is let go
-    _trim()
     told = list(notes)
     if len(told) > NOTES:
         told = [*told[:NOTES], f"and {len(told) - NOTES} further notes of this kind"]
@@ -86,12 +85,14 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
     )
 
 
-def _trim() -> None:
-    """Give back what reading has left of the memory."""
+def settled(flight: Flight) -> Flight:
+    """The flight, once it has been read and examined: what that has left of the memory is given back."""
+    let_go(flight.time, flight.valid, *flight.channels.values(), *flight.outputs.values())
     pa.default_memory_pool().release_unused()
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
     if trim is not None:
         trim(0)
+    return flight
 
 
 def let_go(*arrays: Array | Mask) -> None:
