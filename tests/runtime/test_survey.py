@@ -39,7 +39,19 @@ def whole(flights: Flights) -> Survey:
 
 def ragg(*arguments: object, **options: Any) -> subprocess.Popen[str]:
     words = [sys.executable, "-m", "ragg_runtime", *map(str, arguments)]
-    return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen(
+        words,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=_interruptible,
+        **options,
+    )
+
+
+def _interruptible() -> None:
+    """A test run in the background of a shell has Ctrl-C switched off, and its children with it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> None:
