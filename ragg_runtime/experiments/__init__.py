@@ -6,22 +6,3 @@ Gradiometer*: a test mass about a perfect instrument (Section III.A), an imperfe
 53 stands for the instrument, the derived analytical and simplified models for themselves. Nothing is tuned:
 where the paper leaves an input open, the choice is said, and what depends on it is shown.
 """
-
-from __future__ import annotations
-
-from ragg_runtime.experiments.dynamic import Dynamic, dynamic
-from ragg_runtime.experiments.multifrequency import MultiFrequency, multifrequency
-from ragg_runtime.experiments.result import Printed, Row, Table
-from ragg_runtime.experiments.turbulence import Turbulence, turbulence
-
-__all__ = [
-    "Dynamic",
-    "MultiFrequency",
-    "Printed",
-    "Row",
-    "Table",
-    "Turbulence",
-    "dynamic",
-    "multifrequency",
-    "turbulence",
-]

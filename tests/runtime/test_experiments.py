@@ -13,16 +13,16 @@ import pytest
 from click.testing import CliRunner
 
 from ragg_runtime.errors import UserError
-from ragg_runtime.experiments import Dynamic, MultiFrequency, Printed, Turbulence, paper
+from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.command import experiment
-from ragg_runtime.experiments.dynamic import dynamic
+from ragg_runtime.experiments.dynamic import Dynamic, dynamic
 from ragg_runtime.experiments.dynamic_checks import WholeAttraction, model_difference
 from ragg_runtime.experiments.models import ANGLES_DROPPED, channels, error, output, over_turns
-from ragg_runtime.experiments.multifrequency import multifrequency
+from ragg_runtime.experiments.multifrequency import MultiFrequency, multifrequency
 from ragg_runtime.experiments.page import DEFAULT, page
 from ragg_runtime.experiments.regular import WITH_MASS, regular_run
-from ragg_runtime.experiments.result import Row, judge
-from ragg_runtime.experiments.turbulence import turbulence
+from ragg_runtime.experiments.result import Printed, Row, judge
+from ragg_runtime.experiments.turbulence import Turbulence, turbulence
 from ragg_runtime.experiments.turbulence_checks import _noise_for, statistics
 from ragg_runtime.experiments.turbulent import gaussian, turbulent_motion, turbulent_run
 from ragg_runtime.experiments.vartheta_x import response, smallest_angles, with_angles
