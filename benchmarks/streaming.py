@@ -52,7 +52,7 @@ def run() -> list[Row]:
 
     candidates = likelihood.grouped(design.candidate_columns(f.model, f.instrument))
     tested = compare.testable_effects(f)
-    columns = np.concatenate([p.white.copy() for p in f.flown[0].pieces()], axis=1)
+    columns = np.concatenate([*f.flown[0].each(lambda p: p.white)], axis=1)
 
     @one_thread
     def ours() -> None:
@@ -98,7 +98,7 @@ def run() -> list[Row]:
 
     short = simulated(m.instrument, hidden, seed=1, duration=300.0, rate=16.0)
     f = compare.fit(m.model, m.instrument, [compare.observe(short, m.instrument)])
-    (piece,) = f.flown[0].pieces()
+    (piece,) = f.flown[0].each(lambda p: p)
     X, y = piece.columns[:, 0, :], piece.residual[0]
     n = X.shape[1]
     psd = f.flown[0].noise.models[0].psd(np.fft.rfftfreq(2 * n, 1 / 16.0))

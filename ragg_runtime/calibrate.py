@@ -19,7 +19,7 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor, vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.passes import Noise, Point, flight_segments, pieces
+from ragg_runtime.passes import Noise, Piece, Point, flight_segments, passed
 from ragg_runtime.segments import Segment
 from ragg_runtime.whiten import NoiseModel, estimate
 
@@ -82,24 +82,34 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     found: list[list[Array]] = [[] for _ in o.series]
     squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
     share = []
-    for piece in pieces(at, o, plain, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
+
+    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]]] | None:
         valid = piece.observation.record.valid
         if np.sum(valid) < SHORTEST:
-            continue
-        share.append(float(np.mean(valid)))
+            return None
         taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
-        for m, flat in enumerate(np.split(piece.white, len(o.series), axis=1)):
+        outputs = []
+        for flat in np.split(piece.white, len(o.series), axis=1):
             X, y = flat[:-1], flat[-1]
             X = X[np.any(X != 0.0, axis=1)]
             solution, rank = _least_squares(X, y)
-            left = y - X.T @ solution
+            rest = y - X.T @ solution
             # The fit takes as many degrees of freedom as it has columns.
             e = np.zeros(len(valid))
-            e[valid] = left * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
-            found[m].append(e)
+            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
             gain = design.noise_gain(r.rate) if o.kind == "channels" else 1.0
-            squares[m] += float(np.sum(left**2)) / gain
-            freedom[m] += len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
+            free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
+            outputs.append((e, float(np.sum(rest**2)) / gain, free))
+        return float(np.mean(valid)), outputs
+
+    for part in passed(at, o, plain, left, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
+        if part is None:
+            continue
+        share.append(part[0])
+        for m, (e, square, free) in enumerate(part[1]):
+            found[m].append(e)
+            squares[m] += square
+            freedom[m] += free
     models, filters = [], []
     for m, e_m in enumerate(found):
         if o.kind == "channels":
@@ -161,13 +171,14 @@ def fit(
         at = Point(model, instrument, p.copy(), with_candidates=False)
         triangles, rows = [], 0
         for k, o in enumerate(observations):
-            if known is None:
-                passed = pieces(at, o, _white(o, eotvos), chosen=spread(flight_segments(o), WHITE_SEGMENTS))
-            else:
-                passed = pieces(at, o, known[k])
-            for piece in passed:
-                rows += piece.white.shape[1]
-                triangles.append(design.triangle(piece.white))
+            noise_k, chosen = (
+                (_white(o, eotvos), spread(flight_segments(o), WHITE_SEGMENTS))
+                if known is None
+                else (known[k], None)
+            )
+            for T, count in passed(at, o, noise_k, _triangle, chosen=chosen):
+                rows += count
+                triangles.append(T)
         step, covariance = solve(design.join(triangles), (nominal[index] - p[index]) / scale, n)
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
         # they are where the signatures are evaluated.
@@ -181,6 +192,10 @@ def fit(
             break
     assert known is not None
     return Calibration(p, columns, index, covariance, tuple(known), rows)
+
+
+def _triangle(piece: Piece) -> tuple[Array, int]:
+    return design.triangle(piece.white), piece.white.shape[1]
 
 
 def solve(R: Array, to_nominal: Array, n: int) -> tuple[Array, Array]:

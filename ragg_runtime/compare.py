@@ -58,6 +58,33 @@ class Scored:
 
 
 @dataclass(frozen=True)
+class _Counted:
+    """Of one segment: residuals (k, N), V; disc angle, samples selected (2, N); sums in every block of time."""
+
+    e: Array
+    phi: Array
+    selected: NDArray[np.bool_]
+    squares: Array
+    samples: Array
+
+
+def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -> _Counted:
+    r = piece.observation.record
+    e = piece.left(V)
+    if further is not None:
+        e = np.concatenate([e, further(piece)])
+    squares, samples = np.zeros((BLOCKS, len(e))), np.zeros(BLOCKS)
+    scored = np.zeros(len(r.time), dtype=np.bool_)
+    for b, rows in piece.segment.blocks:
+        here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+        scored[here] = b not in FITTED_BLOCKS
+        v = r.valid[here]
+        squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
+        samples[b] = np.sum(v)
+    return _Counted(e, r.phi, np.stack([r.valid, r.valid & scored]), squares, samples)
+
+
+@dataclass(frozen=True)
 class Fitted:
     """A model fitted to flights, and everything that evidence is read from.
 
@@ -128,7 +155,7 @@ class Fitted:
     def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
         """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
         v = self.vector(coefficients, extra)[None]
-        return [np.concatenate([p.left(v)[0] for p in x.pieces(whitened=False)]) for x in self.flown]
+        return [np.concatenate([*x.each(lambda p: p.left(v)[0], whitened=False)]) for x in self.flown]
 
     def score(
         self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
@@ -143,19 +170,10 @@ class Fitted:
         for n, x in enumerate(self.flown):
             tally = Tally(k, 2, x.observation.record.rate)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
-            for piece in x.pieces(whitened=False):
-                r = piece.observation.record
-                e = piece.left(V)
-                if further is not None:
-                    e = np.concatenate([e, further(piece)])
-                scored = np.zeros(len(r.time), dtype=np.bool_)
-                for b, rows in piece.segment.blocks:
-                    here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-                    scored[here] = b not in FITTED_BLOCKS
-                    v = r.valid[here]
-                    squares[b] += np.sum(e[:, here][:, v] ** 2, axis=1)
-                    samples[b] += np.sum(v)
-                tally.add(e, r.phi, np.stack([r.valid, r.valid & scored]))
+            for part in x.each(lambda piece: _counted(piece, V, further), whitened=False):
+                squares += part.squares
+                samples += part.samples
+                tally.add(part.e, part.phi, part.selected)
             tallies.append(tally)
             some = samples > 0
             blocks[n, some] = np.sqrt(squares[some] / samples[some, None])
@@ -261,8 +279,8 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     found = []
     for x, triangles in zip(f.flown, f.triangles, strict=True):
         scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
-        for piece in x.pieces():
-            scores.add(piece)
+        for sums in x.each(scores.of):
+            scores.sums.join(sums)
         found.append(omnibus.choose(scores))
     return Remainder(tuple(found))
 
@@ -294,7 +312,7 @@ class Comparison:
         """(N,) V of every flight, with the values as they were given."""
         f = self.fitted
         return [
-            np.concatenate([nominal_residual(f, self.nominal_values, p) for p in x.pieces(whitened=False)])
+            np.concatenate([*x.each(lambda p: nominal_residual(f, self.nominal_values, p), whitened=False)])
             for x in f.flown
         ]
 
@@ -370,10 +388,13 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
         counted += 1
         squares, samples = dict.fromkeys(total, 0.0), 0
         tail = np.empty((len(total), 0))
-        for piece in x.pieces(whitened=False):
+
+        def mix(piece: Piece) -> Array:
             r = piece.observation.record
             e = np.where(r.valid, piece.left(coefficients[None])[0], 0.0) / f.k_ggi
-            mixed = np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
+            return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
+
+        for mixed in x.each(mix, whitened=False):
             mixed = np.concatenate([tail, mixed], axis=1)
             if mixed.shape[1] >= len(taps):
                 low = oaconvolve(mixed, taps[None], mode="valid", axes=1)

@@ -24,13 +24,16 @@ from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
+from ragg_runtime.evidence.omnibus import Sums
 from ragg_runtime.evidence.search import Choice, Field
-from ragg_runtime.evidence.work import Flown
+from ragg_runtime.evidence.special import Variance
+from ragg_runtime.evidence.work import Flown, Projector
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error
 from ragg_runtime.next_motion import Proposal
+from ragg_runtime.passes import Piece
 from ragg_runtime.segments import BLOCKS
 from ragg_runtime.threads import one_thread
 
@@ -149,7 +152,7 @@ class Diagnosis:
     def residual_after(self) -> list[Array]:
         """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
         v = self.coefficients[None]
-        return [np.concatenate([p.left(v)[0] for p in x.pieces(whitened=False)]) for x in self.target.flown]
+        return [np.concatenate([*x.each(lambda p: p.left(v)[0], whitened=False)]) for x in self.target.flown]
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in what remains (see :func:`ragg_runtime.compare.terms_json`)."""
@@ -358,39 +361,55 @@ def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
 
 def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
     """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
-    searches, counted = [], []
+    searches = []
+    counted: dict[str, list[Variance]] = {}
     for x, triangles in zip(f.flown, f.triangles, strict=True):
-        projector = work.projector(triangles, f.n_base, given)
-        scores = omnibus.Scores(x, projector)
-        variances = _variances(f)
-        for piece in x.pieces():
-            scores.add(piece)
-            y = projector.left(piece, projector.basis(piece))
-            for v in variances.values():
-                v.add(piece, y)
-        counted.append(variances)
+        scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
+        variances = _variances(f, scores.projector)
+
+        def both(
+            piece: Piece, scores: omnibus.Scores = scores, variances: Variances = variances
+        ) -> tuple[Sums, dict[str, Variance]]:
+            return scores.of(piece), variances(piece)
+
+        for sums, found in x.each(both):
+            scores.sums.join(sums)
+            for e, v in found.items():
+                counted.setdefault(e, []).append(v)
         searches.append(omnibus.choose(scores))
-    tests = {e: special.pooled([v[e] for v in counted]).test() for e in counted[0]}
-    return Remainder(tuple(searches)), tests
+    return Remainder(tuple(searches)), {e: special.pooled(v).test() for e, v in counted.items()}
 
 
 def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
     """Tests of random effects: is the residual larger where the output is more sensitive to them?"""
-    counted = []
-    if not _variances(f):
+    counted: dict[str, list[Variance]] = {}
+    if not _random_columns(f):
         return {}
     for x, triangles in zip(f.flown, f.triangles, strict=True):
-        projector = work.projector(triangles, f.n_base, given)
-        variances = _variances(f)
-        for piece in x.pieces():
-            y = projector.left(piece, projector.basis(piece))
-            for v in variances.values():
-                v.add(piece, y)
-        counted.append(variances)
-    return {e: special.pooled([v[e] for v in counted]).test() for e in counted[0]}
+        for found in x.each(_variances(f, work.projector(triangles, f.n_base, given))):
+            for e, v in found.items():
+                counted.setdefault(e, []).append(v)
+    return {e: special.pooled(v).test() for e, v in counted.items()}
 
 
-def _variances(f: Fitted) -> dict[str, special.Variance]:
+Variances = Callable[[Piece], dict[str, Variance]]
+
+
+def _variances(f: Fitted, projector: Projector) -> Variances:
+    """The sums of a segment for the test of every random effect."""
+    columns = _random_columns(f)
+
+    def of(piece: Piece) -> dict[str, Variance]:
+        if not columns:
+            return {}
+        y = projector.left(piece, projector.basis(piece))
+        return {e: Variance.of(piece, place, y) for e, place in columns.items()}
+
+    return of
+
+
+def _random_columns(f: Fitted) -> dict[str, int]:
+    """The place of every random effect's column."""
     if any(o.kind == "channels" for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent
     columns = design.candidate_columns(f.model, f.instrument)
@@ -398,7 +417,7 @@ def _variances(f: Fitted) -> dict[str, special.Variance]:
     for e in f.model.candidates:
         own = [n for n, c in enumerate(columns) if c.effect == e.id]
         if e.kind == "random" and own:
-            found[e.id] = special.Variance(f.n_base + own[0])
+            found[e.id] = f.n_base + own[0]
     return found
 
 

@@ -20,9 +20,12 @@ from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import Record
 from ragg_runtime.evidence.search import Field
 from ragg_runtime.passes import linearised
+from ragg_runtime.threads import mapped
 from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
+Motion = tuple[str, float, float]
+"""Axis, frequency, Hz, and amplitude, SI."""
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 """Frequencies that are tried, over the spin frequency."""
@@ -105,26 +108,31 @@ def proposals(
     if not known:
         return []
     signals = {e: _signal(f, field, e) for e, _ in known}
-    best: dict[tuple[str, str], Proposal] = {}
-    spin = f.instrument.spin_frequency
-    quiet = _rows(f, None, 0.0, 0.0)
-    for axis in AXES:
-        for ratio in RATIOS:
-            frequency = ratio * spin
-            if frequency > 0.2 * f.flown[0].observation.record.rate:
-                continue
-            amplitude = limits["a" if axis.startswith("a_") else "omega"]
-            rows = np.vstack([f.whole, _rows(f, axis, frequency, amplitude)])
-            for e, r in known:
-                then = _separation(rows, f.n_base, field, signals[e], r)
-                if (e, r) not in best or then > best[e, r].then:
-                    now = _separation(f.whole, f.n_base, field, signals[e], r)
-                    best[e, r] = Proposal(e, r, axis, ratio, frequency, amplitude, DURATION, now, then)
-    # a longer record of what there is already gains something as well: only more than that is a reason
-    still = np.vstack([f.whole, quiet])
-    return [
-        p for (e, r), p in best.items() if p.then > 1.05 * _separation(still, f.n_base, field, signals[e], r)
+    needed = {n for pair in known for e in pair for n, _ in field.candidates[e]}
+    places = [*range(f.n_base), *(f.n_base + n for n in sorted(needed))]
+
+    def separations(motion: Motion | None) -> list[float]:
+        rows = np.vstack([f.whole, _rows(f, motion, places)])
+        return [_separation(rows, f.n_base, field, signals[e], r) for e, r in known]
+
+    spin, rate = f.instrument.spin_frequency, f.flown[0].observation.record.rate
+    motions = [
+        (axis, ratio, limits["a" if axis.startswith("a_") else "omega"])
+        for axis in AXES
+        for ratio in RATIOS
+        if ratio * spin <= 0.2 * rate
     ]
+    # a longer record of what there is already gains something as well: only more than that is a reason
+    still, *flown = mapped(separations, [None, *((axis, k * spin, size) for axis, k, size in motions)])
+    found = []
+    for n, (e, r) in enumerate(known):
+        best = max(range(len(motions)), key=lambda m: flown[m][n], default=None)
+        if best is None or flown[best][n] <= 1.05 * still[n]:
+            continue
+        axis, ratio, size = motions[best]
+        now = _separation(f.whole, f.n_base, field, signals[e], r)
+        found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, flown[best][n]))
+    return found
 
 
 def _signal(f: Fitted, field: Field, effect: str) -> Array:
@@ -146,8 +154,11 @@ def _separation(rows: Array, n_base: int, field: Field, signal: Array, rival: st
     return float(abs(T[-1, -1]))
 
 
-def _rows(f: Fitted, axis: str | None, frequency: float, amplitude: float) -> Array:
-    """Triangle of the whitened columns of a motion about the flight's mean, weighted for ``DURATION``."""
+def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
+    """Triangle of the whitened columns of a motion about the flight's mean, weighted for ``DURATION``.
+
+    (len(places), size + 1): only the columns at ``places`` are there, the others are zero.
+    """
     flown = f.flown[0]
     o = flown.observation
     n = int(SIMULATED * o.record.rate)
@@ -158,7 +169,8 @@ def _rows(f: Fitted, axis: str | None, frequency: float, amplitude: float) -> Ar
         for name, x in first.channels.items()
         if name != "spin_angle"
     }
-    if axis is not None:
+    if motion is not None:
+        axis, frequency, amplitude = motion
         phase = 2 * np.pi * frequency * time
         channels[axis] = channels[axis] + amplitude * np.sin(phase)
         if axis.startswith("omega_"):
@@ -167,9 +179,9 @@ def _rows(f: Fitted, axis: str | None, frequency: float, amplitude: float) -> Ar
     r = Record(time, channels, o.record.rate, np.ones(n, dtype=np.bool_), f.instrument.spin_frequency)
     made = Observation(o.kind, r, (np.zeros(n),) * len(o.series), "motion")
     columns = linearised(flown.at, made)
-    columns[-1] = 0.0
-    white = [filtered(columns[:, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
-    T = design.triangle(np.concatenate(white, axis=1))
+    white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
+    T = np.zeros((len(places), len(columns)))
+    T[:, places] = design.triangle(np.concatenate(white, axis=1))
     return np.asarray(np.sqrt(DURATION / SIMULATED) * T)
 
 

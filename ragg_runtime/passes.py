@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,11 @@ from ragg_runtime.gradient import Window
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Chain, Model
 from ragg_runtime.segments import ROWS, Segment, segments
+from ragg_runtime.threads import mapped
 from ragg_runtime.whiten import NoiseModel, filtered
 
 Array = NDArray[np.float64]
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -188,37 +191,49 @@ def linearised(at: Point, o: Observation) -> Array:
     return columns
 
 
-def pieces(
+def passed(
     at: Point,
     o: Observation,
     noise: Noise,
+    work: Callable[[Piece], R],
     *,
     chosen: Sequence[Segment] | None = None,
     whitened: bool = True,
-) -> Iterator[Piece]:
-    """The segments of a flight, in order. A piece of several is emptied when the next one is asked for.
+) -> Iterator[R]:
+    """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
 
     ``chosen`` are some of the segments: then filters of more than one tap start from rest in each. If
-    ``whitened`` is not wanted, the columns alone are made.
+    ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several.
     """
     n_base = len(design.base_columns(at.model, at.instrument))
     found = flight_segments(o) if chosen is None else chosen
-    memory = max(len(t) for t in noise.filters) - 1
-    tail: Array | None = None
-    for s, part, columns in _ahead(at, o, found):
+    memory = max(len(t) for t in noise.filters) - 1 if whitened and chosen is None else 0
+    tails: list[Future[Array | None]] = [Future() for _ in found]
+
+    def one(k: int) -> R:
+        s = found[k]
+        part = o.part(s.rows)
+        columns = linearised(at, part)
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         windows = gradient.windows(o, s.rows, noise.filters)
         if whitened:
+            tail = tails[k - 1].result() if memory and k else None  # the segment before was begun before
+            tails[k].set_result(_carried(tail, columns, memory))
+            tails[k - 1] = Future()  # the memory is free again
             flat = _white(columns, noise, tail, part.record.valid)
             gradient.project(flat, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
-            tail = _carried(tail, columns, memory) if chosen is None else None
-        piece = Piece(s, part, columns, n_base, flat, sample, windows)
-        del columns, flat
-        yield piece
-        if len(found) > 1:  # the next segment needs the room
-            for name in ("columns", "white"):
-                object.__setattr__(piece, name, None)
+        return work(Piece(s, part, columns, n_base, flat, sample, windows))
+
+    def guarded(k: int) -> R:
+        try:
+            return one(k)
+        except BaseException as error:
+            if not tails[k].done():
+                tails[k].set_exception(error)
+            raise
+
+    return mapped(guarded, range(len(found)))
 
 
 def _white(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
@@ -228,28 +243,6 @@ def _white(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.b
         y = filtered(columns[:, m], taps, None if tail is None else tail[:, m])
         rows.append(y if valid.all() else y[:, valid])
     return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
-
-
-def _ahead(
-    at: Point, o: Observation, chosen: Sequence[Segment]
-) -> Iterator[tuple[Segment, Observation, Array]]:
-    """Segments with their columns; the next one is computed while this one is worked on."""
-
-    def made(s: Segment) -> tuple[Segment, Observation, Array]:
-        part = o.part(s.rows)
-        return s, part, linearised(at, part)
-
-    if len(chosen) == 1:
-        yield made(chosen[0])
-        return
-    with ThreadPoolExecutor(1) as pool:
-        waiting = pool.submit(made, chosen[0])
-        for following in [*chosen[1:], None]:
-            done = waiting.result()
-            if following is not None:
-                waiting = pool.submit(made, following)
-            yield done
-            del done
 
 
 def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:

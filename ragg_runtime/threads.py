@@ -1,9 +1,18 @@
-"""The same figures on any machine of a kind, however many cores it has."""
+"""Threads, and the same figures however many of them there are.
+
+Work that is divided (segments of a flight, motions to compare) is given back in the order in which it was
+asked for, and only then summed; linear algebra runs in one thread, because BLAS splits its sums by the
+number of threads.
+"""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import ParamSpec, TypeVar
 
 import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
@@ -11,6 +20,55 @@ import threadpoolctl
 
 P = ParamSpec("P")
 R = TypeVar("R")
+T = TypeVar("T")
+
+VARIABLE = "RAGG_THREADS"
+"""Environment variable: the number of threads (default: one a processor, at most ``MOST``)."""
+
+MOST = 2
+"""Most threads unless asked for: each takes some 150 MB on a long flight."""
+
+_here = threading.local()
+
+
+def count() -> int:
+    """How many threads the work may be divided among; one within work that is divided already."""
+    if getattr(_here, "divided", False):
+        return 1
+    given = os.environ.get(VARIABLE, "")
+    if given.isdigit() and int(given) > 0:
+        return int(given)
+    return min(
+        MOST, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
+
+
+def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
+    """``function`` of every item, in order, several at a time; few are begun before they are asked for.
+
+    Items are begun in order: one may wait for what those before it do.
+    """
+    threads = count()
+    if threads == 1 or len(items) == 1:
+        yield from map(function, items)
+        return
+
+    def alone(item: T) -> R:
+        _here.divided = True
+        return function(item)
+
+    with ThreadPoolExecutor(threads) as pool:
+        waiting: deque[Future[R]] = deque()
+        try:
+            for item in items:
+                waiting.append(pool.submit(alone, item))
+                if len(waiting) > threads:
+                    yield waiting.popleft().result()
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            for future in waiting:
+                future.cancel()
 
 
 def one_thread(function: Callable[P, R]) -> Callable[P, R]:

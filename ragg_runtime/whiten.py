@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, interpolate, optimize, signal
 
+from ragg_runtime.threads import count
+
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
 
@@ -182,10 +184,11 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None) -> Floats
     size = fft.next_fast_len(max(before + n, n + reach - 1), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
     result = np.empty_like(columns)
+    threads = count()
     for start in range(0, len(columns), GROUP):
         part = columns[start : start + GROUP]
         if tail is not None:
             part = np.concatenate([tail[start : start + GROUP], part], axis=1)
-        y = fft.irfft(fft.rfft(part, size, axis=1, workers=2) * gain, size, axis=1, workers=2)
+        y = fft.irfft(fft.rfft(part, size, axis=1, workers=threads) * gain, size, axis=1, workers=threads)
         result[start : start + GROUP] = y[:, before : before + n]
     return result

@@ -82,7 +82,7 @@ class Bench:
         self.fitted = fitted
         self.simulation = simulation
         self.noise = fitted.flown[0].noise
-        (self.piece,) = fitted.flown[0].pieces()  # short flights are one piece
+        (self.piece,) = fitted.flown[0].each(lambda p: p)  # short flights are one piece
         self.columns = design.candidate_columns(fitted.model, fitted.instrument)
         self._base = self.basis(())
 

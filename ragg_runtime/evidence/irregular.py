@@ -40,12 +40,17 @@ class Varying:
 
 
 class BlockScores:
-    """Scores of some terms in every block of time."""
+    """Scores of some terms in every block of time: sums over segments."""
 
     def __init__(self, count: int) -> None:
         self.count = count
         self.dot, self.norm2 = np.zeros((BLOCKS, count)), np.zeros((BLOCKS, count))
         self.square, self.rows = np.zeros(BLOCKS), np.zeros(BLOCKS)
+
+    def join(self, other: BlockScores) -> None:
+        """Count in the sums of further segments."""
+        for name in ("dot", "norm2", "square", "rows"):
+            getattr(self, name)[...] += getattr(other, name)
 
     def level(self, piece: Piece, y: Array) -> None:
         """Count in the residual of a segment, (rows,)."""
@@ -101,6 +106,11 @@ class Periodogram:
         self.length, self.rate, self.excluded = length, rate, excluded
         self.sum = np.zeros(length // 2 + 1)
         self.count = 0
+
+    def join(self, other: Periodogram) -> None:
+        """Count in further segments."""
+        self.sum += other.sum
+        self.count += other.count
 
     def add(self, piece: Piece, y: Array) -> None:
         """Count in a segment; ``y`` (rows,) holds one output after the other."""

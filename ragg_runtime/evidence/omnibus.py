@@ -91,54 +91,82 @@ class Omnibus:
         return bool(self.log_p < np.log(FAMILY))
 
 
+class Sums:
+    """What the search needs of every term: sums over segments."""
+
+    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
+        self.dot = np.zeros(terms)
+        self.along = np.zeros((terms, basis))
+        self.norm2 = np.zeros(terms)
+        self.raw = np.zeros((2, terms))
+        self.samples = 0
+        self.square = 0.0
+        self.blocks, self.spectrum = blocks, spectrum
+
+    def join(self, other: Sums) -> None:
+        """Count in the sums of further segments."""
+        for name in ("dot", "along", "norm2", "raw"):
+            getattr(self, name)[...] += getattr(other, name)
+        self.samples += other.samples
+        self.square += other.square
+        self.blocks.join(other.blocks)
+        self.spectrum.join(other.spectrum)
+
+
 class Scores:
-    """Sums over segments of what the search needs of every term."""
+    """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
 
     def __init__(self, flown: Flown, projector: Projector) -> None:
         self.flown, self.projector = flown, projector
-        self.dictionary = Dictionary(flown.observation.record)
-        count = len(self.dictionary.terms)
-        self.dot = np.zeros(count)
-        self.along = np.zeros((count, len(projector.along)))
-        self.norm2 = np.zeros(count)
-        self.raw = np.zeros((2, count))
-        self.samples = 0
-        self.square = 0.0
-        self.blocks = BlockScores(self.dictionary.first_order)
         o = flown.observation
-        excluded = None
+        self.dictionary = Dictionary(o.record)
+        self._excluded = None
         if gradient.unknown(o):  # there nothing is left of the noise either
             double = 2 * o.record.spin_frequency
-            excluded = (double - 2 / gradient.KNOT_SECONDS, double + 2 / gradient.KNOT_SECONDS)
-        longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
-        self.spectrum = Periodogram(longest, o.record.rate, excluded)
+            self._excluded = (double - 2 / gradient.KNOT_SECONDS, double + 2 / gradient.KNOT_SECONDS)
+        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self.sums = self._zero()
 
-    def add(self, piece: Piece) -> None:
-        """Count one segment in."""
+    def _zero(self) -> Sums:
+        return Sums(
+            len(self.dictionary.terms),
+            len(self.projector.along),
+            BlockScores(self.dictionary.first_order),
+            Periodogram(self._longest, self.flown.observation.record.rate, self._excluded),
+        )
+
+    def of(self, piece: Piece) -> Sums:
+        """The sums of one segment."""
+        s = self._zero()
         Q = self.projector.basis(piece)
         y = self.projector.left(piece, Q)
-        self.square += float(y @ y)
-        self.samples += int(np.sum(piece.observation.record.valid))
+        s.square = float(y @ y)
+        s.samples = int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
-        self.blocks.level(piece, y)
-        self.spectrum.add(piece, y)
+        s.blocks.level(piece, y)
+        s.spectrum.add(piece, y)
         for at, x, X in self._whitened(piece, None):
             inner = X.astype(np.float64) @ right
-            self.dot[at] += inner[:, 0]
-            self.along[at] += inner[:, 1:]
-            self.norm2[at] += np.einsum("ij,ij->i", X, X, dtype=np.float64)
-            self.blocks.add(piece, y, at, X)
-            self.raw[0, at] += np.sum(x, axis=1, dtype=np.float64)
-            self.raw[1, at] += np.einsum("ij,ij->i", x, x, dtype=np.float64)
+            s.dot[at] = inner[:, 0]
+            s.along[at] = inner[:, 1:]
+            s.norm2[at] = np.einsum("ij,ij->i", X, X, dtype=np.float64)
+            s.blocks.add(piece, y, at, X)
+            s.raw[0, at] = np.sum(x, axis=1, dtype=np.float64)
+            s.raw[1, at] = np.einsum("ij,ij->i", x, x, dtype=np.float64)
+        return s
 
     def gram(self, places: Sequence[int]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
         terms = [self.dictionary.terms[k] for k in places]
         G = np.zeros((len(terms), len(terms)))
-        for piece in self.flown.pieces():
+
+        def inner(piece: Piece) -> Array:
             X = np.concatenate([X for _, _, X in self._whitened(piece, terms)])
-            G += X @ X.T
-        A = self.along[list(places)]
+            return np.asarray(X @ X.T)
+
+        for part in self.flown.each(inner):
+            G += part
+        A = self.sums.along[list(places)]
         return G - A @ A.T
 
     def _whitened(
@@ -178,12 +206,12 @@ def choose(s: Scores) -> Omnibus:
 
 def _varying(s: Scores) -> tuple[float, Found] | None:
     # Terms that the model has, with one coefficient for the whole flight, may vary as well as any other.
-    v = s.blocks.best(s.norm2 > 0.0)
+    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
     if v is None:
         return None
     term = s.dictionary.terms[v.place]
     size = s.dictionary.size(term)
-    mean_square = v.coefficient**2 * float(s.raw[1, v.place]) / max(s.samples, 1)
+    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
     z = float(np.sqrt(v.chi2))
     found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying")
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
@@ -192,13 +220,13 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
 def _line(s: Scores) -> tuple[float, Found] | None:
     if s.flown.observation.kind == "channels":
         return None  # their noise is only white within the demodulator's band
-    line = s.spectrum.best()
+    line = s.sums.spectrum.best()
     if line is None:
         return None
     # back from the whitened residual: the noise's own density at the line
     volts2 = sum(float(m.psd(np.array([line.frequency]))[0]) for m in s.flown.noise.models)
     mean_square = line.share * volts2 * s.flown.observation.record.rate / 2
-    chi2 = line.share * s.square
+    chi2 = line.share * s.sums.square
     found = Found(
         Term(f"line {line.frequency:.5g} Hz", ()),
         float(np.sqrt(2 * mean_square)),
@@ -213,15 +241,15 @@ def _line(s: Scores) -> tuple[float, Found] | None:
 
 def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
-    left2 = s.norm2 - np.einsum("ij,ij->i", s.along, s.along)
+    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
     # in single precision a column that is nearly all in the base has no direction of its own left
-    good = left2 > 1e-6 * s.norm2
+    good = left2 > 1e-6 * s.sums.norm2
     norm = np.sqrt(np.where(good, left2, np.inf))
     tried = int(np.sum(good))
-    z = s.dot / norm
+    z = s.sums.dot / norm
     first = _log_p(z, tried)
     if first >= np.log(FAMILY):
-        return Omnibus(first, tried, (), 0.0, s.square)
+        return Omnibus(first, tried, (), 0.0, s.sums.square)
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
     score, left = z[places].copy(), np.ones(len(places))
@@ -244,11 +272,11 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         place = int(places[k])
         term = s.dictionary.terms[place]
         std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
-        mean, square = s.raw[:, place] / max(s.samples, 1)
+        mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
         spread = square - mean**2 if term.harmonic == "const" else square
         size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
         taken.append(Found(term, amount * std, std, float(now[k]), amount**2, size2))
-    return Omnibus(first, tried, tuple(taken), chi2, s.square)
+    return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
 
 
 def _log_p(z: Array, tried: int) -> float:

@@ -100,11 +100,14 @@ def refined(
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
         triangles: list[Array | None] = [None] * (len(cuts) - 1)
-        for piece in flown.pieces():
+
+        def cut(piece: Piece, cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
             X = piece.white[[*places, -1]]
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
-            for k in np.unique(which):
-                T = design.triangle(X[:, which == k])
+            return [(int(k), design.triangle(X[:, which == k])) for k in np.unique(which)]
+
+        for own in flown.each(cut):
+            for k, T in own:
                 before = triangles[k]
                 triangles[k] = T if before is None else design.join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
@@ -114,19 +117,18 @@ def refined(
     return step
 
 
+@dataclass(frozen=True)
 class Variance:
-    """Sums over segments for a score test of a random effect: is the residual larger where it would show?"""
+    """Sums over samples for a score test of a random effect: is the residual larger where it would show?"""
 
-    def __init__(self, place: int) -> None:
-        self.place = place
-        self.count = 0
-        self.sums = np.zeros(5)
+    count: int
+    sums: Array
 
-    def add(self, piece: Piece, residual: Array) -> None:
-        """Count in a segment; ``residual`` (rows,) is whitened, model and chosen effects projected out."""
-        s2, e2 = piece.white[self.place] ** 2, residual**2
-        self.count += len(e2)
-        self.sums += (np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2)
+    @staticmethod
+    def of(piece: Piece, place: int, residual: Array) -> Variance:
+        """Of a segment; ``place`` is the effect's column, ``residual`` (rows,) is whitened and projected."""
+        s2, e2 = piece.white[place] ** 2, residual**2
+        return Variance(len(e2), np.array([np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2]))
 
     def test(self) -> Test:
         """Score test of the variance, with the residual's own fourth moment, so that heavy tails raise no alarm."""
@@ -139,12 +141,8 @@ class Variance:
 
 
 def pooled(parts: Sequence[Variance]) -> Variance:
-    """The sums of several flights."""
-    whole = Variance(parts[0].place)
-    for p in parts:
-        whole.count += p.count
-        whole.sums += p.sums
-    return whole
+    """The sums of several segments or flights together."""
+    return Variance(sum(p.count for p in parts), np.sum([p.sums for p in parts], axis=0))
 
 
 def saturation(G: Array, valid: NDArray[np.bool_]) -> tuple[float, NDArray[np.bool_]] | None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +15,11 @@ from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.passes import Noise, Piece, Point, pieces
+from ragg_runtime.passes import Noise, Piece, Point, passed
 from ragg_runtime.segments import BLOCKS, ROWS, block_edges
 
 Array = NDArray[np.float64]
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -37,16 +39,17 @@ class Flown:
         """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
         return block_edges(len(self.observation.record.time))
 
-    def pieces(self, *, whitened: bool = True) -> Iterator[Piece]:
-        """One pass: the segments in order. Those of a long flight are only whitened if that is wanted."""
+    def each(self, work: Callable[[Piece], R], *, whitened: bool = True) -> Iterator[R]:
+        """What ``work`` makes of every segment, in order: one pass over the flight.
+
+        Segments of a long flight are only whitened if that is wanted; ``work`` must not keep them.
+        """
         if self._kept:
-            yield from self._kept
-            return
-        keep = len(self.observation.record.time) <= ROWS
-        for piece in pieces(self.at, self.observation, self.noise, whitened=whitened or keep):
-            if keep:
-                self._kept.append(piece)
-            yield piece
+            return map(work, self._kept)
+        if len(self.observation.record.time) > ROWS:
+            return passed(self.at, self.observation, self.noise, work, whitened=whitened)
+        self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
+        return map(work, self._kept)
 
     def released(self) -> Flown:
         """The same without the columns."""
@@ -55,13 +58,19 @@ class Flown:
 
 def block_triangles(flown: Flown) -> tuple[Array, ...]:
     """Triangles (n + 1, n + 1) of the whitened columns [base | candidates | residual], one a block of time."""
-    found: list[Array | None] = [None] * BLOCKS
     size = 1
-    for piece in flown.pieces():
-        size = len(piece.white)
+
+    def triangles(piece: Piece) -> list[tuple[int, Array]]:
+        own = []
         for b, rows in piece.segment.blocks:
             inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
-            T = design.triangle(piece.white[:, inside])
+            own.append((b, design.triangle(piece.white[:, inside])))
+        return own
+
+    found: list[Array | None] = [None] * BLOCKS
+    for own in flown.each(triangles):
+        for b, T in own:
+            size = len(T)
             before = found[b]
             found[b] = T if before is None else design.join([before, T])
     return tuple(np.zeros((size, size)) if t is None else t for t in found)
