@@ -187,18 +187,22 @@ def orthonormal(columns: Array) -> Array:
 CHUNK = 8192
 """Rows that enter a triangle at a time."""
 
+PANEL = 64
+"""Room for LAPACK's blocks of columns."""
+
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
     n, rows = columns.shape
-    R = np.zeros((n, n))
+    R = np.zeros((0, n))
     for start in range(0, rows, CHUNK):
         part = columns[:, start : start + CHUNK].T
-        stacked = np.concatenate([R, part]) if start else np.array(part)
-        R = linalg.qr(np.asfortranarray(stacked), mode="r", overwrite_a=True, check_finite=False)[0][:n]
-    if R.shape[0] < n:
-        R = np.vstack([R, np.zeros((n - R.shape[0], n))])
-    return np.asarray(np.triu(R))
+        stacked = np.empty((len(R) + len(part), n), order="F")
+        stacked[: len(R)], stacked[len(R) :] = R, part
+        # LAPACK itself: SciPy's wrapper clears the whole of what lies below the triangle
+        factored, *_ = linalg.lapack.dgeqrf(stacked, lwork=PANEL * n, overwrite_a=True)
+        R = np.triu(factored[:n])
+    return R if len(R) == n else np.vstack([R, np.zeros((n - len(R), n))])
 
 
 def join(triangles: Sequence[Array]) -> Array:

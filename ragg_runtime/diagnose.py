@@ -246,12 +246,7 @@ def diagnose_fitted(
     given = [n for e in chosen for n, _ in field.candidates[e]]
     ranking, before = _ranking(f, field, choice, instants, output)
     final = _confirmed(f, chosen, extend)
-    if final is None:
-        rem, random = _remainder(f, given)
-    else:
-        rem, random = compare.remainder(final), {}
-        if not rem.significant:
-            random = _random_tests(f, given)
+    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if rem.significant:
         random = {}
     count = len(field.candidates) + len(random)
@@ -378,18 +373,6 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Te
                 counted.setdefault(e, []).append(v)
         searches.append(omnibus.choose(scores))
     return Remainder(tuple(searches)), {e: special.pooled(v).test() for e, v in counted.items()}
-
-
-def _random_tests(f: Fitted, given: Sequence[int]) -> dict[str, Test]:
-    """Tests of random effects: is the residual larger where the output is more sensitive to them?"""
-    counted: dict[str, list[Variance]] = {}
-    if not _random_columns(f):
-        return {}
-    for x, triangles in zip(f.flown, f.triangles, strict=True):
-        for found in x.each(_variances(f, work.projector(triangles, f.n_base, given))):
-            for e, v in found.items():
-                counted.setdefault(e, []).append(v)
-    return {e: special.pooled(v).test() for e, v in counted.items()}
 
 
 Variances = Callable[[Piece], dict[str, Variance]]

@@ -66,11 +66,14 @@ class Dictionary:
             (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self._centre
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
-        self.terms: tuple[Term, ...] = tuple(
-            Term(h, c) for c in products for h in harmonics(HIGHEST if len(c) > 1 else HIGHEST_OF_ONE)
-        )
-        self.first_order = sum(len(t.channels) <= 1 for t in self.terms)
+        alone = [Term(h, c) for c in products if len(c) <= 1 for h in harmonics(HIGHEST_OF_ONE)]
+        several = [Term(h, c) for c in products if len(c) > 1 for h in harmonics(HIGHEST)]
+        steady = [t for t in several if t.harmonic == "const"]
+        self.terms: tuple[Term, ...] = (*alone, *steady, *(t for t in several if t.harmonic != "const"))
+        self.first_order = len(alone)
         """Constants and single channels: so many of the terms, the first."""
+        self.slow = len(alone) + len(steady)
+        """These and products on no harmonic: so many of the terms, the first."""
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""

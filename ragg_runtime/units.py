@@ -64,6 +64,7 @@ class Units:
         registry.define("eotvos = 1e-9 / second ** 2 = Eo = Eotvos")
         self._registry = registry
         self._parsed: dict[str, Any] = {}
+        self._stems: dict[str, str | None] = {}
 
     def parse(self, unit: str, where: str | None = None) -> Any:
         """The pint unit written as ``unit``; UserError if it is none."""
@@ -160,8 +161,14 @@ class Units:
             )
 
     def _counts(self, unit: Any, names: frozenset[str]) -> bool:
-        stems = (self._registry.parse_unit_name(name) for name in unit._units)
-        return any(stem in names for parsed in stems for _, stem, _ in parsed[:1])
+        return any(self._stem(name) in names for name in unit._units)
+
+    def _stem(self, name: str) -> str | None:
+        """A unit's name without prefix and suffix."""
+        if name not in self._stems:  # pint looks through all prefixes, units and suffixes
+            parsed = self._registry.parse_unit_name(name)
+            self._stems[name] = parsed[0][1] if parsed else None
+        return self._stems[name]
 
 
 @lru_cache(maxsize=32)

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime import design, gradient
+from ragg_runtime import gradient
+from ragg_runtime.evidence.directions import Directions
 from ragg_runtime.evidence.irregular import BlockScores, Periodogram
 from ragg_runtime.evidence.work import Flown, Projector
 from ragg_runtime.passes import Piece, flight_segments
 from ragg_runtime.terms import Dictionary, Term
-from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -38,10 +38,6 @@ SHORTLIST = 400
 
 INDISTINGUISHABLE = 9.0
 """Chi-square by which a term of fewer channels may be worse and still be preferred (3 sigma)."""
-
-MEMORY = 16384
-"""Most taps of the filter that the dictionary is whitened with: a direction need not be the best one for its
-score to be a standard normal deviate, and slower memory than this buys little."""
 
 
 @dataclass(frozen=True)
@@ -145,51 +141,47 @@ class Scores:
         right = np.column_stack([y, Q])
         s.blocks.level(piece, y)
         s.spectrum.add(piece, y)
-        for at, x, X in self._whitened(piece, None):
-            inner = X.astype(np.float64) @ right
+        for at, x, inner, norm2, X in self._of_terms(Directions(self.flown, self.dictionary, piece), right):
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
-            s.norm2[at] = np.einsum("ij,ij->i", X, X, dtype=np.float64)
-            s.blocks.add(piece, y, at, X)
+            s.norm2[at] = norm2
+            if X is not None:
+                s.blocks.add(piece, y, at, X)
             s.raw[0, at] = np.sum(x, axis=1, dtype=np.float64)
             s.raw[1, at] = np.einsum("ij,ij->i", x, x, dtype=np.float64)
         return s
 
+    def _of_terms(
+        self, d: Directions, right: Array
+    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
+        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
+        terms, slow = self.dictionary.terms, self.dictionary.slow if d.round else None
+        for at, x, X in d.whitened(terms[:slow]):
+            norm2 = np.einsum("ij,ij->i", X, X, dtype=np.float64)
+            yield at, x, X.astype(np.float64) @ right, norm2, X
+        if slow is not None:
+            for at, x, inner, norm2 in d.scores(terms[slow:], right):
+                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
+
     def gram(self, places: Sequence[int]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
-        terms = [self.dictionary.terms[k] for k in places]
-        G = np.zeros((len(terms), len(terms)))
+        slow = [k for k in places if k < self.dictionary.slow]
+        other = [k for k in places if k >= self.dictionary.slow]
+        terms = [[self.dictionary.terms[k] for k in some] for some in (slow, other)]
+        row = {k: n for n, k in enumerate([*slow, *other])}
+        order = [row[k] for k in places]
 
         def inner(piece: Piece) -> Array:
-            X = np.concatenate([X for _, _, X in self._whitened(piece, terms)])
+            d = Directions(self.flown, self.dictionary, piece)
+            found = [*d.whitened(terms[0]), *(d.gone_round if d.round else d.whitened)(terms[1])]
+            X = np.concatenate([X for _, _, X in found])
             return np.asarray(X @ X.T)
 
+        G = np.zeros((len(places), len(places)))
         for part in self.flown.each(inner):
             G += part
         A = self.sums.along[list(places)]
-        return G - A @ A.T
-
-    def _whitened(
-        self, piece: Piece, terms: Sequence[Term] | None
-    ) -> Iterator[tuple[slice, Singles, Singles]]:
-        """Places of some terms, their series over the piece, and these whitened, the unknown gradient projected out."""
-        o, whole = piece.observation, self.flown.observation
-        rows = piece.segment.rows
-        filters = [taps[:MEMORY] for taps in self.flown.noise.filters]
-        lead = min(rows.start, max(len(t) for t in filters) - 1)
-        wide = whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
-        valid = o.record.valid
-        for at, x in self.dictionary.chunks(wide, terms):
-            if o.kind == "channels":  # what the recorder made of G_out before it was recorded
-                x = design.narrow(x.astype(np.float64), wide).astype(np.float32)
-                x[:, ~wide.valid] = 0.0
-            parts = [
-                np.float32(w) * filtered(x, taps)[:, lead:][:, valid]
-                for w, taps in zip(o.weights, filters, strict=True)
-            ]
-            X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-            gradient.project(X, piece.windows)
-            yield at, x[:, lead:], X
+        return G[np.ix_(order, order)] - A @ A.T
 
 
 def choose(s: Scores) -> Omnibus:

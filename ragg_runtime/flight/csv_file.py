@@ -14,6 +14,7 @@ import pyarrow as pa
 import pyarrow.csv
 
 from ragg_runtime.errors import UserError, at
+from ragg_runtime.flight.arrow import floats
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of
 
@@ -110,7 +111,7 @@ def _batches(
                 ),
             )
             for batch in reader:
-                yield {n: batch.column(n).to_numpy(zero_copy_only=False) for n in names}
+                yield {n: floats(batch.column(n)) for n in names}
     except pa.ArrowInvalid as error:
         if "Empty CSV" not in str(error):
             raise _fault(path, compressed, columns, delimiter, skip, str(error)) from None

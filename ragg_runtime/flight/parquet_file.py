@@ -10,6 +10,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from ragg_runtime.errors import UserError
+from ragg_runtime.flight.arrow import floats
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of
 
@@ -55,7 +56,7 @@ def _batches(path: Path, names: list[str], columns: tuple[Column, ...]) -> Itera
         with pq.ParquetFile(path) as file:
             for batch in file.iter_batches(batch_size=32768, columns=names):
                 yield {
-                    c.name: batch.column(n).cast(pa.float64()).to_numpy(zero_copy_only=False)
+                    c.name: floats(batch.column(n).cast(pa.float64()))
                     for n, c in zip(names, columns, strict=True)
                 }
     except _DAMAGED as error:

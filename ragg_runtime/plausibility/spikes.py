@@ -71,9 +71,8 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
     distance = np.maximum(0.0, np.maximum(above, below))
     scatter = np.abs(e - (before + after) / 2)
     distance[np.abs(after - before) > 0.3 * distance] = 0.0  # a step
-    blocks = np.arange(0, len(e), BLOCK)
-    usual = np.array([np.quantile(scatter[b : b + BLOCK], 0.95) for b in blocks])
-    if len(usual) > 1 and len(e) - blocks[-1] < BLOCK // 4:
+    usual = _in_blocks(scatter, 0.95)
+    if len(usual) > 1 and 0 < len(e) % BLOCK < BLOCK // 4:
         usual[-1] = usual[-2]  # too short to speak for itself
     usual = ndimage.maximum_filter1d(usual, 3, mode="nearest")
     everywhere = np.quantile(scatter, 0.95)
@@ -86,6 +85,13 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
         return found
     found[places[far]] = True
     return found
+
+
+def _in_blocks(x: Array, q: float) -> Array:
+    """The quantile of every ``BLOCK`` samples; of what is left over at the end, too."""
+    whole = len(x) // BLOCK * BLOCK
+    found = np.quantile(x[:whole].reshape(-1, BLOCK), q, axis=1)
+    return np.asarray(found if whole == len(x) else np.append(found, np.quantile(x[whole:], q)))
 
 
 def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
@@ -115,8 +121,7 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     for _ in range(12):
         error = y - ndimage.correlate1d(y, _FORETOLD, mode="mirror")
         size = np.abs(error)
-        blocks = np.arange(0, len(y), BLOCK)
-        usual = np.array([np.median(size[b : b + BLOCK]) for b in blocks])
+        usual = _in_blocks(size, 0.5)
         usual = np.repeat(ndimage.maximum_filter1d(usual, 3, mode="nearest"), BLOCK)[: len(y)]
         far = size > GLITCH * np.maximum(usual, np.median(size)) / 0.67
         if not far.any():

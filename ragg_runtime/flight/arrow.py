@@ -1,0 +1,18 @@
+"""Columns of Arrow tables as NumPy arrays."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyarrow as pa
+
+from ragg_runtime.flight.record import Array
+
+
+def floats(column: pa.Array) -> Array:
+    """(N,): a float64 column; null becomes NaN.
+
+    Arrow's own ``to_numpy`` loads pandas for it, which takes as long as a small flight.
+    """
+    if column.null_count:
+        column = column.fill_null(float("nan"))
+    return np.asarray(np.from_dlpack(column))
