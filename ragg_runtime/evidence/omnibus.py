@@ -8,8 +8,8 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from scipy import stats
 from ragg_runtime import design, gradient
 from ragg_runtime.evidence.irregular import BlockScores, Periodogram
 from ragg_runtime.evidence.work import Flown, Projector
+from ragg_runtime.ingredients import GRID
 from ragg_runtime.passes import Piece, flight_segments
 from ragg_runtime.terms import Dictionary, Term
 from ragg_runtime.whiten import filtered
@@ -37,7 +38,7 @@ SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
 
 INDISTINGUISHABLE = 9.0
-"""Chi-square by which a term of fewer channels may be worse and still be preferred (3 sigma)."""
+"""Chi-square by which a term of lower order may be worse and still be preferred (3 sigma)."""
 
 MEMORY = 16384
 """Most taps of the filter that the dictionary is whitened with: a direction need not be the best one for its
@@ -61,6 +62,8 @@ class Found:
         What it explained then.
     mean_square
         Of the term in the residual, V^2 (about its mean, for const terms).
+    centre
+        Means that its auxiliary channels enter less.
     """
 
     term: Term
@@ -70,6 +73,7 @@ class Found:
     chi2: float
     mean_square: float
     kind: str = "steady"
+    centre: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -149,6 +153,7 @@ class Scores:
         rows = piece.segment.rows
         filters = [taps[:MEMORY] for taps in self.flown.noise.filters]
         lead = min(rows.start, max(len(t) for t in filters) - 1)
+        lead += (rows.start - lead) % GRID  # where relaxations can be taken up
         wide = whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid = o.record.valid
         for at, x in self.dictionary.chunks(wide, terms):
@@ -233,7 +238,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         if _log_p(now, tried) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
-        k = int(min(near, key=lambda n: (len(s.dictionary.terms[places[n]].channels), -abs(now[n]))))
+        k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
         length = float(np.sqrt(left[k]))
         along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
         amount = float(score[k]) / length
@@ -247,7 +252,9 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         mean, square = s.raw[:, place] / max(s.samples, 1)
         spread = square - mean**2 if term.harmonic == "const" else square
         size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
-        taken.append(Found(term, amount * std, std, float(now[k]), amount**2, size2))
+        taken.append(
+            Found(term, amount * std, std, float(now[k]), amount**2, size2, centre=s.dictionary.centre)
+        )
     return Omnibus(first, tried, tuple(taken), chi2, s.square)
 
 
