@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
-from ragg_runtime import calibrate, design, display
+from ragg_runtime import calibrate, design, display, ingredients
 from ragg_runtime.calibrate import Calibration
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
@@ -435,7 +435,7 @@ def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
     return sorted(best.values(), key=lambda x: -abs(float(str(x["z"]))))
 
 
-_UNITS = {"a": "m/s^2", "omega": "rad/s", "omegadot": "rad/s^2", "d_a": "m/s^3", "time": "s"}
+_RATES = {"d_": "m/s^3", "d2_": "m/s^4"}
 
 
 def term_unit(channels_: Sequence[str]) -> str:
@@ -445,9 +445,19 @@ def term_unit(channels_: Sequence[str]) -> str:
 
 
 def channel_unit(name: str) -> str:
-    """SI unit of a channel."""
-    stem = name.rsplit("_", 1)[0] if name[-2:] in ("_x", "_y", "_z") else name
-    return _UNITS.get(stem) or SI_UNITS.get(name, "1")
+    """SI unit of a series of :mod:`ragg_runtime.ingredients`."""
+    if name in ingredients.FORCES:
+        return "m/s^2"
+    if (call := ingredients.FUNCTION.fullmatch(name)) is not None:
+        return "1" if call[1] == "sign" else channel_unit(call["of"])
+    if (slow := ingredients.SLOW.fullmatch(name)) is not None:
+        return channel_unit(slow["of"])
+    if name not in SI_UNITS and (rate := ingredients.DERIVATIVE.fullmatch(name)) is not None:
+        unit, per = channel_unit(rate["of"]), name.partition("_")[0]
+        if unit == "m/s^2":
+            return _RATES[f"{per}_"]
+        return f"{unit}/{'s' if per == 'd' else 's^2'}"
+    return SI_UNITS.get(name, "1")
 
 
 @one_thread

@@ -13,18 +13,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import comb
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, design, display, next_motion
+from ragg_runtime import compare, design, display, next_motion, suggestion
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
-from ragg_runtime.evidence.omnibus import Sums
+from ragg_runtime.evidence.omnibus import Found, Sums
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.special import Variance
 from ragg_runtime.evidence.work import Flown, Projector
@@ -160,13 +159,23 @@ class Diagnosis:
 
     def expression(self) -> str | None:
         """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
-        found = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
-        if not found:
-            return None
-        term = max(found, key=lambda t: abs(t.z)).term
-        product = "*".join(("K_x", *term.channels, *_carrier_text(term.harmonic)))
-        unit = "/".join(("m/s^2", *(f"({compare.channel_unit(c)})" for c in term.channels)))
-        return f'{{ id = "my-effect", stage = "transducer", add = "{product}", K_x = {{ unit = "{unit}" }} }}'
+        found = self._suggested
+        return None if found is None else found[1]
+
+    def needs(self) -> list[str]:
+        """Columns, in words, that a flight must have for :meth:`expression`."""
+        found = self._suggested
+        return [] if found is None else suggestion.columns(found[0].term)
+
+    @cached_property
+    def _suggested(self) -> tuple[Found, str] | None:
+        steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
+        for t in sorted(steady, key=lambda t: -abs(t.z)):
+            units = [u for c in t.term.channels if (u := compare.channel_unit(c)) != "1"]
+            line = suggestion.line(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            if line is not None:
+                return t, line
+        return None
 
     def _repr_html_(self) -> str:
         return display.diagnosis(self.as_json())
@@ -182,28 +191,13 @@ class Diagnosis:
                 "log10_p": float(self.remainder.log_p / np.log(10.0)),
                 "terms": self.terms(),
                 "expression": self.expression(),
+                "needs": self.needs(),
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": {"rms_Eo": self.noise_floor},
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
         }
-
-
-def _carrier_text(harmonic: str) -> tuple[str, ...]:
-    """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
-    if harmonic == "const":
-        return ()
-    kind, multiple = harmonic.split()
-    k = int(multiple)
-    terms = []
-    for n in range(
-        0 if kind == "cos" else 1, k + 1, 2
-    ):  # powers of i sin phi: real for cos, imaginary for sin
-        factor = comb(k, n) * (-1) ** (n // 2)
-        powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
-        terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))
-    return (terms[0],) if len(terms) == 1 else (f"({' + '.join(terms)})",)
 
 
 @one_thread

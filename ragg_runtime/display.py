@@ -126,6 +126,8 @@ def diagnosis(d: Mapping[str, Any]) -> str:
                 _line("to keep it as an effect of your own, put this into effects of model.toml:"),
                 f"<pre>{_escaped(d['unexplained']['expression'])}</pre>",
             ]
+        if d["unexplained"].get("needs"):
+            parts.append(_line(f"and this into the flight: {'; '.join(d['unexplained']['needs'])}"))
     if d["not_testable"]:
         silent = [(n["effect"], n["why"]) for n in d["not_testable"]]
         parts.append(_folded("not testable on this record", _table(("effect", "why"), silent, words=2)))

@@ -1,19 +1,24 @@
 """Generic terms, harmonic x product of channels: where a residual lives, in no effect's name.
 
-The dictionary behind ``where`` and ``unexplained``: harmonics 0 ... 4 of the spin times products of up to
-three channels (motion, its time derivatives, auxiliary channels), searched sparsely.
+The dictionary behind ``where`` and ``unexplained``, searched sparsely: harmonics 0 ... 4 of the spin times products
+of up to three channels (motion, its time derivatives, auxiliary channels); and, without harmonics, what a transducer
+may make of the forces that it feels as they turn with the disc: higher powers, kinks and signs, rates, after-effects,
+products with auxiliary channels and with rotation. Of those, a sum of harmonics would have to be long: f_i^4 alone is
+fifteen of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, product
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime import ingredients
 from ragg_runtime.evaluate import GRADIENTS, Record
+from ragg_runtime.ingredients import Relaxations
 from ragg_runtime.segments import segments
 
 Array = NDArray[np.float64]
@@ -29,6 +34,15 @@ _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
 _NOT_A_CHANNEL = frozenset({"spin_angle", *GRADIENTS})
 
+_FORCES = (*ingredients.FORCES, "a_z")
+"""What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
+
+CREEP = (1, 5, 20, 60)
+"""Time constants, s, of relaxations of channels."""
+
+TURNING_CREEP = (0.1, 0.3, 1, 3, 10)
+"""The same of forces that turn with the disc, of which a slower one keeps little."""
+
 
 @dataclass(frozen=True)
 class Term:
@@ -42,6 +56,11 @@ class Term:
         """Names joined by ``*``, ``1`` for none."""
         return "*".join(self.channels) or "1"
 
+    @property
+    def order(self) -> int:
+        """Number of channels, and of functions of them: how much a term asks one to believe."""
+        return sum(1 + name.count("(") for name in self.channels)
+
 
 class Dictionary:
     """The terms that a flight allows, and their series over the flight or a part of it.
@@ -54,26 +73,34 @@ class Dictionary:
         centred = sorted(n for n in r.wide if n not in _MOTION and n not in _NOT_A_CHANNEL)
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
-        found = _statistics(r, names)
-        self._centre = {n: found[n].mean for n in (*centred, "time")}
-        self._size = {n: s.rms if n not in self._centre else s.spread for n, s in found.items() if s.varies}
+        further = [c for c in generic([*centred, "time"]) if all(ingredients.recorded(n, r) for n in c)]
+        made = dict.fromkeys(n for c in further for n in c if n not in names)
+        self._slow = Relaxations([n for n in made if ingredients.is_slow(n)], r.rate)
+        found = _statistics(r, [*names, *made], self._slow)
+        self.centre = {n: found[n].mean for n in (*centred, "time")}
+        self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
         names = [n for n in names if n in self._size]
         motion = [n for n in names if n in _MOTION]
         other = [n for n in names if n not in _MOTION]
         products: list[tuple[str, ...]] = [(), *((n,) for n in names)]
         products += list(combinations_with_replacement(motion, 2))
         products += [
-            (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self._centre
+            (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self.centre
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in harmonics(HIGHEST_OF_ONE)]
         several = [Term(h, c) for c in products if len(c) > 1 for h in harmonics(HIGHEST)]
-        steady = [t for t in several if t.harmonic == "const"]
-        self.terms: tuple[Term, ...] = (*alone, *steady, *(t for t in several if t.harmonic != "const"))
+        made_of = [c for c in further if all(n in self._size for n in c)]
+        trends = [any(n in self.centre or ingredients.is_slow(n) for n in c) for c in made_of]
+        lasting = [t for t in several if t.harmonic == "const"]
+        lasting += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if trend]
+        swift = [t for t in several if t.harmonic != "const"]
+        swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
+        self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
         self.first_order = len(alone)
         """Constants and single channels: so many of the terms, the first."""
-        self.slow = len(alone) + len(steady)
-        """These and products on no harmonic: so many of the terms, the first."""
+        self.slow = len(alone) + len(lasting)
+        """These and what may have a trend: so many of the terms, the first."""
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""
@@ -91,8 +118,9 @@ class Dictionary:
     ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
         """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
         chosen = self.terms if terms is None else terms
-        carriers = {h: carrier(r, h) for h in harmonics(HIGHEST_OF_ONE)}
-        channels = {n: np.where(r.valid, self._channel(n, r), 0.0) / self._size[n] for n in self._size}
+        carriers = {h: carrier(r, h) for h in dict.fromkeys(t.harmonic for t in chosen)}
+        wanted = dict.fromkeys(n for t in chosen for n in t.channels)
+        channels = {n: np.where(r.valid, self._channel(n, r), 0.0) / self._size[n] for n in wanted}
         product = np.ones(len(r.time))
         of: tuple[str, ...] = ()
         for start in range(0, len(chosen), most):
@@ -107,9 +135,8 @@ class Dictionary:
             yield slice(start, start + len(part)), x
 
     def _channel(self, name: str, r: Record) -> Array:
-        x = r.time if name == "time" else r.series(name)
-        assert x is not None
-        return np.asarray(x - self._centre.get(name, 0.0))
+        x = self._slow.series(name, r) if ingredients.is_slow(name) else ingredients.series(name, r)
+        return np.asarray(x - self.centre.get(name, 0.0))
 
 
 @dataclass(frozen=True)
@@ -120,8 +147,38 @@ class _Statistics:
     varies: bool
 
 
-def _statistics(r: Record, names: Sequence[str]) -> dict[str, _Statistics]:
-    """Over the valid samples of a flight, a segment at a time."""
+def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
+    """Products, of whatever order, in which a transducer may depend on what it feels; ``auxiliary``: see above."""
+    a, omega, omegadot = (tuple(f"{n}_{k}" for k in "xyz") for n in ("a", "omega", "omegadot"))
+    rates = tuple(f"d_{f}" for f in _FORCES)
+    turning = ingredients.FORCES
+    pairs = list(combinations_with_replacement(_FORCES, 2))
+    memory = [
+        f"slow({x}, {t} s)" for names, ts in ((a, CREEP), (turning, TURNING_CREEP)) for x in names for t in ts
+    ]
+    found: list[tuple[str, ...]] = [(n,) for n in memory]
+    found += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
+    found += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]
+    found += [(x, f"abs({y})") for x, y in product(_FORCES, _FORCES)]
+    found += [(x, x, f"sign({y})") for x, y in product(_FORCES, rates)]
+    found += [(x, x, f"abs({x})") for x in _FORCES]
+    found += combinations_with_replacement(_FORCES, 4)
+    found += [(x,) * 5 for x in _FORCES]
+    found += product(_FORCES, rates)
+    found += combinations_with_replacement(rates, 2)
+    found += [(*p, d) for p in pairs for d in rates]
+    found += product(turning, (*omega, *omegadot))
+    found += [(x, *p) for x in turning for p in combinations_with_replacement(omega, 2)]
+    found += [(*p, w) for p in pairs for w in (*omega, *omegadot)]
+    for n in auxiliary:
+        found += [(n, n), *((x, n) for x in turning)]
+        found += [(x, n, n) for x in _FORCES] + [(*p, n) for p in pairs]
+        found += [] if n == "time" else [(x, f"d_{n}") for x in _FORCES]
+    return found
+
+
+def _statistics(r: Record, names: Sequence[str], slow: Relaxations) -> dict[str, _Statistics]:
+    """Over the valid samples of a flight, a segment at a time; relaxations are run through on the way."""
     count = 0.0
     first: dict[str, float] = {}
     sums = {n: np.zeros(2) for n in names}
@@ -129,10 +186,9 @@ def _statistics(r: Record, names: Sequence[str]) -> dict[str, _Statistics]:
     for s in segments(len(r.time)):
         part = r.part(s.rows)
         count += float(np.sum(part.valid))
+        relaxed = slow.advance(part)
         for n in names:
-            x = part.time if n == "time" else part.series(n)
-            assert x is not None
-            x = x[part.valid]
+            x = (relaxed[n] if n in relaxed else ingredients.series(n, part))[part.valid]
             if not len(x):
                 continue
             y = x - first.setdefault(n, float(x[0]))  # squares of differences, so that no digits are lost

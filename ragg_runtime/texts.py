@@ -105,6 +105,8 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
                 "\n  to keep it as an effect of your own, put this into `effects` of model.toml:",
                 f"  {d.expression()}",
             ]
+        if d.needs():
+            lines.append(f"  and this into the flight: {'; '.join(d.needs())}")
     if d.next_motion:
         lines.append("\n  next motion:")
         lines += [f"  {p.in_words()}" for p in d.next_motion]

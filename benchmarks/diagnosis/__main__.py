@@ -43,6 +43,7 @@ SOURCES = (
             "diagnose",
             "evaluate",
             "gradient",
+            "ingredients",
             "metrics",
             "noise",
             "passes",

@@ -8,8 +8,8 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,7 @@ SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
 
 INDISTINGUISHABLE = 9.0
-"""Chi-square by which a term of fewer channels may be worse and still be preferred (3 sigma)."""
+"""Chi-square by which a term of lower order may be worse and still be preferred (3 sigma)."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,8 @@ class Found:
         What it explained then.
     mean_square
         Of the term in the residual, V^2 (about its mean, for const terms).
+    centre
+        Means that its auxiliary channels enter less.
     """
 
     term: Term
@@ -66,6 +68,7 @@ class Found:
     chi2: float
     mean_square: float
     kind: str = "steady"
+    centre: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -163,25 +166,27 @@ class Scores:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
                 yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
 
+    def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
+        """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
+        d = Directions(self.flown, self.dictionary, piece)
+        terms = [self.dictionary.terms[k] for k in sorted(places)]
+        slow = sum(k < self.dictionary.slow for k in places)
+        found = [*d.whitened(terms[:slow]), *(d.gone_round if d.round else d.whitened)(terms[slow:])]
+        return np.concatenate([X for _, _, X in found])
+
     def gram(self, places: Sequence[int]) -> Array:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
-        slow = [k for k in places if k < self.dictionary.slow]
-        other = [k for k in places if k >= self.dictionary.slow]
-        terms = [[self.dictionary.terms[k] for k in some] for some in (slow, other)]
-        row = {k: n for n, k in enumerate([*slow, *other])}
-        order = [row[k] for k in places]
 
         def inner(piece: Piece) -> Array:
-            d = Directions(self.flown, self.dictionary, piece)
-            found = [*d.whitened(terms[0]), *(d.gone_round if d.round else d.whitened)(terms[1])]
-            X = np.concatenate([X for _, _, X in found])
+            X = self.whitened(piece, places)
             return np.asarray(X @ X.T)
 
         G = np.zeros((len(places), len(places)))
         for part in self.flown.each(inner):
             G += part
+        row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
         A = self.sums.along[list(places)]
-        return G[np.ix_(order, order)] - A @ A.T
+        return G[np.ix_(row, row)] - A @ A.T
 
 
 def choose(s: Scores) -> Omnibus:
@@ -253,7 +258,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         if _log_p(now, tried) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
-        k = int(min(near, key=lambda n: (len(s.dictionary.terms[places[n]].channels), -abs(now[n]))))
+        k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
         length = float(np.sqrt(left[k]))
         along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
         amount = float(score[k]) / length
@@ -267,7 +272,9 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
         spread = square - mean**2 if term.harmonic == "const" else square
         size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
-        taken.append(Found(term, amount * std, std, float(now[k]), amount**2, size2))
+        taken.append(
+            Found(term, amount * std, std, float(now[k]), amount**2, size2, centre=s.dictionary.centre)
+        )
     return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
 
 

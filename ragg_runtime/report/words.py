@@ -158,16 +158,25 @@ def harmonic(name: str) -> str:
 
 
 def product(name: str) -> str:
-    """``a_x*omegadot_y`` as a_x · dω_y/dt; ``1`` as it is."""
-    return " · ".join(_channel(c) for c in clean(name).split("*"))
+    """``a_x*omegadot_y`` as a_x · dω_y/dt, ``f_i*f_i`` as f_i²; ``1`` as it is."""
+    factors = clean(name).split("*")
+    powers = [(c, factors.count(c)) for c in dict.fromkeys(factors)]
+    return " · ".join(_channel(c) + ("" if n == 1 else str(n).translate(_SUPERSCRIPTS)) for c, n in powers)
 
 
 def _channel(name: str) -> str:
-    found = re.fullmatch(r"(d_)?(a|omega|omegadot)_([xyz])", name)
+    if (slow := re.fullmatch(r"slow\((.+), ([0-9.]+) s\)", name)) is not None:
+        return f"{_channel(slow[1])} relaxing in {slow[2]}{THIN}s"
+    if (call := re.fullmatch(r"(abs|sign)\((.+)\)", name)) is not None:
+        inner = _channel(call[2])
+        return f"|{inner}|" if call[1] == "abs" else f"sign({inner})"
+    found = re.fullmatch(r"(d2?_)?(a|omega|omegadot|f)_([xyzio])", name)
     if found is None:
         return name
-    stem = {"a": "a", "omega": "ω", "omegadot": "dω"}[found[2]]
+    stem = {"omega": "ω", "omegadot": "dω"}.get(found[2], found[2])
     text = f"{stem}_{found[3]}" + ("/dt" if found[2] == "omegadot" else "")
+    if found[1] == "d2_":
+        return f"d²{text}/dt²"
     return f"d{text}/dt" if found[1] else text
 
 

@@ -1,0 +1,132 @@
+"""Series that generic terms are made of: recorded channels, forces that turn with the disc, and what follows them.
+
+Names are text that a reader can take literally:
+
+- a recorded channel, ``time``, and the derivatives ``d_<channel>``, ``d2_<channel>`` of a channel;
+- ``f_i``, ``f_o``: specific force along the input and output axes of the first accelerometer,
+  a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the
+  third and fourth with f_i and f_o exchanged), and their derivatives ``d_f_i``, ``d2_f_i``;
+- ``abs(X)``, ``sign(X)``;
+- ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from ragg_runtime.evaluate import Record
+
+Array = NDArray[np.float64]
+
+FORCES = ("f_i", "f_o")
+"""Forces that turn with the disc."""
+
+GRID = 1000
+"""Samples between the places from which relaxations can be taken up."""
+
+FUNCTION = re.compile(r"(abs|sign)\((?P<of>.+)\)")
+SLOW = re.compile(r"slow\((?P<of>.+), (?P<seconds>[0-9.]+) s\)")
+DERIVATIVE = re.compile(r"d2?_(?P<of>.+)")
+
+
+def is_slow(name: str) -> bool:
+    """Whether a series remembers more of the past than a part of a record holds."""
+    return SLOW.fullmatch(name) is not None
+
+
+def stem(name: str, r: Record) -> str:
+    """The channel or force at the bottom of a name."""
+    if name in r.wide:
+        return name
+    found = FUNCTION.fullmatch(name) or SLOW.fullmatch(name) or DERIVATIVE.fullmatch(name)
+    return name if found is None else stem(found["of"], r)
+
+
+def recorded(name: str, r: Record) -> bool:
+    """Whether a record has all that a series needs."""
+    base = stem(name, r)
+    if base in FORCES and base not in r.wide:
+        return "a_x" in r.wide and "a_y" in r.wide
+    return base == "time" or base in r.wide
+
+
+def series(name: str, r: Record) -> Array:
+    """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`)."""
+    if name == "time":
+        return r.time
+    if (found := FUNCTION.fullmatch(name)) is not None:
+        x = series(found["of"], r)
+        return np.asarray(np.abs(x) if found[1] == "abs" else np.sign(x))
+    if name not in r.wide and stem(name, r) in FORCES:
+        return _turning(name, r)
+    known = r.series(name)
+    assert known is not None, name
+    return known
+
+
+def _turning(name: str, r: Record) -> Array:
+    """f_i, f_o and derivatives: real and imaginary part of (d/dt + i Omega)^n (a_y + i a_x) times e^(i phi)."""
+    order = {"": 0, "d_": 1, "d2_": 2}[name[:-3]]
+    spin = 2j * np.pi * r.spin_frequency
+    factors = ([1.0], [spin, 1.0], [spin**2, 2 * spin, 1.0])[order]
+    z = np.zeros(len(r.time), dtype=np.complex128)
+    for prefix, factor in zip(("", "d_", "d2_"), factors, strict=False):
+        x, y = r.series(f"{prefix}a_x"), r.series(f"{prefix}a_y")
+        assert x is not None and y is not None
+        z += factor * (y + 1j * x)
+    z *= r.cos_phi + 1j * r.sin_phi
+    return np.asarray(z.real if name.endswith("f_i") else z.imag)
+
+
+class Relaxations:
+    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest at the first valid sample (a channel's value there is its zero).
+
+    They are run through once, segment by segment (:meth:`advance`), and then taken up again from any multiple of
+    ``GRID`` samples.
+    """
+
+    def __init__(self, names: Sequence[str], rate: float) -> None:
+        self._of: dict[str, tuple[str, float]] = {}
+        for name in names:
+            found = SLOW.fullmatch(name)
+            assert found is not None, name
+            self._of[name] = (found["of"], float(np.exp(-1.0 / (rate * float(found["seconds"])))))
+        self._origin: dict[str, float] = {}
+        self._last = dict.fromkeys(self._of, 0.0)
+        self._places: list[float] = []  # times, s
+        self._states: list[dict[str, float]] = []
+        self._done = 0
+
+    def advance(self, r: Record) -> dict[str, Array]:
+        """All series over the next part of the record, (N,), SI."""
+        made = {n: self._run(n, r, self._last[n]) for n in self._of}
+        for k in range(-self._done % GRID, len(r.time), GRID):
+            self._places.append(float(r.time[k]))
+            self._states.append({n: float(y[k - 1]) if k else self._last[n] for n, y in made.items()})
+        self._done += len(r.time)
+        self._last = {n: float(y[-1]) for n, y in made.items()}
+        return made
+
+    def series(self, name: str, r: Record) -> Array:
+        """(N,), SI, over a part of the record that begins at a multiple of ``GRID`` samples."""
+        k = int(np.searchsorted(self._places, float(r.time[0])))
+        assert k < len(self._places) and self._places[k] == r.time[0], "a part that begins off the grid"
+        return self._run(name, r, self._states[k][name])
+
+    def _run(self, name: str, r: Record, last: float) -> Array:
+        of, c = self._of[name]
+        x = series(of, r)
+        if of in FORCES:
+            origin = 0.0
+        else:
+            if of not in self._origin and r.valid.any():
+                self._origin[of] = float(x[np.argmax(r.valid)])
+            origin = self._origin.get(of, 0.0)
+        x = np.where(r.valid, x - origin, 0.0)
+        y, _ = signal.lfilter([1.0 - c], [1.0, -c], x, zi=[c * last])
+        return np.asarray(y)

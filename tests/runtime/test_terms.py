@@ -1,0 +1,265 @@
+"""Generic terms: what they are made of, that noise does not raise them, and that they name what is really there."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy import stats
+
+from derive.expression import from_expression
+from ragg_runtime import compare, extend, ingredients, load, suggestion
+from ragg_runtime.diagnose import Diagnosis, diagnose
+from ragg_runtime.evaluate import Record
+from ragg_runtime.evidence import omnibus, work
+from ragg_runtime.evidence.omnibus import Scores
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument import EffectSetting
+from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.reference.simulate import Simulation
+from ragg_runtime.terms import Dictionary, Term
+
+Array = NDArray[np.float64]
+
+RATE, SPIN = 50.0, 0.25
+
+
+@pytest.fixture(scope="module")
+def smooth() -> tuple[Record, dict[str, Callable[[Array], Array]]]:
+    """A record of smooth channels, and the same as functions of time."""
+    exact: dict[str, Callable[[Array], Array]] = {
+        "a_x": lambda t: 0.3 * np.sin(1.1 * t) + 0.2 * np.cos(0.4 * t),
+        "a_y": lambda t: 0.4 * np.cos(0.9 * t + 0.3),
+        "a_z": lambda t: 9.0 + np.sin(0.7 * t),
+        "temperature": lambda t: 293.0 + 0.01 * t,
+    }
+    time = np.arange(6000) / RATE
+    valid = np.ones(len(time), dtype=bool)
+    return Record(time, {n: x(time) for n, x in exact.items()}, RATE, valid, SPIN), exact
+
+
+def _force(exact: dict[str, Callable[[Array], Array]], axis: str) -> Callable[[Array], Array]:
+    """Along the input or output axis of the first accelerometer, of its own axes e_t and e_r."""
+
+    def f(t: Array) -> Array:
+        phi = 2 * np.pi * SPIN * t
+        across, along = (-np.sin(phi), np.cos(phi)), (np.cos(phi), np.sin(phi))
+        u = across if axis == "f_i" else along
+        return np.asarray(exact["a_x"](t) * u[0] + exact["a_y"](t) * u[1])
+
+    return f
+
+
+@pytest.mark.parametrize("axis", ["f_i", "f_o"])
+def test_turning_forces_and_their_derivatives(
+    axis: str, smooth: tuple[Record, dict[str, Callable[[Array], Array]]]
+) -> None:
+    r, exact = smooth
+    f, h, t = _force(exact, axis), 1e-4, r.time
+    inner = slice(50, -50)
+    np.testing.assert_allclose(ingredients.series(axis, r), f(t), atol=1e-12)
+    first = (f(t + h) - f(t - h)) / (2 * h)
+    second = (f(t + h) - 2 * f(t) + f(t - h)) / h**2
+    np.testing.assert_allclose(ingredients.series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
+    np.testing.assert_allclose(ingredients.series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
+    np.testing.assert_allclose(ingredients.series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
+    clear = np.abs(f(t)) > 1e-9
+    np.testing.assert_array_equal(ingredients.series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
+
+
+def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
+    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
+) -> None:
+    """A2 is half a turn on, A3 a quarter, A4 three quarters: no further terms are needed for them."""
+    r, _ = smooth
+    f = {n: ingredients.series(n, r) for n in ("f_i", "f_o")}
+    for turns, force, expected in (
+        (0.50, "f_i", -f["f_i"]),
+        (0.25, "f_i", -f["f_o"]),
+        (0.25, "f_o", f["f_i"]),
+        (0.75, "f_i", f["f_o"]),
+        (0.75, "f_o", -f["f_i"]),
+    ):
+        turned = dataclasses.replace(r, wide={**r.wide, "spin_angle": r.phi + 2 * np.pi * turns})
+        np.testing.assert_allclose(ingredients.series(force, turned), expected, atol=1e-12)
+
+
+def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(
+    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
+) -> None:
+    r, _ = smooth
+    x = r.wide["a_z"] - r.wide["a_z"][0]
+    # y' = (x - y)/T for sin(w t): (sin(wt) - wT cos(wt) + wT exp(-t/T))/(1 + w^2 T^2)
+    w, T, t = 0.7, 5.0, r.time
+    expected = (np.sin(w * t) - w * T * np.cos(w * t) + w * T * np.exp(-t / T)) / (1 + (w * T) ** 2)
+    np.testing.assert_allclose(x, np.sin(w * t), atol=1e-12)
+    name = "slow(a_z, 5 s)"
+    at_once = ingredients.Relaxations([name], r.rate)
+    whole = at_once.advance(r)[name]
+    np.testing.assert_allclose(whole, expected, atol=3e-3)  # of a signal held over a sample
+    parts = ingredients.Relaxations([name], r.rate)
+    pieces = [slice(0, 700), slice(700, 2500), slice(2500, 6000)]
+    np.testing.assert_allclose(
+        np.concatenate([parts.advance(r.part(s))[name] for s in pieces]), whole, rtol=1e-12, atol=1e-15
+    )
+    for start in range(0, 6000, ingredients.GRID):
+        part = r.part(slice(start, min(start + 1500, 6000)))
+        np.testing.assert_allclose(parts.series(name, part), whole[start : start + 1500], rtol=1e-12)
+
+
+def test_what_a_record_lacks_makes_no_term(
+    smooth: tuple[Record, dict[str, Callable[[Array], Array]]],
+) -> None:
+    r, _ = smooth
+    all_terms = {t.product for t in Dictionary(r).terms}
+    assert {"f_i*f_i*f_i*f_i", "f_i*temperature*temperature", "slow(f_o, 1 s)"} <= all_terms
+    bare = dataclasses.replace(r, wide={n: x for n, x in r.wide.items() if n != "a_x"})
+    names = {c for t in Dictionary(bare).terms for c in t.channels}
+    assert not any("f_i" in n or "f_o" in n or "a_x" in n for n in names)
+    assert "abs(a_z)" in names
+
+
+@pytest.fixture(scope="module")
+def scored() -> tuple[Scores, Array, Array]:
+    """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
+    s = scenario(71, duration=300.0)
+    f = compare.fit(load.packaged(), s.sheet, [compare.observe(s.simulate({}).flight(), s.sheet)])
+    projector = work.projector(f.triangles[0], f.n_base, ())
+    scores = Scores(f.flown[0], projector)
+    (piece,) = f.flown[0].each(lambda p: p)
+    scores.sums.join(scores.of(piece))
+    X = scores.whitened(piece, range(len(scores.dictionary.terms)))
+    return scores, X, projector.basis(piece)
+
+
+def test_noise_raises_no_term(scored: tuple[Scores, Array, Array]) -> None:
+    """Over many draws of white noise each term is a standard normal deviate, and the largest alarms as seldom as claimed."""
+    scores, X, Q = scored
+    rng = np.random.default_rng(8)
+    draws = 400
+    noise = rng.standard_normal((X.shape[1], draws)).astype(np.float32)
+    left = scores.sums.norm2 - np.sum(scores.sums.along**2, axis=1)
+    good = left > 1e-6 * scores.sums.norm2
+    projected = noise - Q.astype(np.float32) @ (Q.astype(np.float32).T @ noise)
+    z = (X[good] @ projected) / np.sqrt(left[good])[:, None]
+    further = np.array(
+        [
+            len(t.channels) > 3 or "f_" in t.product or "slow" in t.product
+            for t in np.array(scores.dictionary.terms, dtype=object)[good]
+        ]
+    )
+    assert np.sum(further) > 150
+    for some in (z[further], z[~further]):
+        spread = np.std(some, axis=1)  # of one term over the draws
+        assert np.all(np.abs(spread - 1.0) < 5.0 / np.sqrt(2 * draws))
+        assert abs(np.mean(some**2) - 1.0) < 0.05
+    p = np.array([omnibus._log_p(column, int(np.sum(good))) for column in z.T])
+    for level in (0.05, 0.2):
+        alarms = np.sum(p + np.log(omnibus.SHARES[0]) < np.log(level))
+        assert alarms <= stats.binom.ppf(0.999, draws, level)
+
+
+def _transducer(run: Simulation, s: Scenario, change: Callable[[dict[str, Array]], Array], j: int) -> Flight:
+    """A flight in which accelerometer j (0 ... 3) also feels ``change``, of forces by the definition of its axes."""
+    psi = 2 * np.pi * s.instrument.spin_frequency * run.time + (0.0, np.pi, np.pi / 2, 1.5 * np.pi)[j]
+    a_x, a_y, a_z = (run.channels[f"a_{k}"] for k in "xyz")
+    forces = {
+        "f_i": a_y * np.cos(psi) - a_x * np.sin(psi),
+        "f_o": a_x * np.cos(psi) + a_y * np.sin(psi),
+        "f_p": -a_z,
+        "T": run.channels["temperature"] - np.mean(run.channels["temperature"]),
+        "t": run.time,
+    }
+    k = s.instrument.accelerometers
+    volts = (1.0, 1.0, -1.0, -1.0)[j] * (k["K1"] * k["k_VI"])[j] * change(forces)
+    return dataclasses.replace(run.flight(), outputs={"G_out": run.G_out + volts})
+
+
+def _crept(f: Array, t: Array, constant: float) -> Array:
+    """Creep: y' = (f - y)/T by the trapezoidal rule, a sample at a time."""
+    h = float(t[1] - t[0])
+    y = np.zeros(len(f))
+    for n in range(1, len(f)):
+        y[n] = ((1 - h / (2 * constant)) * y[n - 1] + h / (2 * constant) * (f[n] + f[n - 1])) / (
+            1 + h / (2 * constant)
+        )
+    return y
+
+
+CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
+    "fourth power": (lambda w: 1e-7 * w["f_i"] ** 4, 0, "f_i*f_i*f_i*f_i"),
+    "fourth power, A3": (lambda w: 1e-7 * w["f_i"] ** 4, 2, "f_o*f_o*f_o*f_o"),
+    "modulus": (lambda w: 1e-8 * np.abs(w["f_i"]), 1, "abs(f_i)"),
+    "temperature squared": (lambda w: 3e-7 * w["f_i"] * w["T"] ** 2, 0, "f_i*temperature*temperature"),
+    "curvature by temperature": (lambda w: 3e-7 * w["f_i"] ** 2 * w["T"], 0, "f_i*f_i*temperature"),
+    "creep of 2 s": (lambda w: 3e-8 * _crept(w["f_i"], w["t"], 2.0), 0, "slow(f_i,"),
+    "creep of 20 s": (lambda w: 1e-7 * _crept(w["f_p"] - w["f_p"][0], w["t"], 20.0), 0, "slow(a_z, 20 s)"),
+}
+
+
+def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
+    return diagnose(
+        load.packaged(), s.sheet, [flight], lambda model, ids: extend.with_effects(s.sheet, model, ids)
+    )
+
+
+@pytest.mark.parametrize("case", sorted(CASES))
+def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(case: str) -> None:
+    change, j, product = CASES[case]
+    s = scenario(72, duration=600.0)
+    d = _diagnosed(s, _transducer(s.simulate({}), s, change, j))
+    assert (d.verdict, d.found) == ("unexplained", ())
+    term = max((t for x in d.remainder.searches for t in x.terms), key=lambda t: abs(t.z)).term
+    assert term.harmonic == "const"
+    assert term.product.startswith(product)
+
+
+def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
+    """As a user would: the line into model.toml, derive, calibrate."""
+    s = scenario(72, duration=600.0)
+    flight = _transducer(s.simulate({}), s, CASES["fourth power"][0], 0)
+    d = _diagnosed(s, flight)
+    line = d.expression()
+    assert line is not None
+    assert 'add = "K_x*f_i**4"' in line
+    assert d.needs() == []
+    unit = line.split('unit = "')[1].split('"')[0]
+    mine = EffectSetting(
+        "my-effect",
+        expression={"stage": "transducer", "add": "K_x*f_i**4", "params": {"K_x": {"unit": unit}}},
+    )
+    sheet = dataclasses.replace(s.sheet, effects=(mine,))
+    after = compare.compare(extend.model_of(sheet), sheet, [flight])
+    assert not d.remainder.log_p > -20
+    assert after.remainder.log_p > np.log(0.05)
+    assert after.calibrated.rms_Eo == pytest.approx(after.noise_floor, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("channels", "text", "needs"),
+    [
+        (("f_i", "temperature", "temperature"), "K_x*f_i*(temperature - 293.25)**2", []),
+        (("f_i", "roll", "roll"), "K_x*f_i*(roll + 0.5)**2", []),
+        (("f_o", "abs(f_o)"), "K_x*f_o*abs(f_o)", []),
+        (("slow(f_i, 0.3 s)",), "K_x*slow_f_i", ["slow_f_i (f_i through a relaxation of 0.3 s)"]),
+        (("a_z", "a_z", "sign(d_f_i)"), "K_x*a_z**2*sign(d_f_i)", ["d_f_i (time derivative of f_i)"]),
+        (("d2_f_i",), "K_x*d2_f_i", ["d2_f_i (second time derivative of f_i)"]),
+    ],
+)
+def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks(
+    channels: tuple[str, ...], text: str, needs: list[str]
+) -> None:
+    term = Term("const", channels)
+    line = suggestion.line(term, {"temperature": 293.25, "roll": -0.5}, "m/s^2")
+    assert line is not None
+    assert f'add = "{text}"' in line
+    assert suggestion.columns(term) == needs
+    e = from_expression("my-effect", "transducer", text, {"K_x": {"unit": "m/s^2"}})
+    assert set(e.channels) == {n.split()[0] for n in needs} | ({"temperature", "roll"} & set(channels))
+
+
+def test_a_channel_of_an_odd_name_is_offered_in_no_expression() -> None:
+    assert suggestion.line(Term("const", ("f_i", 'x"] evil')), {}, "m/s^2") is None
