@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from ragg_runtime import progress
 from ragg_runtime.errors import UserError, printable
 
 if TYPE_CHECKING:
@@ -181,7 +182,8 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating and comparing")
-    c = workflow.compare(m, read)
+    with progress.shown("compare", sum(map(len, read))):
+        c = workflow.compare(m, read)
 
     def page() -> str:
         from ragg_runtime.report import compare_html
@@ -221,7 +223,9 @@ def diagnose(
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating, then testing every effect of the catalogue")
-    d = workflow.diagnose(m, read, workflow.motion_limits(m, limits))
+    allowed = workflow.motion_limits(m, limits)
+    with progress.shown("diagnose", sum(map(len, read))):
+        d = workflow.diagnose(m, read, allowed)
 
     def page() -> str:
         from ragg_runtime.report import diagnose_html
@@ -296,7 +300,8 @@ def add(
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress(f"deriving the model with {effect}, calibrating")
-    result = workflow.add(m, effect, read)
+    with progress.shown("add", sum(map(len, read))):
+        result = workflow.add(m, effect, read)
 
     def page() -> str:
         from ragg_runtime.report import add_html

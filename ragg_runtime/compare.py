@@ -279,7 +279,7 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     found = []
     for x, triangles in zip(f.flown, f.triangles, strict=True):
         scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
-        for sums in x.each(scores.of):
+        for sums in x.each(scores.of, effort=omnibus.EFFORT):
             scores.sums.join(sums)
         found.append(omnibus.choose(scores))
     return Remainder(tuple(found))

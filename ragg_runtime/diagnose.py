@@ -361,7 +361,7 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Te
         ) -> tuple[Sums, dict[str, Variance]]:
             return scores.of(piece), variances(piece)
 
-        for sums, found in x.each(both):
+        for sums, found in x.each(both, effort=omnibus.EFFORT):
             scores.sums.join(sums)
             for e, v in found.items():
                 counted.setdefault(e, []).append(v)

@@ -10,7 +10,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design, gradient
+from ragg_runtime import design, gradient, progress
 from ragg_runtime.design import Column, Observation
 from ragg_runtime.gradient import Window
 from ragg_runtime.instrument import Instrument
@@ -199,11 +199,13 @@ def passed(
     *,
     chosen: Sequence[Segment] | None = None,
     whitened: bool = True,
+    effort: float = 0.0,
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
 
     ``chosen`` are some of the segments: then filters of more than one tap start from rest in each. If
-    ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several.
+    ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
+    ``effort`` times as long as what makes the piece.
     """
     n_base = len(design.base_columns(at.model, at.instrument))
     found = flight_segments(o) if chosen is None else chosen
@@ -233,7 +235,10 @@ def passed(
                 tails[k].set_exception(error)
             raise
 
-    return mapped(guarded, range(len(found)))
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    for s, made in zip(found, mapped(guarded, range(len(found))), strict=True):
+        progress.step(share * (s.rows.stop - s.rows.start))
+        yield made
 
 
 def _white(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:

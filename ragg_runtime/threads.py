@@ -7,6 +7,7 @@ number of threads.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import os
 import threading
@@ -43,6 +44,17 @@ def count() -> int:
     )
 
 
+@contextlib.contextmanager
+def alone() -> Iterator[None]:
+    """Work on one thread here: what is done is one of several things that are done at a time."""
+    before = getattr(_here, "divided", False)
+    _here.divided = True
+    try:
+        yield
+    finally:
+        _here.divided = before
+
+
 def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
     """``function`` of every item, in order, several at a time; few are begun before they are asked for.
 
@@ -53,15 +65,15 @@ def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
         yield from map(function, items)
         return
 
-    def alone(item: T) -> R:
-        _here.divided = True
-        return function(item)
+    def within(item: T) -> R:
+        with alone():
+            return function(item)
 
     with ThreadPoolExecutor(threads) as pool:
         waiting: deque[Future[R]] = deque()
         try:
             for item in items:
-                waiting.append(pool.submit(alone, item))
+                waiting.append(pool.submit(within, item))
                 if len(waiting) > threads:
                     yield waiting.popleft().result()
             while waiting:

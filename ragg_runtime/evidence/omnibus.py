@@ -33,6 +33,9 @@ SHARES = (0.5, 0.25, 0.25)
 
 MOST_TERMS = 8
 
+EFFORT = 3.0
+"""How much longer the search of a segment takes than making it."""
+
 SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
 

@@ -39,15 +39,16 @@ class Flown:
         """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
         return block_edges(len(self.observation.record.time))
 
-    def each(self, work: Callable[[Piece], R], *, whitened: bool = True) -> Iterator[R]:
+    def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
         """What ``work`` makes of every segment, in order: one pass over the flight.
 
-        Segments of a long flight are only whitened if that is wanted; ``work`` must not keep them.
+        Segments of a long flight are only whitened if that is wanted; ``work`` must not keep them (``effort``:
+        see ``passed``).
         """
         if self._kept:
             return map(work, self._kept)
         if len(self.observation.record.time) > ROWS:
-            return passed(self.at, self.observation, self.noise, work, whitened=whitened)
+            return passed(self.at, self.observation, self.noise, work, whitened=whitened, effort=effort)
         self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
         return map(work, self._kept)
 

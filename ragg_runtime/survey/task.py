@@ -40,6 +40,7 @@ from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument import Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.plausibility import examined
+from ragg_runtime.threads import alone
 
 Array = NDArray[np.float64]
 
@@ -113,7 +114,7 @@ def examine(given: Job, file: str) -> Record:
                 expected="a file system that all workers share, under the same path",
                 remedy="put the flights where every worker can read them, or survey without --scheduler",
             )
-        with _one_thread():
+        with _one_thread(), alone():
             instrument, model = _model(given.text, given.path)
             flight = examined(model, instrument, read_flight(path, instrument.g0))
             return record | _figures(model, instrument, flight)

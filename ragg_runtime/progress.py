@@ -1,0 +1,84 @@
+"""How far a long command is, with the time left.
+
+Passes over flights tell how much they have done (:func:`step`); a command that wants to know listens
+(:func:`shown`). The unit is one sample in one pass with all columns, whitened; how many passes a command takes is
+known well enough beforehand (``PASSES``) to foretell its end.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
+
+import click
+
+PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
+"""Passes over the flights that a command takes, about."""
+
+QUIET = 4.0
+"""A command that takes no longer than this shows no progress, s."""
+
+SPELL = 15.0
+"""Where stderr is a file, a line is written this often at most, s."""
+
+_listener: ContextVar[Callable[[float], None] | None] = ContextVar("listener", default=None)
+
+
+def step(amount: float) -> None:
+    """So much more has been done, in samples of a pass."""
+    tell = _listener.get()
+    if tell is not None:
+        tell(amount)
+
+
+@contextlib.contextmanager
+def shown(command: str, samples: int) -> Iterator[None]:
+    """Show how far ``command`` is with flights of so many ``samples``: a bar on a terminal, else a line now and then."""
+    total = PASSES[command] * max(samples, 1)
+    with contextlib.ExitStack() as stack:
+        show = stack.enter_context(_bar()) if sys.stderr.isatty() else _lines()
+        done, start = 0.0, time.monotonic()
+
+        def tell(amount: float) -> None:
+            nonlocal done
+            done += amount
+            if time.monotonic() - start > QUIET:
+                show(min(done / total, 0.99))
+
+        token = _listener.set(tell)
+        try:
+            yield
+        finally:
+            _listener.reset(token)
+
+
+@contextlib.contextmanager
+def _bar() -> Iterator[Callable[[float], None]]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+    columns = (BarColumn(), TaskProgressColumn(), TextColumn("time left"), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True, speed_estimate_period=600.0) as bar:
+        task = bar.add_task("", total=1.0, visible=False)
+        yield lambda share: bar.update(task, completed=share, visible=True)
+
+
+def _lines() -> Callable[[float], None]:
+    start = last = time.monotonic()
+
+    def show(share: float) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if now - last >= SPELL:
+            last = now
+            left = (now - start) * (1 / share - 1)
+            click.echo(f"... {100 * share:.0f} % done, about {_duration(left)} left", err=True)
+
+    return show
+
+
+def _duration(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"

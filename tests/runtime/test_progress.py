@@ -1,0 +1,48 @@
+"""How far a command is: what is foretold is about what is done, and how it is shown."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from ragg_runtime import compare, diagnose, load, passes, progress
+from ragg_runtime.evidence import work
+from ragg_runtime.reference.scenario import scenario
+
+
+def test_a_command_does_about_as_many_passes_as_foretold(monkeypatch: pytest.MonkeyPatch) -> None:
+    s = scenario(61, duration=300.0)
+    flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
+    for module in (passes, work, compare):
+        monkeypatch.setattr(module, "ROWS", 1700)
+    told: list[float] = []
+    for name, run in (("compare", compare.compare), ("diagnose", diagnose.diagnose)):
+        told.clear()
+        token = progress._listener.set(told.append)
+        run(load.packaged(), s.sheet, [flight])
+        progress._listener.reset(token)
+        assert len(told) > 20
+        assert 0.5 < sum(told) / len(flight) / progress.PASSES[name] < 1.6
+
+
+def test_lines_tell_share_and_time_left(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with progress.shown("diagnose", 1000):
+        for _ in range(10):
+            now[0] += 10.0
+            progress.step(progress.PASSES["diagnose"] * 1000 / 20)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "... 10 % done, about 3 min left"
+    assert lines[-1] == "... 50 % done, about 100 s left" or lines[-1] == "... 50 % done, about 2 min left"
+    progress.step(1.0)  # nobody listens any more
+    assert capsys.readouterr().err == ""
+
+
+def test_short_commands_show_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    with progress.shown("diagnose", 10):
+        progress.step(20.0)
+    assert capsys.readouterr().err == ""
