@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import os
 import random
@@ -54,6 +56,9 @@ def made(base: Path) -> Place:
         write_flight(simulated(m.instrument, [], seed=seed, duration=90.0, rate=16.0), flights[-1])
     (base / "scratch").mkdir()
     place = Place(base, tuple(flights), None, 0.0)
+    # In this process first: a fork that becomes another user may not be able to import anything any more.
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        main(place.arguments(base / "first.jsonl", base / "first.json"))
     began = time.monotonic()
     answer = base / "answer.json"
     ended = run(place.arguments(base / "r.jsonl", answer), Fault("none"), base / "scratch", main)

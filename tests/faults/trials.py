@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import random
 import shutil
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -56,9 +59,18 @@ _folders = everything.folders
 
 
 def warm() -> None:
-    """Compute in this process what its forks would all compute again."""
+    """Compute in this process what its forks would all compute again, and load what they need.
+
+    A fork that becomes another user may not be able to read Python's own files any more (an interpreter below
+    the home of the superuser): whatever a command imports is imported here.
+    """
     everything.folders = derived  # type: ignore[assignment]
     derived()
+    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+        for command in COMMANDS:
+            base = Path(folder) / command.name
+            base.mkdir()
+            main(command.arguments(command.prepare(base)))
     for effects in ([], [EFFECT]):
         instrument = workflow.parse_instrument(_sheet(effects))
         extend.model_of(instrument)
