@@ -8,15 +8,15 @@ import os
 import random
 import shutil
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 from derive import everything, tree
 from ragg_runtime import extend, workflow
 from ragg_runtime.cli import main
 from ragg_runtime.model_dir import load_model_dir
+from tests.derived import derived
 
 from .injected import NOBODY, Ended, Fault, run
 
@@ -49,15 +49,6 @@ class Outcome:
     wrong: tuple[str, ...]
 
 
-@cache
-def derived() -> dict[str, dict[str, str]]:
-    """What `ragg derive` yields, computed once for all trials."""
-    return {folder: dict(files) for folder, files in _folders().items()}
-
-
-_folders = everything.folders
-
-
 def warm() -> None:
     """Compute in this process what its forks would all compute again, and load what they need.
 
@@ -66,7 +57,7 @@ def warm() -> None:
     """
     everything.folders = derived  # type: ignore[assignment]
     derived()
-    with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+    with tempfile.TemporaryDirectory() as folder, _silent():
         for command in COMMANDS:
             base = Path(folder) / command.name
             base.mkdir()
@@ -75,6 +66,12 @@ def warm() -> None:
         instrument = workflow.parse_instrument(_sheet(effects))
         extend.model_of(instrument)
         extend.files_of(instrument)
+
+
+@contextlib.contextmanager
+def _silent() -> Iterator[None]:
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        yield
 
 
 def _sheet(effects: Sequence[str]) -> str:
