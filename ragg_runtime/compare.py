@@ -449,7 +449,8 @@ def channel_unit(name: str) -> str:
     if name in ingredients.FORCES:
         return "m/s^2"
     if (call := ingredients.FUNCTION.fullmatch(name)) is not None:
-        return "1" if call[1] == "sign" else channel_unit(call["of"])
+        unit = channel_unit(call["of"])
+        return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[call[1]]
     if (slow := ingredients.SLOW.fullmatch(name)) is not None:
         return channel_unit(slow["of"])
     if name not in SI_UNITS and (rate := ingredients.DERIVATIVE.fullmatch(name)) is not None:
