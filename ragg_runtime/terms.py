@@ -92,6 +92,7 @@ class Dictionary:
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in harmonics(HIGHEST_OF_ONE)]
+        alone += [Term("const", (f,)) for f in ingredients.FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in harmonics(HIGHEST)]
         made_of = [c for c in further if all(n in self._size for n in c)]
         trends = [any(n in self.centre or ingredients.is_slow(n) for n in c) for c in made_of]
@@ -101,7 +102,7 @@ class Dictionary:
         swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
         self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
         self.first_order = len(alone)
-        """Constants and single channels: so many of the terms, the first."""
+        """Constants, single channels and turning forces: so many of the terms, the first."""
         self.slow = len(alone) + len(lasting)
         """These and what may have a trend: so many of the terms, the first."""
 
