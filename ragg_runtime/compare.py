@@ -429,6 +429,7 @@ def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
                 "share": min(1.0, t.mean_square / power),
                 "z": t.z,
                 "kind": t.kind,
+                "how": t.how,
             }
             if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
                 best[key] = row

@@ -117,7 +117,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         for t in terms["terms"]:
             lines.append(
                 f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
-                f" {t['z']:+.1f} sigma"
+                f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
             )
         if d.expression():
             lines += [

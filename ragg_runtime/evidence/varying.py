@@ -123,7 +123,7 @@ class BlockScores:
         spans = [(a, a + n) for n in WINDOWS if n < len(d) for a in range(0, len(d) - n + 1, max(1, n // 2))]
         a, b = np.array(spans).T
         amount, variance = D[b] - D[a], V[b] - V[a]
-        return self._single(amount, variance, V[-1], [self._between(*s) for s in spans])
+        return self._single(amount, variance, (b - a) / len(d), [self._between(*s) for s in spans])
 
     def _jump(self, d: Array, v: Array) -> Varying:
         """The coefficient after an instant less that before it, the mean of both taken out."""
@@ -132,18 +132,21 @@ class BlockScores:
         share = _ratio(V[at], V[0])
         amount = D[at] - share * D[0]
         variance = np.where((share > 0.01) & (share < 0.99), V[at] * (1.0 - share), 0.0)
-        return self._single(amount, variance, V[0], [f"since {self.time[n]:.4g} s" for n in at])
+        since = 1.0 - at / len(d)
+        return self._single(
+            amount, variance, since * (1.0 - since), [f"since {self.time[n]:.4g} s" for n in at]
+        )
 
     def _between(self, a: int, b: int) -> str:
         return f"from {self.time[a]:.4g} to {self.time[b]:.4g} s"
 
     @staticmethod
-    def _single(amount: Array, variance: Array, whole: Array, how: list[str]) -> Varying:
-        """The largest of scores of one degree of freedom, (variants, terms)."""
+    def _single(amount: Array, variance: Array, share: Array, how: list[str]) -> Varying:
+        """The largest of scores of one degree of freedom, (variants, terms); ``share``: mean square of each shape."""
         chi2 = _ratio(amount**2, variance)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
         log_p = float(stats.norm.logsf(np.sqrt(chi2[n, k]))) + float(np.log(2 * len(chi2)))
-        std = float(1.0 / np.sqrt(max(float(whole[k]), 1e-300)))
+        std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
         return Varying(log_p, int(k), float(chi2[n, k]), std * float(np.sqrt(chi2[n, k])), std, how[n])
 
     def _swing(self, d: Array, v: Array) -> Varying:
