@@ -461,7 +461,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
     cli.add_command(experiment)
     try:
-        cli.main(args=None if arguments is None else list(arguments), standalone_mode=False)
+        cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)
         sys.exit(2)

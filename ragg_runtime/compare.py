@@ -429,6 +429,7 @@ def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
                 "share": min(1.0, t.mean_square / power),
                 "z": t.z,
                 "kind": t.kind,
+                "how": t.how,
             }
             if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
                 best[key] = row
@@ -449,7 +450,8 @@ def channel_unit(name: str) -> str:
     if name in ingredients.FORCES:
         return "m/s^2"
     if (call := ingredients.FUNCTION.fullmatch(name)) is not None:
-        return "1" if call[1] == "sign" else channel_unit(call["of"])
+        unit = channel_unit(call["of"])
+        return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[call[1]]
     if (slow := ingredients.SLOW.fullmatch(name)) is not None:
         return channel_unit(slow["of"])
     if name not in SI_UNITS and (rate := ingredients.DERIVATIVE.fullmatch(name)) is not None:

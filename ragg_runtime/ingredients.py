@@ -6,7 +6,7 @@ Names are text that a reader can take literally:
 - ``f_i``, ``f_o``: specific force along the input and output axes of the first accelerometer,
   a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the
   third and fourth with f_i and f_o exchanged), and their derivatives ``d_f_i``, ``d2_f_i``;
-- ``abs(X)``, ``sign(X)``;
+- ``abs(X)``, ``sign(X)``, ``square(X)``;
 - ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep.
 """
 
@@ -29,7 +29,7 @@ FORCES = ("f_i", "f_o")
 GRID = 1000
 """Samples between the places from which relaxations can be taken up."""
 
-FUNCTION = re.compile(r"(abs|sign)\((?P<of>.+)\)")
+FUNCTION = re.compile(r"(abs|sign|square)\((?P<of>.+)\)")
 SLOW = re.compile(r"slow\((?P<of>.+), (?P<seconds>[0-9.]+) s\)")
 DERIVATIVE = re.compile(r"d2?_(?P<of>.+)")
 
@@ -61,7 +61,7 @@ def series(name: str, r: Record) -> Array:
         return r.time
     if (found := FUNCTION.fullmatch(name)) is not None:
         x = series(found["of"], r)
-        return np.asarray(np.abs(x) if found[1] == "abs" else np.sign(x))
+        return np.asarray({"abs": np.abs, "sign": np.sign, "square": np.square}[found[1]](x))
     if name not in r.wide and stem(name, r) in FORCES:
         return _turning(name, r)
     known = r.series(name)
@@ -84,44 +84,46 @@ def _turning(name: str, r: Record) -> Array:
 
 
 class Relaxations:
-    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest at the first valid sample (a channel's value there is its zero).
+    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; a channel's value at the first valid sample is its zero.
 
-    They are run through once, segment by segment (:meth:`advance`), and then taken up again from any multiple of
-    ``GRID`` samples.
+    They are run through once, segment by segment (:meth:`advance`), and then taken up again anywhere
+    (:meth:`series`, which changes nothing).
     """
 
-    def __init__(self, names: Sequence[str], rate: float) -> None:
+    def __init__(self, names: Sequence[str], record: Record) -> None:
+        self._record = record
         self._of: dict[str, tuple[str, float]] = {}
         for name in names:
             found = SLOW.fullmatch(name)
             assert found is not None, name
-            self._of[name] = (found["of"], float(np.exp(-1.0 / (rate * float(found["seconds"])))))
+            self._of[name] = (found["of"], float(np.exp(-1.0 / (record.rate * float(found["seconds"])))))
         self._origin: dict[str, float] = {}
         self._last = dict.fromkeys(self._of, 0.0)
-        self._places: list[float] = []  # times, s
-        self._states: list[dict[str, float]] = []
+        self._states: list[dict[str, float]] = []  # before every GRID-th sample
         self._done = 0
 
     def advance(self, r: Record) -> dict[str, Array]:
         """All series over the next part of the record, (N,), SI."""
         made = {n: self._run(n, r, self._last[n]) for n in self._of}
         for k in range(-self._done % GRID, len(r.time), GRID):
-            self._places.append(float(r.time[k]))
             self._states.append({n: float(y[k - 1]) if k else self._last[n] for n, y in made.items()})
         self._done += len(r.time)
         self._last = {n: float(y[-1]) for n, y in made.items()}
         return made
 
     def series(self, name: str, r: Record) -> Array:
-        """(N,), SI, over a part of the record that begins at a multiple of ``GRID`` samples."""
-        k = int(np.searchsorted(self._places, float(r.time[0])))
-        assert k < len(self._places) and self._places[k] == r.time[0], "a part that begins off the grid"
-        return self._run(name, r, self._states[k][name])
+        """(N,), SI, over any part of the record."""
+        start = int(np.searchsorted(self._record.time, r.time[0]))
+        k, between = divmod(start, GRID)
+        last = self._states[k][name]
+        if between:
+            last = float(self._run(name, self._record.part(slice(start - between, start)), last)[-1])
+        return self._run(name, r, last)
 
     def _run(self, name: str, r: Record, last: float) -> Array:
         of, c = self._of[name]
         x = series(of, r)
-        if of in FORCES:
+        if of in FORCES or FUNCTION.fullmatch(of):
             origin = 0.0
         else:
             if of not in self._origin and r.valid.any():

@@ -9,6 +9,7 @@ from math import comb
 from ragg_runtime import ingredients
 from ragg_runtime.terms import Term
 
+_FUNCTIONS = {"abs": "absolute value", "sign": "sign", "square": "square"}
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 
 
@@ -45,7 +46,7 @@ def in_words(name: str) -> str:
     if (slow := ingredients.SLOW.fullmatch(name)) is not None:
         return f"{in_words(slow['of'])} through a relaxation of {slow['seconds']} s"
     if (call := ingredients.FUNCTION.fullmatch(name)) is not None:
-        return f"{'absolute value' if call[1] == 'abs' else 'sign'} of {in_words(call['of'])}"
+        return f"{_FUNCTIONS[call[1]]} of {in_words(call['of'])}"
     if (rate := ingredients.DERIVATIVE.fullmatch(name)) is not None:
         return f"{'second ' if name.startswith('d2_') else ''}time derivative of {rate['of']}"
     return name
@@ -59,7 +60,7 @@ def _inner(name: str) -> Sequence[str]:
 def _column(name: str) -> str | None:
     """Name for a column of the flight that holds a series which no expression can form."""
     if (slow := ingredients.SLOW.fullmatch(name)) is not None:
-        return f"slow_{slow['of']}"
+        return "slow_" + slow["of"].replace("(", "_").replace(")", "")
     return name if ingredients.DERIVATIVE.fullmatch(name) else None
 
 

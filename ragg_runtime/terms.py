@@ -43,6 +43,9 @@ CREEP = (1, 5, 20, 60)
 TURNING_CREEP = (0.1, 0.3, 1, 3, 10)
 """The same of forces that turn with the disc, of which a slower one keeps little."""
 
+WARMTH = (5, 20, 60)
+"""The same of squares: what the power that a motion dissipates warms."""
+
 
 @dataclass(frozen=True)
 class Term:
@@ -75,7 +78,7 @@ class Dictionary:
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
         further = [c for c in generic([*centred, "time"]) if all(ingredients.recorded(n, r) for n in c)]
         made = dict.fromkeys(n for c in further for n in c if n not in names)
-        self._slow = Relaxations([n for n in made if ingredients.is_slow(n)], r.rate)
+        self._slow = Relaxations([n for n in made if ingredients.is_slow(n)], r)
         found = _statistics(r, [*names, *made], self._slow)
         self.centre = {n: found[n].mean for n in (*centred, "time")}
         self._size = {n: s.rms if n not in self.centre else s.spread for n, s in found.items() if s.varies}
@@ -89,6 +92,7 @@ class Dictionary:
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
         alone = [Term(h, c) for c in products if len(c) <= 1 for h in harmonics(HIGHEST_OF_ONE)]
+        alone += [Term("const", (f,)) for f in ingredients.FORCES if f in self._size]
         several = [Term(h, c) for c in products if len(c) > 1 for h in harmonics(HIGHEST)]
         made_of = [c for c in further if all(n in self._size for n in c)]
         trends = [any(n in self.centre or ingredients.is_slow(n) for n in c) for c in made_of]
@@ -98,7 +102,7 @@ class Dictionary:
         swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
         self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
         self.first_order = len(alone)
-        """Constants and single channels: so many of the terms, the first."""
+        """Constants, single channels and turning forces: so many of the terms, the first."""
         self.slow = len(alone) + len(lasting)
         """These and what may have a trend: so many of the terms, the first."""
 
@@ -156,6 +160,7 @@ def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
     memory = [
         f"slow({x}, {t} s)" for names, ts in ((a, CREEP), (turning, TURNING_CREEP)) for x in names for t in ts
     ]
+    memory += [f"slow(square({x}), {t} s)" for x in ("f_i", "a_z") for t in WARMTH]
     found: list[tuple[str, ...]] = [(n,) for n in memory]
     found += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
     found += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]

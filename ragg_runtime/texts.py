@@ -6,8 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ragg_runtime import display
 from ragg_runtime.compare import Comparison
+from ragg_runtime.demodulate import low_pass
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, Ranked
 from ragg_runtime.flight import Flight
 from ragg_runtime.metrics import Error
@@ -29,10 +32,25 @@ def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
 
 
 def _error(e: Error) -> str:
-    channels = (
-        f"{e.inline_Eo:10.4g} {e.cross_Eo:10.4g} {e.inline_Eo_per_rtHz:12.4g} {e.cross_Eo_per_rtHz:12.4g}"
+    values = (
+        (e.rms_Eo, 12, 5),
+        (e.inline_Eo, 10, 4),
+        (e.cross_Eo, 10, 4),
+        (e.inline_Eo_per_rtHz, 12, 4),
+        (e.cross_Eo_per_rtHz, 12, 4),
     )
-    return f"{e.rms_Eo:12.5g} {channels}"
+    return " ".join(f"{x:{w}.{d}g}" if np.isfinite(x) else f"{'-':>{w}}" for x, w, d in values)
+
+
+def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
+    """Why some demodulated channels have no value, if any lack one."""
+    if all(np.isfinite((e.inline_Eo, e.cross_Eo)).all() for e in errors) or not flights:
+        return []
+    longest = max(len(low_pass(x.rate)) / x.rate for x in flights)
+    return [
+        f"-: no unbroken stretch of that time is as long as the demodulator's low-pass, {longest:.3g} s: "
+        "a longer record has these channels too"
+    ]
 
 
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
@@ -49,6 +67,7 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
         f"{'calibrated':12} {_error(c.calibrated)}",
         f"{'held out':12} {_error(c.holdout)}",
         f"{'noise floor':12} {c.noise_floor:12.5g}",
+        *_missing((c.calibrated, c.holdout), flights),
         "",
         display.ADEQUATE if c.adequate else display.NOT_ADEQUATE,
     ]
@@ -98,7 +117,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         for t in terms["terms"]:
             lines.append(
                 f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
-                f" {t['z']:+.1f} sigma"
+                f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
             )
         if d.expression():
             lines += [
@@ -129,6 +148,7 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
             f"{'after':12} {_error(a.after.calibrated)}",
             f"{'held out':12} {_error(a.after.holdout)}",
             f"{'noise floor':12} {a.after.noise_floor:12.5g}",
+            *_missing((a.after.calibrated, a.after.holdout), flights),
             "",
             display.NOW_ADEQUATE if a.after.adequate else display.STILL_MISSING,
         ]

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import os
 import shutil
 import tempfile
+from collections.abc import Iterator
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("project", deadline=None, derandomize=True)
@@ -16,3 +19,12 @@ settings.load_profile("project")
 _home = tempfile.mkdtemp(prefix="ragg-tests-")
 atexit.register(shutil.rmtree, _home, ignore_errors=True)
 os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": f"{_home}/cache"}
+
+
+@pytest.fixture
+def small_heap() -> Iterator[None]:
+    """What was imported is kept out of garbage collection: for tests that ask for many of them."""
+    gc.collect()
+    gc.freeze()
+    yield
+    gc.unfreeze()

@@ -89,7 +89,7 @@ def finished(
     }
 
 
-def run(specs: Sequence[Spec], cache: Path, jobs: int, source: str) -> None:
+def run(specs: Sequence[Spec], cache: Path, jobs: int, source: str, sample: int = 0) -> None:
     """Fly specs, appending a line to the cache as each is done; an interruption loses only those in the air."""
     cache.parent.mkdir(parents=True, exist_ok=True)
     if cache.exists() and not cache.read_bytes().endswith(b"\n"):
@@ -110,7 +110,8 @@ def run(specs: Sequence[Spec], cache: Path, jobs: int, source: str) -> None:
         task = progress.add_task("flights", total=len(specs))
 
         def done(spec: Spec, result: Mapping[str, object]) -> None:
-            line = {"id": spec.id, "kind": spec.kind, "plan": spec.digest, "source": source} | dict(result)
+            line: dict[str, object] = {"id": spec.id, "kind": spec.kind, "plan": spec.digest}
+            line |= {"source": source, "seed": sample} | dict(result)
             file.write(json.dumps(line) + "\n")
             file.flush()
             progress.update(task, advance=1, description=spec.id)
@@ -135,38 +136,44 @@ def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.diagnosis", description=__doc__)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
+    parser.add_argument(
+        "--seed", type=int, default=0, help="which sample of flights (0: that of the page in docs)"
+    )
     parser.add_argument("--flights", type=int, help="at most so many of each kind")
     parser.add_argument(
         "--flight", action="append", default=[], metavar="KIND/NUMBER", help="show one flight"
     )
     parser.add_argument("--cache", type=Path, default=CACHE, help="results, a JSON line a flight")
     parser.add_argument("--keep", action="store_true", help="keep results of other versions of the sources")
-    parser.add_argument("--page", type=Path, default=PAGE, help="written once all flights are done")
+    parser.add_argument(
+        "--page", type=Path, help="written once all flights are done (of seed 0: docs/diagnosis.md)"
+    )
     parser.add_argument("--table", action="store_true", help="fly nothing: print the page of what is there")
     options = parser.parse_args(arguments)
     for name in options.flight:
         kind, _, number = name.partition("/")
-        print(json.dumps(fly(plan.spec(kind, int(number))), indent=1))
+        print(json.dumps(fly(plan.spec(kind, int(number), options.seed)), indent=1))
     if options.flight:
         return 0
     source = source_digest()
-    everything = plan.specs()
-    chosen = plan.specs(options.only, options.flights)
+    everything = plan.specs(sample=options.seed)
+    chosen = plan.specs(options.only, options.flights, options.seed)
     accepted = None if options.keep or options.table else source
     if not options.table:
         have = finished(read(options.cache), chosen, accepted)
         print(f"{len(have)} of {len(chosen)} flights are done already", file=sys.stderr)
         try:
-            run([s for s in chosen if s.id not in have], options.cache, options.jobs, source)
+            run([s for s in chosen if s.id not in have], options.cache, options.jobs, source, options.seed)
         except KeyboardInterrupt:
             print("interrupted: run it again to go on", file=sys.stderr)
             return 130
     lines = list(finished(read(options.cache), everything, accepted).values())
-    text = table.page(lines, complete=len(lines) == len(everything))
+    text = table.page(lines, complete=len(lines) == len(everything), sample=options.seed)
     print(text)
-    if len(lines) == len(everything) and not options.table:
-        options.page.write_text(text, "utf-8")
-        print(f"written: {options.page}", file=sys.stderr)
+    page = options.page or (PAGE if options.seed == 0 else None)
+    if page is not None and len(lines) == len(everything) and not options.table:
+        page.write_text(text, "utf-8")
+        print(f"written: {page}", file=sys.stderr)
     return 0
 
 

@@ -79,6 +79,34 @@ def _creep(x: Array, rate: float, constant: float) -> Array:
     return np.asarray(signal.lfilter([1 - c], [1, -c], x))
 
 
+def _rms(x: Array) -> float:
+    return float(np.sqrt(np.mean(x**2)))
+
+
+def _play(x: Array, width: float) -> Array:
+    """Hysteresis: what a part with so much play follows of x."""
+    y = np.empty_like(x)
+    now = 0.0
+    for n, value in enumerate(x):
+        now = min(max(now, value - width), value + width)
+        y[n] = now
+    return y
+
+
+def _resonant(x: Array, rate: float, frequency: float, damping: float) -> Array:
+    """What a suspension with this resonance makes of x, less x; in the limit of fine sampling."""
+    w, fine = 2 * np.pi * frequency, 8
+    y = signal.resample_poly(x - x[0], fine, 1)
+    b, a = signal.bilinear([w**2], [1.0, 2 * damping * w, w**2], fs=rate * fine)
+    return np.asarray(signal.lfilter(b, a, y)[::fine] - (x - x[0]))
+
+
+def _late(x: Array, rate: float, delay: float) -> Array:
+    """x some time ago, s."""
+    time = np.arange(len(x)) / rate
+    return np.asarray(np.interp(time - delay, time, x))
+
+
 TERMS: Mapping[str, Callable[[World], Array]] = {
     "omega_z": lambda w: _first(w["omega_z"]),
     "omega_x cos phi": lambda w: _first(w["omega_x"] * np.cos(w.phi)),
@@ -112,8 +140,20 @@ TERMS: Mapping[str, Callable[[World], Array]] = {
 }
 """Terms by name; beside them ``SPIN_RATE``, which is flown."""
 
+FURTHER: Mapping[str, Callable[[World], Array]] = {
+    "dead zone of f_i": lambda w: _first(np.clip(w.f_i[0], -0.4 * _rms(w.f_i[0]), 0.4 * _rms(w.f_i[0]))),
+    "play in f_i (hysteresis)": lambda w: _first(_play(w.f_i[0], 0.3 * _rms(w.f_i[0]))),
+    "f_i^2 temperature": lambda w: _first(w.f_i[0] ** 2 * w.change("temperature")),
+    "f_i roll": lambda w: _first(w.f_i[0] * w["roll"]),
+    "sqrt(abs(f_o))": lambda w: _first(np.sqrt(np.abs(w.f_o[0]))),
+    "resonance at 3 Hz": lambda w: _first(_resonant(w.f_i[0], w.rate, 3.0, 0.1)),
+    "cross-talk of A3, 0.3 s late": lambda w: _first(_late(w.f_i[2], w.rate, 0.3)),
+    "heating by f_i^2, 30 s": lambda w: _first(_creep(w.f_i[0] ** 2, w.rate, 30.0)),
+}
+"""Further terms, of which the dictionary of the diagnosis holds most in no such form."""
+
 SPIN_RATE = "spin rate off"
-NAMES = (*TERMS, SPIN_RATE)
+NAMES = (*TERMS, SPIN_RATE, *FURTHER)
 
 
 @dataclass(frozen=True)
@@ -135,7 +175,7 @@ def drawn(bench: Bench, scenario: Scenario, name: str, strength: float, phi: Arr
     else:
         world = World(sim.time, phi, sim.channels, scenario.rate, scenario.duration, scenario)
         k = scenario.instrument.accelerometers
-        unit = combine((k["k_VI"] * k["K1"])[:, None] * TERMS[name](world))
+        unit = combine((k["k_VI"] * k["K1"])[:, None] * ({**TERMS, **FURTHER})[name](world))
     row = bench.whitened(unit)
     everything = bench.basis(range(len(bench.columns)))
     alone = float(np.linalg.norm(row - everything @ (everything.T @ row)))

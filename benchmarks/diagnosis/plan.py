@@ -17,7 +17,7 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 DURATION = 640.0
 RATE = 16.0
 
-COUNTS = {"effect-free": 64, "single-10": 62, "single-5": 62, "two": 40, "outside": 28}
+COUNTS = {"effect-free": 64, "single-10": 62, "single-5": 62, "two": 40, "outside": 36}
 """Flights of every kind."""
 
 STRENGTH = {"single-10": 10.0, "single-5": 5.0, "two": 10.0, "outside": 10.0}
@@ -27,6 +27,9 @@ RECORD = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
 """A flight whose motion channels are flown again, as a record."""
 
 _SEEDS = {"effect-free": 10_000, "single-10": 20_000, "single-5": 30_000, "two": 40_000, "outside": 50_000}
+
+_APART = 1_000_000
+"""Between the seeds of two samples."""
 
 
 @dataclass(frozen=True)
@@ -79,19 +82,19 @@ class Spec:
         return np.random.default_rng([self.seed, 900 + stream])
 
 
-def specs(kinds: Sequence[str] | None = None, most: int | None = None) -> list[Spec]:
-    """All flights of these kinds (default: of every kind), at most ``most`` of each.
+def specs(kinds: Sequence[str] | None = None, most: int | None = None, sample: int = 0) -> list[Spec]:
+    """All flights of these kinds (default: of every kind), at most ``most`` of each, of one sample.
 
     The kinds in turn, so that a run cut short says something of each.
     """
     counts = {k: COUNTS[k] if most is None else min(most, COUNTS[k]) for k in kinds or COUNTS}
     order = sorted((index / count, kind) for kind, count in counts.items() for index in range(count))
-    return [spec(kind, round(place * counts[kind])) for place, kind in order]
+    return [spec(kind, round(place * counts[kind]), sample) for place, kind in order]
 
 
-def spec(kind: str, index: int) -> Spec:
-    """The flight of this kind and number."""
-    seed = _SEEDS[kind] + index
+def spec(kind: str, index: int, sample: int = 0) -> Spec:
+    """The flight of this kind and number; another ``sample`` draws everything anew."""
+    seed = _SEEDS[kind] + index + _APART * sample
     rng = np.random.default_rng([seed, 899])
     motions = ("mixed", "dryden", "kolmogorov", "flat", "resonant", "recorded")
     gradients = (

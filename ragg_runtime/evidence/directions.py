@@ -17,7 +17,6 @@ from scipy import fft
 
 from ragg_runtime import design, gradient
 from ragg_runtime.evidence.work import Flown
-from ragg_runtime.ingredients import GRID
 from ragg_runtime.passes import Piece
 from ragg_runtime.terms import Dictionary, Term
 from ragg_runtime.threads import count
@@ -52,7 +51,6 @@ class Directions:
         o, piece = self.piece.observation, self.piece
         rows = piece.segment.rows
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
-        lead += (rows.start - lead) % GRID  # where relaxations can be taken up
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid = o.record.valid
         for at, x in self.dictionary.chunks(wide, terms):

@@ -1,8 +1,4 @@
-"""What no steady term can express: one that comes and goes, and a line in the spectrum.
-
-Both are asked of the whitened residual, with everything known projected out, against its own level nearby, so
-that noise that is not quite stationary or not quite white raises no alarm.
-"""
+"""A line in the spectrum of the whitened residual, with everything known projected out, against its level nearby."""
 
 from __future__ import annotations
 
@@ -13,7 +9,6 @@ from numpy.typing import NDArray
 from scipy import ndimage, stats
 
 from ragg_runtime.passes import Piece
-from ragg_runtime.segments import BLOCKS
 
 Array = NDArray[np.float64]
 
@@ -22,72 +17,6 @@ NEIGHBOURS = 200
 
 LOWEST_BIN = 4
 """First bin that may be a line: those below are bent by what a fit takes out."""
-
-
-@dataclass(frozen=True)
-class Varying:
-    """The term whose coefficient, fitted in every block of time by itself, varies most.
-
-    ``place`` is the term's; ``coefficient`` the root mean square of its coefficients, in units of the term's
-    series, and ``std`` that of one of them.
-    """
-
-    log_p: float
-    place: int
-    chi2: float
-    coefficient: float
-    std: float
-
-
-class BlockScores:
-    """Scores of some terms in every block of time: sums over segments."""
-
-    def __init__(self, count: int) -> None:
-        self.count = count
-        self.dot, self.norm2 = np.zeros((BLOCKS, count)), np.zeros((BLOCKS, count))
-        self.square, self.rows = np.zeros(BLOCKS), np.zeros(BLOCKS)
-
-    def join(self, other: BlockScores) -> None:
-        """Count in the sums of further segments."""
-        for name in ("dot", "norm2", "square", "rows"):
-            getattr(self, name)[...] += getattr(other, name)
-
-    def level(self, piece: Piece, y: Array) -> None:
-        """Count in the residual of a segment, (rows,)."""
-        for b, rows in piece.segment.blocks:
-            inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
-            self.square[b] += float(y[inside] @ y[inside])
-            self.rows[b] += float(np.sum(inside))
-
-    def add(self, piece: Piece, y: Array, at: slice, X: NDArray[np.float32]) -> None:
-        """Count in the whitened series X (terms, rows) of the terms at places ``at``; others than ours are left."""
-        if at.start >= self.count:
-            return
-        at = slice(at.start, min(at.stop, self.count))
-        X = X[: at.stop - at.start]
-        for b, rows in piece.segment.blocks:
-            inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
-            part = X[:, inside].astype(np.float64)
-            self.dot[b, at] += part @ y[inside]
-            self.norm2[b, at] += np.einsum("ij,ij->i", part, part)
-
-    def best(self, good: NDArray[np.bool_]) -> Varying | None:
-        """The most variable of the ``good`` terms."""
-        used = self.rows > 0
-        blocks = int(np.sum(used))
-        good = good[: self.count]
-        if blocks < 2 or not good.any():
-            return None
-        # over the whole the residual is as loud as its noise model says; blocks may be louder or quieter
-        level = self.square[used] / self.rows[used] / (np.sum(self.square) / np.sum(self.rows))
-        variance = self.norm2[used] * level[:, None]
-        chi2 = np.sum(self.dot[used] ** 2 / np.where(variance > 0.0, variance, np.inf), axis=0)
-        chi2 = np.where(good, chi2, 0.0)
-        k = int(np.argmax(chi2))
-        log_p = min(0.0, float(stats.chi2.logsf(chi2[k], blocks)) + float(np.log(np.sum(good))))
-        norm2 = float(np.mean(self.norm2[used, k]))
-        excess = max(0.0, float(chi2[k]) - blocks) / blocks
-        return Varying(log_p, k, float(chi2[k]), float(np.sqrt(excess / norm2)), float(1 / np.sqrt(norm2)))
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,8 @@ from scipy import stats
 
 from ragg_runtime import gradient
 from ragg_runtime.evidence.directions import Directions
-from ragg_runtime.evidence.irregular import BlockScores, Periodogram
+from ragg_runtime.evidence.irregular import Periodogram
+from ragg_runtime.evidence.varying import BlockScores
 from ragg_runtime.evidence.work import Flown, Projector
 from ragg_runtime.passes import Piece, flight_segments
 from ragg_runtime.terms import Dictionary, Term
@@ -60,6 +61,8 @@ class Found:
         What it explained then.
     mean_square
         Of the term in the residual, V^2 (about its mean, for const terms).
+    how
+        In words, how a varying term varies.
     centre
         Means that its auxiliary channels enter less.
     """
@@ -71,6 +74,7 @@ class Found:
     chi2: float
     mean_square: float
     kind: str = "steady"
+    how: str = ""
     centre: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -133,7 +137,7 @@ class Scores:
         return Sums(
             len(self.dictionary.terms),
             len(self.projector.along),
-            BlockScores(self.dictionary.first_order),
+            BlockScores(self.dictionary.first_order, self.flown.observation.record.time),
             Periodogram(self._longest, self.flown.observation.record.rate, self._excluded),
         )
 
@@ -213,7 +217,7 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
     size = s.dictionary.size(term)
     mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
     z = float(np.sqrt(v.chi2))
-    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying")
+    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
 
 

@@ -167,9 +167,9 @@ def product(name: str) -> str:
 def _channel(name: str) -> str:
     if (slow := re.fullmatch(r"slow\((.+), ([0-9.]+) s\)", name)) is not None:
         return f"{_channel(slow[1])} relaxing in {slow[2]}{THIN}s"
-    if (call := re.fullmatch(r"(abs|sign)\((.+)\)", name)) is not None:
+    if (call := re.fullmatch(r"(abs|sign|square)\((.+)\)", name)) is not None:
         inner = _channel(call[2])
-        return f"|{inner}|" if call[1] == "abs" else f"sign({inner})"
+        return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[call[1]]
     found = re.fullmatch(r"(d2?_)?(a|omega|omegadot|f)_([xyzio])", name)
     if found is None:
         return name

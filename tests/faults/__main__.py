@@ -18,14 +18,18 @@ from .trials import COMMANDS, KINDS, Command, trial, warm
 
 
 def undisturbed(command: Command, base: Path) -> float:
-    """How long the command takes, s."""
-    base.mkdir()
-    place = command.prepare(base)
-    (base / "scratch").mkdir()
-    began = time.monotonic()
-    ended = run(command.arguments(place), Fault("none"), base / "scratch", command_line)
-    assert ended.status == 0, ended.said
-    return time.monotonic() - began
+    """How long the command takes, s: the shortest of three times, or many kills would come too late."""
+    spent = []
+    for n in range(3):
+        again = base / str(n)
+        again.mkdir(parents=True)
+        place = command.prepare(again)
+        (again / "scratch").mkdir()
+        began = time.monotonic()
+        ended = run(command.arguments(place), Fault("none"), again / "scratch", command_line)
+        spent.append(time.monotonic() - began)
+        assert ended.status == 0, ended.said
+    return min(spent)
 
 
 def main() -> int:

@@ -10,6 +10,7 @@ import signal
 import sys
 import tempfile
 import time
+import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -107,6 +108,9 @@ def _child(
             code = int(end.code or 0)
         sys.stdout.flush()
         sys.stderr.flush()
+    except BaseException:
+        # Whatever gets out of the command is a finding, and must be heard.
+        os.write(says, traceback.format_exc().encode())
     finally:
         os._exit(code)
 

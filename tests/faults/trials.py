@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import random
 import shutil
-from collections.abc import Callable, Sequence
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 from derive import everything, tree
 from ragg_runtime import extend, workflow
 from ragg_runtime.cli import main
 from ragg_runtime.model_dir import load_model_dir
+from tests.derived import derived
 
 from .injected import NOBODY, Ended, Fault, run
 
@@ -46,23 +49,29 @@ class Outcome:
     wrong: tuple[str, ...]
 
 
-@cache
-def derived() -> dict[str, dict[str, str]]:
-    """What `ragg derive` yields, computed once for all trials."""
-    return {folder: dict(files) for folder, files in _folders().items()}
-
-
-_folders = everything.folders
-
-
 def warm() -> None:
-    """Compute in this process what its forks would all compute again."""
+    """Compute in this process what its forks would all compute again, and load what they need.
+
+    A fork that becomes another user may not be able to read Python's own files any more (an interpreter below
+    the home of the superuser): whatever a command imports is imported here.
+    """
     everything.folders = derived  # type: ignore[assignment]
     derived()
+    with tempfile.TemporaryDirectory() as folder, _silent():
+        for command in COMMANDS:
+            base = Path(folder) / command.name
+            base.mkdir()
+            main(command.arguments(command.prepare(base)))
     for effects in ([], [EFFECT]):
         instrument = workflow.parse_instrument(_sheet(effects))
         extend.model_of(instrument)
         extend.files_of(instrument)
+
+
+@contextlib.contextmanager
+def _silent() -> Iterator[None]:
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        yield
 
 
 def _sheet(effects: Sequence[str]) -> str:

@@ -18,10 +18,12 @@ import numpy as np
 import pytest
 
 import generated
-from derive import tree
+from derive import everything, tree
 from derive.propagation import collect, motion_numbers
 from derive.symbols import MOTION, symbol
 from generated import analytical, chain, folded
+from ragg_runtime.cli import main
+from tests.derived import derived
 from tests.generated import compiled, draws
 from tests.generated import fifty_digits as fifty
 
@@ -44,16 +46,20 @@ def test_committed_code_is_what_the_derivation_yields() -> None:
     assert done.returncode == 0, done.stderr
 
 
-def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path: Path) -> None:
+def test_check_shows_the_difference_and_the_command_that_mends_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(everything, "folders", derived)
     root = copy_of_generated(tmp_path)
     changed = root / "generated" / "simplified.py"
     changed.write_text(changed.read_text().replace("D1234(K0*k1)", "D1234(-K0*k1)"))
     (root / "generated" / "c" / "chain.h").unlink()
     (root / "generated" / "by_hand.py").write_text("x = 1\n")
 
-    done = ragg("derive", "--check", "--out", str(root))
-    assert done.returncode == 2
-    said = done.stderr
+    with pytest.raises(SystemExit) as end:
+        main(["derive", "--check", "--out", str(root)])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
     assert "Traceback" not in said
     assert "missing: c/chain.h" in said
     assert "not derived: by_hand.py" in said
@@ -62,9 +68,9 @@ def test_check_shows_the_difference_and_the_command_that_mends_it(tmp_path: Path
     assert any(line.startswith("+") and "D1234(K0*k1)" in line for line in lines)
     assert "make derive" in said
 
-    mended = ragg("derive", "--out", str(root))
-    assert mended.returncode == 0
-    assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.stdout.split()}
+    main(["derive", "--out", str(root)])
+    mended = capsys.readouterr().out
+    assert {"simplified.py", "chain.h", "by_hand.py"} <= {Path(n).name for n in mended.split()}
     committed = {
         n: (COMMITTED / n).read_text() for n in json.loads((COMMITTED / "manifest.json").read_text())["files"]
     }
@@ -98,7 +104,7 @@ def test_the_hash_seed_of_python_changes_no_byte() -> None:
             stdout=subprocess.PIPE,
             text=True,
         )
-        for seed in ("0", "1", "31337")
+        for seed in ("0", "31337")
     ]
     digests = {p.communicate()[0].strip() for p in running}
     names = json.loads((COMMITTED / "manifest.json").read_text())["files"]

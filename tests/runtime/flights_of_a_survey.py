@@ -27,3 +27,8 @@ def make(folder: Path) -> tuple[Path, list[Path]]:
     shutil.copy(paths[1], damaged)
     damaged.write_bytes(damaged.read_bytes()[:5000])
     return folder / "model", [*paths, damaged]
+
+
+def without_effect(paths: list[Path]) -> list[Path]:
+    """Those that are diagnosed soonest: no effect to derive, the damaged file among them."""
+    return [p for p in paths if p.name not in WITH_EFFECT]

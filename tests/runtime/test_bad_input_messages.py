@@ -42,12 +42,9 @@ def test_bad_input(row: Row, tmp_path: Path) -> None:
 
 
 PICKED = (
-    ("model.toml", "an unknown key"),
     ("model.toml", "a hostile expression"),
     ("The flight file", "a truncated gzip file"),
-    ("The flight file", "text among the numbers"),
     ("Likely mistakes", "the sign of G_out reversed"),
-    ("Commands", "a report without a flight"),
 )
 
 

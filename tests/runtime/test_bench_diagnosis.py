@@ -53,7 +53,7 @@ def test_an_absorbed_effect_is_untestable(flown: tuple[Scenario, Bench]) -> None
     assert inject.drawn(bench, "second-order-misalignment", 10.0, np.random.default_rng(3)) is None
 
 
-@pytest.mark.parametrize("name", ["omega_z", "sin 5 phi", outside.SPIN_RATE])
+@pytest.mark.parametrize("name", ["omega_z", "sin 5 phi", outside.SPIN_RATE, *outside.FURTHER])
 def test_what_is_outside_keeps_its_strength_beyond_the_catalogue(
     name: str, flown: tuple[Scenario, Bench]
 ) -> None:
@@ -214,6 +214,10 @@ def test_the_plan_is_large_enough_and_always_the_same() -> None:
     assert plan.COUNTS["outside"] >= len(outside.NAMES) >= 20
     assert len({s.seed for s in specs}) == len({s.digest for s in specs}) == len(specs)
     assert plan.spec("two", 3) == plan.spec("two", 3)
+    others = plan.specs(sample=1)
+    assert not {s.seed for s in others} & {s.seed for s in specs}
+    assert not {s.digest for s in others} & {s.digest for s in specs}
+    assert [s.id for s in others] == [s.id for s in specs]
     assert {s.motion for s in specs} == {"mixed", "recorded", *("dryden", "flat", "kolmogorov", "resonant")}
 
 
@@ -230,6 +234,8 @@ def test_the_page_depends_on_the_lines_alone() -> None:
         ),
         _line("two/001", crash="Traceback\nValueError: no"),
     ]
+    assert "Not an independent sample" in table.page(lines, complete=False)
+    assert "`--seed 7`" in table.page(lines, complete=False, sample=7)
     text = table.page(lines, complete=False)
     assert text == table.page(lines[::-1], complete=False)
     assert "1 of 2 (50 %" in text

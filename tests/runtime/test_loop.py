@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import io
 import json
 import subprocess
 import sys
@@ -14,6 +16,7 @@ import pytest
 
 from derive.expression import ExpressionError, from_expression
 from ragg_runtime import extend, load, workflow
+from ragg_runtime.cli import main
 from ragg_runtime.compare import compare
 from ragg_runtime.demodulate import demodulate
 from ragg_runtime.diagnose import Diagnosis, diagnose
@@ -185,6 +188,18 @@ def flight_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 
 def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """The command in this process, which has imported everything already."""
+    words, status = list(map(str, arguments)), 0
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            main(words)
+        except SystemExit as end:
+            status = int(end.code or 0)
+    return subprocess.CompletedProcess(words, status, out.getvalue(), err.getvalue())
+
+
+def ragg_process(*arguments: object) -> subprocess.CompletedProcess[str]:
     words = [sys.executable, "-m", "ragg_runtime", *map(str, arguments)]
     return subprocess.run(words, capture_output=True, text=True, check=False, timeout=120)
 
@@ -234,9 +249,9 @@ def test_the_commands_speak_the_interface(flight_files: tuple[Path, Path], tmp_p
     noise = found["after"]["calibrated"]["rms_Eo"]
     assert noise < 0.9 * found["before"]["calibrated"]["rms_Eo"]
     assert (model / "generated" / "manifest.json").is_file()
-    assert strict(ragg("compare", model, flight, "--json", "-").stdout)["adequate"] is True
+    assert strict(ragg_process("compare", model, flight, "--json", "-").stdout)["adequate"] is True
 
-    again = ragg("add", model, "thermal-scale", flight)
+    again = ragg_process("add", model, "thermal-scale", flight)
     assert again.returncode == 2
     assert "already" in again.stderr
     assert ragg("remove", model, "thermal-scale").returncode == 0

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -196,46 +198,38 @@ def test_fails_before_the_commit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         assert entries(current.path) == ["generated", "history.json", "model.toml"]
 
 
-WRITER = """
-import sys
-from pathlib import Path
-sys.path[:0] = [{root!r}, {here!r}]
-from test_model_dir import change, load_model_dir
-folder = Path(sys.argv[1])
-current = load_model_dir(folder / "model")
-print("ready", flush=True)
-for n in range(int(current.instrument.radius), 100000):
-    current = change(folder, current, 1 + n % 12)
-"""
+def write_for_ever(folder: Path) -> None:
+    current = load_model_dir(folder / "model")
+    for n in range(int(current.instrument.radius), 100000):
+        current = change(folder, current, 1 + n % 12)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="needs SIGKILL")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork and SIGKILL")
 def test_killed_at_random_instants(tmp_path: Path) -> None:
-    here = Path(__file__).resolve().parent
-    script = tmp_path / "writer.py"
-    script.write_text(WRITER.format(root=str(ROOT), here=str(here)))
     made = make(tmp_path, 1)
     for n in range(1, 13):
         code_of(tmp_path, n)
     chance = random.Random(20240101)
     seen, last = set(), made.digest
     for _ in range(20):
-        with subprocess.Popen(
-            [sys.executable, script, tmp_path], stdout=subprocess.PIPE, text=True
-        ) as writer:
-            try:
-                assert writer.stdout is not None
-                assert writer.stdout.readline() == "ready\n"
-                # A reader beside the writer sees whole states only; the writer dies at any instant.
-                changes, wanted, deadline = 0, chance.randrange(1, 4), time.monotonic() + 30
-                while changes < wanted and time.monotonic() < deadline:
-                    found = load_model_dir(made.path)
-                    changes += found.digest != last
-                    last = found.digest
-                    time.sleep(0.002)
-                time.sleep(chance.uniform(0.0, 0.02))
-            finally:
-                writer.kill()  # or leaving the block would wait for it for ever
+        writer = os.fork()
+        if writer == 0:
+            with contextlib.suppress(BaseException):
+                write_for_ever(tmp_path)
+            os._exit(1)
+        try:
+            # A reader beside the writer sees whole states only; the writer dies at any instant.
+            changes, wanted, deadline = 0, chance.randrange(1, 4), time.monotonic() + 30
+            while changes < wanted and time.monotonic() < deadline:
+                found = load_model_dir(made.path)
+                changes += found.digest != last
+                last = found.digest
+                time.sleep(0.002)
+            time.sleep(chance.uniform(0.0, 0.02))
+        finally:
+            os.kill(writer, signal.SIGKILL)
+            _, status = os.waitpid(writer, 0)
+        assert os.waitstatus_to_exitcode(status) == -signal.SIGKILL, "the writer failed"
         seen.add(state_number(load_model_dir(made.path)))
     assert len(seen) > 3, "the writer never wrote"
     assert state_number(change(tmp_path, load_model_dir(made.path), 5)) == 5

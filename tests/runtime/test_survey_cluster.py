@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from flights_of_a_survey import make
+from flights_of_a_survey import make, without_effect
 
 from ragg_runtime import workflow
 from ragg_runtime.errors import UserError
@@ -29,13 +29,14 @@ HERE = "127.0.0.1"
 
 @pytest.fixture(scope="module")
 def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
-    return make(tmp_path_factory.mktemp("survey"))
+    model, files = make(tmp_path_factory.mktemp("survey"))
+    return model, [files[0], *without_effect(files)]
 
 
 @pytest.fixture(scope="module")
 def whole(flights: Flights) -> Survey:
     """What the local pool says."""
-    return workflow.survey(workflow.load(flights[0]), flights[1], jobs=2)
+    return workflow.survey(workflow.load(flights[0]), flights[1], jobs=1)
 
 
 class Cluster:
@@ -133,8 +134,9 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
 
 
 def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
-    flights: Flights, whole: Survey, tmp_path: Path
+    flights: Flights, whole: Survey, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(cluster, "RECONNECTED", 2.0)
     kept = tmp_path / "kept.jsonl"
     m = workflow.load(flights[0])
     with running(tmp_path, 1) as c:

@@ -97,15 +97,15 @@ def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_ta
     expected = (np.sin(w * t) - w * T * np.cos(w * t) + w * T * np.exp(-t / T)) / (1 + (w * T) ** 2)
     np.testing.assert_allclose(x, np.sin(w * t), atol=1e-12)
     name = "slow(a_z, 5 s)"
-    at_once = ingredients.Relaxations([name], r.rate)
+    at_once = ingredients.Relaxations([name], r)
     whole = at_once.advance(r)[name]
     np.testing.assert_allclose(whole, expected, atol=3e-3)  # of a signal held over a sample
-    parts = ingredients.Relaxations([name], r.rate)
+    parts = ingredients.Relaxations([name], r)
     pieces = [slice(0, 700), slice(700, 2500), slice(2500, 6000)]
     np.testing.assert_allclose(
         np.concatenate([parts.advance(r.part(s))[name] for s in pieces]), whole, rtol=1e-12, atol=1e-15
     )
-    for start in range(0, 6000, ingredients.GRID):
+    for start in (0, 400, 1000, 1999, 4500):
         part = r.part(slice(start, min(start + 1500, 6000)))
         np.testing.assert_allclose(parts.series(name, part), whole[start : start + 1500], rtol=1e-12)
 
@@ -246,6 +246,11 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
         (("f_o", "abs(f_o)"), "K_x*f_o*abs(f_o)", []),
         (("slow(f_i, 0.3 s)",), "K_x*slow_f_i", ["slow_f_i (f_i through a relaxation of 0.3 s)"]),
         (("a_z", "a_z", "sign(d_f_i)"), "K_x*a_z**2*sign(d_f_i)", ["d_f_i (time derivative of f_i)"]),
+        (
+            ("slow(square(f_i), 20 s)",),
+            "K_x*slow_square_f_i",
+            ["slow_square_f_i (square of f_i through a relaxation of 20 s)"],
+        ),
         (("d2_f_i",), "K_x*d2_f_i", ["d2_f_i (second time derivative of f_i)"]),
     ],
 )
