@@ -184,25 +184,21 @@ def orthonormal(columns: Array) -> Array:
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
 
 
-CHUNK = 8192
-"""Rows that enter a triangle at a time."""
+CHUNK = 1024
+"""Rows that enter a triangle at a time: they stay in the cache."""
 
-PANEL = 64
-"""Room for LAPACK's blocks of columns."""
+PANEL = 16
+"""Columns that LAPACK eliminates at a time."""
 
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
     n, rows = columns.shape
-    R = np.zeros((0, n))
+    R = np.zeros((n, n), order="F")
     for start in range(0, rows, CHUNK):
-        part = columns[:, start : start + CHUNK].T
-        stacked = np.empty((len(R) + len(part), n), order="F")
-        stacked[: len(R)], stacked[len(R) :] = R, part
-        # LAPACK itself: SciPy's wrapper clears the whole of what lies below the triangle
-        factored, *_ = linalg.lapack.dgeqrf(stacked, lwork=PANEL * n, overwrite_a=True)
-        R = np.triu(factored[:n])
-    return R if len(R) == n else np.vstack([R, np.zeros((n - len(R), n))])
+        part = np.array(columns[:, start : start + CHUNK].T, order="F")
+        R, *_ = linalg.lapack.dtpqrt(0, min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
+    return np.asarray(np.triu(R))
 
 
 def join(triangles: Sequence[Array]) -> Array:

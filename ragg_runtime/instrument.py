@@ -224,6 +224,8 @@ def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> d
 
 def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
     value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    if quantity.unit == si_unit:  # as g0 mostly is: nothing need be known of units for it
+        return _finite(value, where)
     known = units(1.0 if g0 is None else g0)
     if g0 is None and known.uses_g(quantity.unit, where):
         raise UserError("g cannot be used here: g0 defines it", where=where, found=quantity, expected=si_unit)
