@@ -58,9 +58,9 @@ def _load(model_dir: Path) -> Loaded:
     return m
 
 
-def _emit(result: Any, json_file: str | None, text: str) -> None:
+def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
-    if json_file is not None and isinstance(result, dict) and "provenance" not in result:
+    if json_file is not None and "provenance" not in result:
         from ragg_runtime.provenance import provenance
 
         result = result | {"provenance": provenance(_command())}
@@ -147,7 +147,7 @@ def effects(identifier: str | None, json_file: str | None) -> None:
     found = {e.id: manifest_of_effect(e) for e in catalogue()}
     if identifier is None:
         lines = [f"{i:28} {e['title']}" for i, e in found.items()]
-        _emit(list(found.values()), json_file, "\n".join(lines))
+        _emit({"effects": list(found.values())}, json_file, "\n".join(lines))
         return
     if identifier not in found:
         raise UserError(
@@ -264,11 +264,13 @@ def survey(
     """Diagnose many flights, each by itself, and sum them up."""
     from ragg_runtime import texts, workflow
     from ragg_runtime.survey import progress, text
+    from ragg_runtime.survey.journal import sha256
 
     m = _load(model_dir)
     with progress.results_file(resume) as file, progress.shown() as show:
         s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
-    read = [(r["flight"], r["sha256"]) for r in s.done]
+    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*workflow.sources(m, []), *read]
 
     def page() -> str:
@@ -278,7 +280,8 @@ def survey(
         return survey_html(s, title=title, command=_command(), digest=m.model.digest, sources=sources)
 
     _write_report(report_file, page)
-    origin = texts.origin(m, [], _command()) | {"sources": [{"name": n, "sha256": d} for n, d in sources]}
+    origin = texts.origin(m, [], _command(), files=files)
+    origin |= {"sources": [{"name": n, "sha256": d} for n, d in sources]}
     _emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
 
 
@@ -323,7 +326,9 @@ def add(
 
     _write_report(report_file, page)
     _emit(
-        result.as_json() | texts.origin(result.loaded, read, _command()), json_file, texts.added(result, read)
+        result.as_json() | texts.origin(result.loaded, read, _command(), before=m),
+        json_file,
+        texts.added(result, read),
     )
 
 
@@ -335,10 +340,11 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     """Take an effect out of the model."""
     from ragg_runtime import texts, workflow
 
-    m = workflow.remove(_load(model_dir), effect)
+    before = _load(model_dir)
+    m = workflow.remove(before, effect)
     left = [e.id for e in m.model.effects]
     _emit(
-        {"effect": effect, "effects": left} | texts.origin(m, (), _command()),
+        {"effect": effect, "effects": left} | texts.origin(m, (), _command(), before=before),
         json_file,
         f"removed {effect}; effects left: {', '.join(left) or 'none'}",
     )

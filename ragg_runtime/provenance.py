@@ -36,6 +36,9 @@ def provenance(
     directory: ModelDir | None = None,
     flights: Sequence[Flight] = (),
     derivation: str | None = None,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: ModelDir | None = None,
 ) -> dict[str, object]:
     """The object ``provenance`` of a JSON result.
 
@@ -49,19 +52,30 @@ def provenance(
         The flights, with the SHA-256 of their files.
     derivation
         Digest of the derived model.
+    files
+        Further flights: (path, SHA-256 or ``None`` where there is no such file).
+    before
+        The model directory that the command began with, where it has changed it.
     """
     found: dict[str, object] = {**versions()}
     if directory is not None:
         found["model"] = str(directory.path)
-        found["model_digest"] = hashlib.sha256(directory.text.encode()).hexdigest()
+        found["model_digest"] = _sha256(directory)
+        if before is not None:
+            found["model_digest_before"] = _sha256(before)
         folder = directory.instrument.effects_folder
         if folder is not None:
             found["effects_folder_digest"] = read_effects(folder, None).digest
     if derivation is not None:
         found["derivation_digest"] = derivation
-    found["flights"] = [{"path": _path(x.path, x.name), "digest": x.digest} for x in flights]
+    every = [*((_path(x.path, x.name), x.digest) for x in flights), *files]
+    found["flights"] = [{"path": path, "digest": digest} for path, digest in every]
     found["command"] = made_by
     return found
+
+
+def _sha256(directory: ModelDir) -> str:
+    return hashlib.sha256(directory.text.encode()).hexdigest()
 
 
 def _path(path: Path | None, name: str) -> str:

@@ -18,12 +18,28 @@ from ragg_runtime.provenance import provenance
 from ragg_runtime.workflow import Added, Loaded
 
 
-def origin(m: Loaded, flights: Sequence[Flight], command: str) -> dict[str, object]:
-    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``)."""
-    return {
-        "notes": notes(m, flights),
-        "provenance": provenance(command, m.directory, flights, m.model.digest),
-    }
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
+    has changed.
+    """
+    made = provenance(
+        command,
+        m.directory,
+        flights,
+        m.model.digest,
+        files=files,
+        before=None if before is None else before.directory,
+    )
+    return {"notes": notes(m, flights), "provenance": made}
 
 
 def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
@@ -48,8 +64,8 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
         return []
     longest = max(len(low_pass(x.rate)) / x.rate for x in flights)
     return [
-        f"-: no unbroken stretch of that time is as long as the demodulator's low-pass, {longest:.3g} s: "
-        "a longer record has these channels too"
+        f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
+        "there is no such stretch"
     ]
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from ragg_runtime import provenance
-from ragg_runtime.errors import UserError
+from ragg_runtime.atomic import write_text
 from ragg_runtime.experiments.result import Result
 
 _JSON = click.option(
@@ -82,10 +82,5 @@ def _give(result: Result, json_file: str | None, figures: Path | None) -> None:
         if json_file == "-":
             sys.stdout.write(text)
             return
-        try:
-            Path(json_file).write_text(text, encoding="utf-8")
-        except OSError as problem:
-            raise UserError(
-                "the JSON file cannot be written", where=json_file, found=problem.strerror
-            ) from problem
+        write_text(Path(json_file), text)
     click.echo(result.text(), nl=False)

@@ -23,11 +23,19 @@ def open_parquet(path: Path) -> Source:
     """The Parquet file as a source; UserError if a column is not numeric or has no unit."""
     try:
         schema = pq.read_schema(path)
+        # pandas keeps an unnamed index as a column of its own.
+        fields = [f for f in schema if not f.name.startswith("__index_level_")]
+    except UnicodeDecodeError as error:
+        raise UserError(
+            "the name of a column is not UTF-8 text",
+            where=path,
+            found=ascii(error.object[:60]),
+            expected="names in UTF-8, as in every Parquet file",
+            remedy="rename the column where the file is made",
+        ) from None
     except _DAMAGED as error:
         raise _damaged(path, error) from None
     headers = []
-    # pandas keeps an unnamed index as a column of its own.
-    fields = [f for f in schema if not f.name.startswith("__index_level_")]
     names = [f.name for f in fields]
     for field in fields:
         name, kind = field.name, field.type

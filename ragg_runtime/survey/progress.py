@@ -28,6 +28,8 @@ def results_file(resume: Path | None) -> Iterator[Path]:
         handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
         os.close(handle)
         path, temporary = Path(name), True
+        # A survey that is killed outright cannot say it any more.
+        click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
     try:
         yield path
     except BaseException:

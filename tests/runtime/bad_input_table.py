@@ -21,6 +21,8 @@ from io import StringIO
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 
 from ragg_runtime import workflow
 from ragg_runtime.cli import main
@@ -110,6 +112,19 @@ def text(new: str, name: str = "flight.csv") -> Callable[[], None]:
 
 def void(_: object) -> None:
     return None
+
+
+def odd_name(name: str) -> Callable[[], None]:
+    """A Parquet file whose column ``Temp`` is named in Latin-1 (Temp with an umlaut)."""
+
+    def make() -> None:
+        fields = [pa.field(n, pa.float64(), metadata={"units": "1"}) for n in ("time", "Temp")]
+        table = pa.Table.from_arrays([pa.array([0.0, 1.0])] * 2, schema=pa.schema(fields))
+        pq.write_table(table, name, store_schema=False)
+        path = Path(name)
+        path.write_bytes(path.read_bytes().replace(b"Temp", b"T\xe4mp"))
+
+    return make
 
 
 def edited(old: str, new: str) -> Callable[[], None]:
@@ -474,6 +489,12 @@ TABLE: dict[str, tuple[Row, ...]] = {
             "a truncated Parquet file",
             cut("flight.parquet"),
             ("flight.parquet", "damaged"),
+            ("compare", "model", "flight.parquet"),
+        ),
+        Row(
+            "a Parquet file with a name that is not UTF-8",
+            odd_name("flight.parquet"),
+            ("flight.parquet", "the name of a column is not UTF-8 text", "xe4mp"),
             ("compare", "model", "flight.parquet"),
         ),
         Row(
@@ -915,7 +936,11 @@ def rows() -> list[tuple[str, Row]]:
 def paragraph(row: Row, r: Ran) -> str:
     """An input and its message, as the documentation shows it."""
     outcome = f"exit status {r.status}" if r.status else "handled"
-    title = row.id[0].upper() + row.id[1:]
+    first = row.id.split()[0].rstrip(",")
+    # a name or a unit stays as it is written
+    title = (
+        row.id if (len(first) > 1 and not first.isalpha()) or first == "g" else row.id[0].upper() + row.id[1:]
+    )
     message = [f"    {x}".rstrip() for x in (r.message or "(nothing to say)").splitlines()]
     return "\n".join([f"**{title}** (`ragg {' '.join(row.command)}`; {outcome})", "", *message])
 

@@ -44,8 +44,8 @@ def json_of(arguments: Sequence[str], folder: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.mark.parametrize(
     "arguments",
-    [["compare", "model", "flight.parquet"], ["history", "model"], ["effects", "lag"]],
-    ids=lambda a: a[0],
+    [["compare", "model", "flight.parquet"], ["history", "model"], ["effects", "lag"], ["effects"]],
+    ids=" ".join,
 )
 def test_a_result_names_what_made_it(
     place: Path, monkeypatch: pytest.MonkeyPatch, arguments: Sequence[str]
@@ -78,6 +78,19 @@ def test_own_effects_are_named_by_their_digest(
     (tmp_path / "own" / "a.py").write_text("# nothing\n")
     second = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
     assert first["effects_folder_digest"] != second["effects_folder_digest"]
+
+
+def test_a_change_names_the_state_before_and_after(
+    place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    workflow.new(tmp_path / "model")
+    toml = tmp_path / "model" / "model.toml"
+    digests = [hashlib.sha256(toml.read_bytes()).hexdigest()]
+    for arguments in (["add", "model", "lag"], ["remove", "model", "lag"]):
+        made = json_of(arguments, tmp_path, monkeypatch)[0]["provenance"]
+        digests.append(hashlib.sha256(toml.read_bytes()).hexdigest())
+        assert [made["model_digest_before"], made["model_digest"]] == digests[-2:]
+    assert digests[0] == digests[2] != digests[1]
 
 
 def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import hashlib
 import json
 import multiprocessing
 import os
@@ -17,11 +19,14 @@ import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, make, without_effect
 
 from ragg_runtime import workflow
+from ragg_runtime.cli import main
 from ragg_runtime.errors import UserError
+from ragg_runtime.flight import write_flight
 from ragg_runtime.survey import Survey, local
+from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.journal import lines_of
 from ragg_runtime.survey.page import survey_html
-from ragg_runtime.survey.task import Job, Record, job
+from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.survey.text import surveyed
 
 Flights = tuple[Path, list[Path]]
@@ -87,6 +92,43 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
     assert (advice.effect, advice.firm) == ("thermal-scale", True)
     assert set(WITH_EFFECT) <= set(advice.flights)
     assert "ragg add" in said
+
+
+def test_a_flight_with_a_likely_mistake_is_told_as_elsewhere(flights: Flights, tmp_path: Path) -> None:
+    """Where a flight is diagnosed, here or on a cluster, ``examine`` is what looks at it."""
+    m = workflow.load(flights[0])
+    (good,) = workflow.read_flights(m, flights[1][1:2])
+    bad = dataclasses.replace(good, outputs={"G_out": 1e3 * good.outputs["G_out"]})
+    write_flight(bad, tmp_path / "millivolts.parquet")
+    toml = flights[0] / "model.toml"
+    error = examine(job(toml.read_text(), toml), str(tmp_path / "millivolts.parquet"))["error"]
+    assert error["kind"] == "input"
+    assert "G_out is in mV, not in V" in error["message"]
+
+
+def test_provenance_names_every_flight(
+    flights: Flights, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The damaged one too, with its digest; one that is not there, without."""
+    damaged = flights[1][-1]
+    monkeypatch.setattr(survey_run, "_examined", lambda given, files, *_: (
+        (file, examine(given, file)) for file in files))  # fmt: skip
+    main(
+        [
+            "survey",
+            str(flights[0]),
+            str(damaged),
+            str(tmp_path / "no.csv"),
+            "--json",
+            str(tmp_path / "s.json"),
+        ]
+    )
+    found = json.loads((tmp_path / "s.json").read_text())["provenance"]["flights"]
+    digest = hashlib.sha256(damaged.read_bytes()).hexdigest()
+    assert found == [
+        {"path": str(damaged), "digest": digest},
+        {"path": str(tmp_path / "no.csv"), "digest": None},
+    ]
 
 
 def test_the_number_of_workers_changes_no_bit(flights: Flights, whole: Survey) -> None:
@@ -229,7 +271,7 @@ def test_an_interrupted_survey_without_results_file_keeps_what_is_done(
     os.kill(process.pid, signal.SIGINT)
     _, said = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert f"--resume {found[0]}" in said
+    assert said.count(f"--resume {found[0]}") == 2, "in the beginning, and in the end"
     assert len(lines_of(found[0])) >= 2
 
 
