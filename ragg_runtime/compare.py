@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,10 @@ class _Counted:
     selected: NDArray[np.bool_]
     squares: Array
     samples: Array
+
+
+def _left(v: Array, piece: Piece) -> Array:
+    return np.asarray(piece.left(v)[0])
 
 
 def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -> _Counted:
@@ -154,8 +158,16 @@ class Fitted:
 
     def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
         """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
-        v = self.vector(coefficients, extra)[None]
-        return [np.concatenate([*x.each(lambda p: p.left(v)[0], whitened=False)]) for x in self.flown]
+        return self.residuals_of(self.vector(coefficients, extra))
+
+    def residuals_of(self, v: Array) -> list[Array]:
+        """The same with the coefficients of all columns, (size,)."""
+        found = []
+        for x in self.flown:
+            lean, w = x.for_residuals(v[None], self.n_base)
+            parts = lean.each(partial(_left, w), whitened=False)
+            found.append(np.concatenate([*parts]))
+        return found
 
     def score(
         self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
@@ -170,7 +182,12 @@ class Fitted:
         for n, x in enumerate(self.flown):
             tally = Tally(k, 2, x.observation.record.rate)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
-            for part in x.each(lambda piece: _counted(piece, V, further), whitened=False):
+            lean, W = x.for_residuals(V, self.n_base)
+
+            def counted(piece: Piece, W: Array = W) -> _Counted:
+                return _counted(piece, W, further)
+
+            for part in lean.each(counted, whitened=False):
                 squares += part.squares
                 samples += part.samples
                 tally.add(part.e, part.phi, part.selected)
@@ -312,8 +329,8 @@ class Comparison:
         """(N,) V of every flight, with the values as they were given."""
         f = self.fitted
         return [
-            np.concatenate([*x.each(lambda p: nominal_residual(f, self.nominal_values, p), whitened=False)])
-            for x in f.flown
+            np.concatenate([*lean.each(partial(nominal_residual, f, self.nominal_values), whitened=False)])
+            for lean, _ in (x.for_residuals(np.zeros((1, f.size)), f.n_base) for x in f.flown)
         ]
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
@@ -387,14 +404,15 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
             continue
         counted += 1
         squares, samples = dict.fromkeys(total, 0.0), 0
+        lean, v = x.for_residuals(coefficients[None], f.n_base)
         tail = np.empty((len(total), 0))
 
-        def mix(piece: Piece) -> Array:
+        def mix(piece: Piece, v: Array = v) -> Array:
             r = piece.observation.record
-            e = np.where(r.valid, piece.left(coefficients[None])[0], 0.0) / f.k_ggi
+            e = np.where(r.valid, piece.left(v)[0], 0.0) / f.k_ggi
             return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
 
-        for mixed in x.each(mix, whitened=False):
+        for mixed in lean.each(mix, whitened=False):
             mixed = np.concatenate([tail, mixed], axis=1)
             if mixed.shape[1] >= len(taps):
                 low = oaconvolve(mixed, taps[None], mode="valid", axes=1)

@@ -150,8 +150,7 @@ class Diagnosis:
     @cached_property
     def residual_after(self) -> list[Array]:
         """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
-        v = self.coefficients[None]
-        return [np.concatenate([*x.each(lambda p: p.left(v)[0], whitened=False)]) for x in self.target.flown]
+        return self.target.residuals_of(self.coefficients)
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in what remains (see :func:`ragg_runtime.compare.terms_json`)."""

@@ -72,7 +72,7 @@ def _lines() -> Callable[[float], None]:
     def show(share: float) -> None:
         nonlocal last
         now = time.monotonic()
-        if now - last >= SPELL:
+        if now - last >= max(SPELL, 0.02 * (now - start) / share):
             last = now
             left = (now - start) * (1 / share - 1)
             click.echo(f"... {100 * share:.0f} % done, about {_duration(left)} left", err=True)

@@ -52,6 +52,12 @@ class Flown:
         self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
         return map(work, self._kept)
 
+    def for_residuals(self, v: Array, n_base: int) -> tuple[Flown, Array]:
+        """What yields residuals for coefficients v (k, size) at least cost: without candidates if none is used."""
+        if self._kept or np.any(v[:, n_base:]):
+            return self, v
+        return replace(self, at=replace(self.at, with_candidates=False)), v[:, :n_base]
+
     def released(self) -> Flown:
         """The same without the columns."""
         return replace(self, _kept=[])
