@@ -17,6 +17,7 @@ from ragg_runtime.diagnose import Diagnosis, diagnose
 from ragg_runtime.evaluate import Record
 from ragg_runtime.evidence import omnibus, work
 from ragg_runtime.evidence.omnibus import Scores
+from ragg_runtime.evidence.search import Choice
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import EffectSetting
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -274,13 +275,15 @@ def test_a_channel_of_an_odd_name_is_offered_in_no_expression() -> None:
 def test_one_term_that_explains_more_than_several_effects_takes_their_place() -> None:
     s = scenario(72, duration=600.0)
     run = s.simulate({})
-    pair = ["thermal-bias", "lag"]
+    pair = ("thermal-bias", "lag")
 
     def simpler(flight: Flight) -> tuple[compare.Remainder | None, float]:
         f = compare.fit(load.packaged(), s.sheet, [compare.observe(flight, s.sheet)])
         field = f.field(compare.testable_effects(f))
-        together, _ = field.joint([[n for n, _ in field.candidates[e]] for e in pair])
-        return diagnose_module._simpler(f, field, pair), together
+        blocks = {e: tuple(n for n, _ in field.candidates[e]) for e in pair}
+        together, _ = field.joint(list(blocks.values()))
+        choice = Choice(pair, blocks, {}, {}, together)
+        return diagnose_module._simpler(f, field, choice), together
 
     wrong, _ = simpler(_transducer(run, s, CASES["fourth power"][0], 0))
     assert wrong is not None
