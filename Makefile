@@ -76,6 +76,7 @@ test-oldest: export OPENBLAS_NUM_THREADS := 1
 test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	$(PYTHON) -m venv .venv-oldest
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-oldest.lock
+	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
 	.venv-oldest/bin/python -m pytest -q -n 2 -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
 docs: $(STAMP)  ## write the generated pages of docs/

@@ -3,7 +3,8 @@
 1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
 2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
 3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
-   nonlinear again; search the remainder for anything else.
+   nonlinear again; search the remainder for anything else. Several effects must do as well as
+   any one generic term.
 4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
    down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
 """
@@ -240,6 +241,8 @@ def diagnose_fitted(
     ranking, before = _ranking(f, field, choice, instants, output)
     final = _confirmed(f, chosen, extend)
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
+    if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
+        rem = simpler
     if rem.significant:
         random = {}
     count = len(field.candidates) + len(random)
@@ -276,6 +279,31 @@ def diagnose_fitted(
 
 LOUD = 1.15
 """Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+
+
+def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
+    """What the model alone leaves, if there one generic term explains more than all that is chosen.
+
+    Asked of several effects and of one with many coefficients. Those that are really there could lose to one term only
+    if it were nearly the sum of their signatures and fitted the noise better besides.
+    """
+    blocks = [choice.blocks[e] for e in choice.chosen]
+    if not blocks or len(f.flown) > 1:
+        return None
+    picked, rank = field.joint(blocks)
+    if len(blocks) < 2 and rank <= FEW:
+        return None
+    joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
+    rem = compare.remainder(f)
+    best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
+    return rem if best > max(picked, joint - freedom) + SIMPLER else None
+
+
+FEW = 4
+"""Coefficients up to which one effect need not fear that a generic term stands in its place."""
+
+SIMPLER = 16.0
+"""Chi-square by which one generic term must be better than what is chosen to take its place (4 sigma)."""
 
 
 def _without_terms(rem: Remainder) -> Remainder:

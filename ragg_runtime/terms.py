@@ -43,6 +43,9 @@ CREEP = (1, 5, 20, 60)
 TURNING_CREEP = (0.1, 0.3, 1, 3, 10)
 """The same of forces that turn with the disc, of which a slower one keeps little."""
 
+FRICTION = (0.2, 0.5, 1)
+"""The same of the sense of motion: play and friction give way over some way after it turns round."""
+
 WARMTH = (5, 20, 60)
 """The same of squares: what the power that a motion dissipates warms."""
 
@@ -161,6 +164,7 @@ def generic(auxiliary: Sequence[str]) -> list[tuple[str, ...]]:
         f"slow({x}, {t} s)" for names, ts in ((a, CREEP), (turning, TURNING_CREEP)) for x in names for t in ts
     ]
     memory += [f"slow(square({x}), {t} s)" for x in ("f_i", "a_z") for t in WARMTH]
+    memory += [f"slow(sign(d_{x}), {t} s)" for x in turning for t in FRICTION]
     found: list[tuple[str, ...]] = [(n,) for n in memory]
     found += [(n,) for f in turning for n in (f"d_{f}", f"d2_{f}")]
     found += [(n,) for x in (*_FORCES, *rates) for n in (f"abs({x})", f"sign({x})")]

@@ -12,10 +12,12 @@ from scipy import stats
 
 from derive.expression import from_expression
 from ragg_runtime import compare, extend, ingredients, load, suggestion
+from ragg_runtime import diagnose as diagnose_module
 from ragg_runtime.diagnose import Diagnosis, diagnose
 from ragg_runtime.evaluate import Record
 from ragg_runtime.evidence import omnibus, work
 from ragg_runtime.evidence.omnibus import Scores
+from ragg_runtime.evidence.search import Choice
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import EffectSetting
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -268,3 +270,25 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
 
 def test_a_channel_of_an_odd_name_is_offered_in_no_expression() -> None:
     assert suggestion.line(Term("const", ("f_i", 'x"] evil')), {}, "m/s^2") is None
+
+
+def test_one_term_that_explains_more_than_several_effects_takes_their_place() -> None:
+    s = scenario(72, duration=600.0)
+    run = s.simulate({})
+    pair = ("thermal-bias", "lag")
+
+    def simpler(flight: Flight) -> tuple[compare.Remainder | None, float]:
+        f = compare.fit(load.packaged(), s.sheet, [compare.observe(flight, s.sheet)])
+        field = f.field(compare.testable_effects(f))
+        blocks = {e: tuple(n for n, _ in field.candidates[e]) for e in pair}
+        together, _ = field.joint(list(blocks.values()))
+        choice = Choice(pair, blocks, {}, {}, together)
+        return diagnose_module._simpler(f, field, choice), together
+
+    wrong, _ = simpler(_transducer(run, s, CASES["fourth power"][0], 0))
+    assert wrong is not None
+    assert wrong.searches[0].terms[0].term.product == "f_i*f_i*f_i*f_i"
+    hidden = {"thermal-bias": {"dK0_dT": [3e-8, 0, 0, 0]}, "lag": {"tau": [4e-9, 0, 0, 0]}}
+    right, together = simpler(s.simulate(hidden).flight())
+    assert together > 200.0
+    assert right is None
