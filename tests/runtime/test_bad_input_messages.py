@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -35,6 +36,8 @@ def test_bad_input(row: Row, tmp_path: Path) -> None:
         assert r.out == ""
         assert len(re.findall(r"^(ragg: |Usage: )", r.message, re.MULTILINE)) == 1, r.message
         assert len(r.message) < 3000
+    if r.message.startswith("Usage: ") and version("click") < "8.2":
+        return  # the words of click, which were others then
     # up to the numbers, whose last digits are the machine's
     assert _without_numbers(paragraph(row, r)) in _without_numbers(DOCS.read_text("utf-8")), (
         "the documentation is not current; run: python tests/runtime/bad_input_table.py"

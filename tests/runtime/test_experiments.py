@@ -329,11 +329,10 @@ def test_figures_are_written(
         assert all(p.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" for p in paths)
 
 
-def test_command_gives_json_and_figures(tmp_path: Path) -> None:
+def test_command_gives_json_and_figures(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     figures = tmp_path / "new"
-    run = CliRunner().invoke(experiment, ["multifrequency", "--json", "-", "--figures", str(figures)])
-    assert run.exit_code == 0
-    assert json.loads(run.stdout)["rows"][0]["verdict"] == "agrees"
+    experiment.main(["multifrequency", "--json", "-", "--figures", str(figures)], standalone_mode=False)
+    assert json.loads(capsys.readouterr().out)["rows"][0]["verdict"] == "agrees"
     assert len(list(figures.iterdir())) == 3
     file = tmp_path / "dynamic.json"
     run = CliRunner().invoke(experiment, ["dynamic", "--json", str(file)])
