@@ -187,7 +187,8 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     svg = barcharts.lying(bars, key, "evidence for each effect", unit, level, log)
     caption = (
         "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
-        " Right of the dashed line the whole catalogue would raise a false alarm in one record of a hundred."
+        f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * search.FAMILY:.0f} records"
+        " of a hundred."
     )
     if len(d.ranking) > SHOWN_BARS:
         caption += f" {len(d.ranking) - SHOWN_BARS} further effects are in the table only."
