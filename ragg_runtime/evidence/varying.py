@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from ragg_runtime.evidence import likelihood
 from ragg_runtime.passes import Piece
 from ragg_runtime.segments import block_edges
 
@@ -101,7 +102,8 @@ class BlockScores:
         square, rows = np.bincount(block, self.square), np.bincount(block, self.rows)
         level = square / np.maximum(rows, 1.0) / (np.sum(square) / np.sum(rows))
         d, v = self.dot[:, terms], self.norm2[:, terms] * level[block][:, None]
-        found = [self._scatter(d, v, block), self._window(d, v), self._jump(d, v), self._swing(d, v)]
+        known = float(np.mean(rows[rows > 0]))
+        found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
         best = min((f for f in found if f is not None), key=lambda f: f.log_p)
         log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
         return Varying(log_p, int(terms[best.place]), best.chi2, best.coefficient, best.std, best.how)
@@ -114,16 +116,17 @@ class BlockScores:
         freedom = int(np.sum(v[:, k] > 0.0))
         size2 = float(np.mean(v[v[:, k] > 0.0, k])) if freedom else np.inf
         excess = max(0.0, float(chi2[k]) - freedom) / max(freedom, 1)
-        log_p = float(stats.chi2.logsf(chi2[k], max(freedom, 1)))
+        log_p = likelihood.log_sf(float(chi2[k]), max(freedom, 1))
         how = "varies from block to block of time"
         return Varying(log_p, k, float(chi2[k]), float(np.sqrt(excess / size2)), float(size2**-0.5), how)
 
-    def _window(self, d: Array, v: Array) -> Varying:
+    def _window(self, d: Array, v: Array, rows: float) -> Varying:
+        # the level of a block is known from its rows alone: Student's t
         D, V = (np.concatenate([np.zeros((1, x.shape[1])), np.cumsum(x, axis=0)]) for x in (d, v))
         spans = [(a, a + n) for n in WINDOWS if n < len(d) for a in range(0, len(d) - n + 1, max(1, n // 2))]
         a, b = np.array(spans).T
         amount, variance = D[b] - D[a], V[b] - V[a]
-        return self._single(amount, variance, (b - a) / len(d), [self._between(*s) for s in spans])
+        return self._single(amount, variance, (b - a) / len(d), [self._between(*s) for s in spans], rows)
 
     def _jump(self, d: Array, v: Array) -> Varying:
         """The coefficient after an instant less that before it, the mean of both taken out."""
@@ -141,13 +144,19 @@ class BlockScores:
         return f"from {self.time[a]:.4g} to {self.time[b]:.4g} s"
 
     @staticmethod
-    def _single(amount: Array, variance: Array, share: Array, how: list[str]) -> Varying:
+    def _single(
+        amount: Array, variance: Array, share: Array, how: list[str], rows: float = np.inf
+    ) -> Varying:
         """The largest of scores of one degree of freedom, (variants, terms); ``share``: mean square of each shape."""
         chi2 = _ratio(amount**2, variance)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
-        log_p = float(stats.norm.logsf(np.sqrt(chi2[n, k]))) + float(np.log(2 * len(chi2)))
+        z = float(np.sqrt(chi2[n, k]))
+        tail = float(stats.norm.logsf(z) if np.isinf(rows) else stats.t.logsf(z, rows))
+        if not np.isfinite(tail):  # so far out that the density underflows
+            tail = float(stats.norm.logsf(z))
+        log_p = tail + float(np.log(2 * len(chi2)))
         std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
-        return Varying(log_p, int(k), float(chi2[n, k]), std * float(np.sqrt(chi2[n, k])), std, how[n])
+        return Varying(log_p, int(k), float(chi2[n, k]), std * z, std, how[n])
 
     def _swing(self, d: Array, v: Array) -> Varying:
         middle = (self.time[1:] + self.time[:-1]) / 2

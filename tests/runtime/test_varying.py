@@ -100,6 +100,14 @@ def test_what_is_not_good_is_not_asked_about() -> None:
     assert _scores(y, X).best(np.zeros(TERMS, dtype=bool)) is None
 
 
+def test_what_varies_beyond_all_doubt_has_a_finite_logarithm() -> None:
+    rng = np.random.default_rng(7)
+    X = _columns(rng)
+    best = _scores(rng.standard_normal(SAMPLES) + 50.0 * X[3] * (TIME > 500.0), X).best(np.ones(TERMS, bool))
+    assert best is not None
+    assert -1e9 < best.log_p < -1e3
+
+
 def test_a_record_shorter_than_its_spells() -> None:
     time: Any = np.arange(30) / RATE
     s = BlockScores(1, time)
