@@ -296,14 +296,16 @@ def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
     joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
     rem = compare.remainder(f)
     best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
-    return rem if best > max(picked, joint - freedom) + SIMPLER else None
+    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else omnibus.INDISTINGUISHABLE
+    return rem if best > max(picked, joint - freedom) + margin else None
 
 
 FEW = 4
 """Coefficients up to which one effect need not fear that a generic term stands in its place."""
 
-SIMPLER = 16.0
-"""Chi-square by which one generic term must be better than what is chosen to take its place (4 sigma)."""
+SIMPLER_THAN_ONE = 16.0
+"""Chi-square by which one generic term must be better than one effect to take its place (4 sigma): of single effects there
+are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
 
 
 def _without_terms(rem: Remainder) -> Remainder:
