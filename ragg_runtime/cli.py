@@ -463,10 +463,10 @@ def demo(output: Path) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
-    from ragg_runtime.experiments.command import experiment
-
-    cli.add_command(experiment)
     try:
+        from ragg_runtime.experiments.command import experiment
+
+        cli.add_command(experiment)
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)

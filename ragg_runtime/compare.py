@@ -59,11 +59,12 @@ class Scored:
 
 @dataclass(frozen=True)
 class _Counted:
-    """Of one segment: residuals (k, N), V; disc angle, samples selected (2, N); sums in every block of time."""
+    """Of one segment: residuals (k, N), V; disc angle, samples selected (2, N) and valid; sums in the blocks of time."""
 
     e: Array
     phi: Array
     selected: NDArray[np.bool_]
+    valid: NDArray[np.bool_]
     squares: Array
     samples: Array
 
@@ -85,7 +86,8 @@ def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -
         v = r.valid[here]
         squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
         samples[b] = np.sum(v)
-    return _Counted(e, r.phi, np.stack([r.valid, r.valid & scored]), squares, samples)
+    everything = np.ones(len(scored), dtype=np.bool_)
+    return _Counted(e, r.phi, np.stack([everything, scored]), r.valid, squares, samples)
 
 
 @dataclass(frozen=True)
@@ -190,7 +192,7 @@ class Fitted:
             for part in lean.each(counted, whitened=False):
                 squares += part.squares
                 samples += part.samples
-                tally.add(part.e, part.phi, part.selected)
+                tally.add(part.e, part.phi, part.selected, part.valid)
             tallies.append(tally)
             some = samples > 0
             blocks[n, some] = np.sqrt(squares[some] / samples[some, None])

@@ -10,7 +10,6 @@ from scipy.signal import oaconvolve
 
 from ragg_runtime.demodulate import CUTOFF, demodulate, low_pass
 from ragg_runtime.evaluate import EOTVOS, Record
-from ragg_runtime.whiten import stretches
 
 Array = NDArray[np.float64]
 
@@ -44,15 +43,29 @@ class Error:
 def channels(
     residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
 ) -> tuple[Array, Array, Array]:
-    """Demodulated residual: (time, inline, cross), s and Eo, of every selected stretch, joined."""
-    phi = np.arctan2(r.sin_phi, r.cos_phi)
-    times, inline, cross = [np.empty(0)], [np.empty(0)], [np.empty(0)]
-    for run in stretches(selected & r.valid, shortest_demodulated(r.rate)):
-        d = demodulate(residual[run], phi[run], r.rate, k_ggi / EOTVOS)
-        times.append(r.time[run][d.valid])
-        inline.append(d.inline / EOTVOS)
-        cross.append(d.cross / EOTVOS)
-    return np.concatenate(times), np.concatenate(inline), np.concatenate(cross)
+    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass has :func:`heard` the selection."""
+    if len(residual) < shortest_demodulated(r.rate):
+        return np.empty(0), np.empty(0), np.empty(0)
+    e = np.where(selected & r.valid, residual, 0.0)
+    d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi), r.rate, k_ggi / EOTVOS)
+    kept = heard(selected[None], r.valid, len(low_pass(r.rate)))[0]
+    return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
+
+
+HOLES = 0.05
+"""Share of the samples under the low-pass that may be missing, as spikes are: it hears zeros in their place."""
+
+
+def heard(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
+    """(groups, N - taps + 1): where a filter of so many taps has seen nothing but a selection (groups, N), and
+    most of that is valid (N,).
+    """
+
+    def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
+        seen = np.cumsum(np.pad(x.astype(np.int64), ((0, 0), (1, 0))), axis=1)
+        return np.asarray(seen[:, taps:] - seen[:, :-taps])
+
+    return np.asarray((under(selected) == taps) & (under(valid[None]) >= (1 - HOLES) * taps))
 
 
 def shortest_demodulated(rate: float) -> int:
@@ -95,36 +108,41 @@ class Tally:
     """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
 
     ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass
-    has seen nothing but selected samples.
+    has :func:`heard` the selection.
     """
 
     def __init__(self, k: int, groups: int, rate: float) -> None:
         self._taps = low_pass(rate)
         self._tail = np.empty((k, 0))
         self._tail_selected = np.empty((groups, 0), dtype=np.bool_)
+        self._tail_valid = np.empty(0, dtype=np.bool_)
         self._tail_phi = np.empty(0)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
         self.demodulated = np.zeros(groups)
         self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
 
-    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_]) -> None:
-        """Count in the next segment: residuals (k, N), V, disc angle (N,), selections (groups, N)."""
-        self.samples += np.sum(selected, axis=1)
-        self.squares += np.where(selected, 1.0, 0.0) @ (e**2).T
+    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]) -> None:
+        """Count in the next segment: residuals (k, N), V, zero where not valid (N,); disc angle (N,); selections
+        (groups, N).
+        """
+        counted = selected & valid
+        self.samples += np.sum(counted, axis=1)
+        self.squares += np.where(counted, 1.0, 0.0) @ (e**2).T
         e = np.concatenate([self._tail, e], axis=1)
-        chosen = np.concatenate([self._tail_selected, selected], axis=1)
+        selected = np.concatenate([self._tail_selected, selected], axis=1)
+        valid = np.concatenate([self._tail_valid, valid])
         angle = np.concatenate([self._tail_phi, phi])
         n = len(self._taps)
         if e.shape[1] >= n:
-            seen = np.cumsum(np.pad(chosen.astype(np.int64), ((0, 0), (1, 0))), axis=1)
-            whole = np.where(seen[:, n:] - seen[:, :-n] == n, 1.0, 0.0)
+            whole = np.where(heard(selected, valid, n), 1.0, 0.0)
             self.demodulated += np.sum(whole, axis=1)
             for c, carrier in enumerate((4 * np.sin(2 * angle), -2 * np.cos(2 * angle))):
                 x = oaconvolve(e * carrier, self._taps[None], mode="valid", axes=1)
                 self._sums[0, :, c] += whole @ x.T
                 self._sums[1, :, c] += whole @ (x**2).T
-        self._tail, self._tail_selected, self._tail_phi = e[:, -n + 1 :], chosen[:, -n + 1 :], angle[-n + 1 :]
+        self._tail, self._tail_selected = e[:, -n + 1 :], selected[:, -n + 1 :]
+        self._tail_valid, self._tail_phi = valid[-n + 1 :], angle[-n + 1 :]
 
     def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
         """The error object of one series; ``k_ggi`` in V/Eo."""

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ragg_runtime import calibrate, compare, load, passes
+from ragg_runtime import calibrate, compare, load, metrics, passes
 from ragg_runtime.diagnose import diagnose
 from ragg_runtime.evidence import work
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
@@ -112,3 +112,23 @@ def test_the_diagnosis_of_a_flight_on_disk_is_the_same_to_the_last_digit(
         assert d.found == ("thermal-scale",)
         said.append(json.dumps(d.as_json()))
     assert said[0] == said[1]
+
+
+def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scenario, Flight]) -> None:
+    """One sample in a hundred missing: the demodulated error is still there, and much the same; a long gap stays out."""
+    s, flight = flown
+    rng = np.random.default_rng(3)
+    scattered = rng.random(len(flight.time)) > 0.01
+    found = {}
+    for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
+        x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
+        found[name] = compare.compare(load.packaged(), s.sheet, [x]).scored
+    for part in ("whole", "held_out"):
+        a, b = getattr(found["whole"], part), getattr(found["scattered"], part)
+        assert b.inline_Eo == pytest.approx(a.inline_Eo, rel=0.1)
+        assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
+    gap = np.ones(1000, dtype=bool)
+    gap[500:560] = False
+    heard = metrics.heard(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    assert not heard[460:500].any()  # windows with more than half of the gap
+    assert heard[:400].all() and heard[560:].all()
