@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, stats
+from scipy import ndimage
 
+from ragg_runtime.evidence.likelihood import log_sf_f
 from ragg_runtime.passes import Piece
 
 Array = NDArray[np.float64]
@@ -67,6 +68,6 @@ class Periodogram:
         ratio = np.where(free & (weight > NEIGHBOURS / 2), P / np.maximum(level, 1e-300), 0.0)
         k = int(np.argmax(ratio))
         freedom = 2 * self.count
-        log_p = float(stats.f.logsf(ratio[k], freedom, freedom * weight[k])) + float(np.log(np.sum(free)))
+        log_p = log_sf_f(float(ratio[k]), freedom, freedom * float(weight[k])) + float(np.log(np.sum(free)))
         share = 2.0 * (P[k] - level[k]) / float(self.length)
         return Line(min(0.0, log_p), float(f[k]), float(np.clip(share, 0.0, 1.0)))

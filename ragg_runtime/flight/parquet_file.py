@@ -61,7 +61,7 @@ def write_parquet(path: Path, columns: list[tuple[Column, Array]]) -> None:
 
 def _batches(path: Path, names: list[str], columns: tuple[Column, ...]) -> Iterator[Batch]:
     try:
-        with pq.ParquetFile(path) as file:
+        with pq.ParquetFile(path, pre_buffer=False) as file:  # else all of it is read ahead
             for batch in file.iter_batches(batch_size=32768, columns=names):
                 yield {
                     c.name: floats(batch.column(n).cast(pa.float64()))

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, VOLTAGES
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.timeseries import differentiate
@@ -61,6 +62,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
         )
     for name, values in flight.outputs.items():
         there = values[flight.valid & np.isfinite(values)]
+        let_go(values)
         if len(there) and np.ptp(there) == 0 and name in ("G_out", *VOLTAGES):
             raise UserError(
                 "the output does not change",
@@ -98,11 +100,12 @@ def remarks(instrument: Instrument, flight: Flight) -> list[str]:
 
 
 def _stuck(flight: Flight) -> list[str]:
-    still = [
-        n
-        for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)
-        if n in flight.channels and np.ptp(flight.channels[n][flight.valid]) == 0
-    ]
+    still = []
+    for n in (*SPECIFIC_FORCE, *ANGULAR_RATE):
+        if n in flight.channels:
+            if np.ptp(flight.channels[n][flight.valid]) == 0:
+                still.append(n)
+            let_go(flight.channels[n])
     if not still:
         return []
     if len(still) == 6:

@@ -11,6 +11,7 @@ from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.plausibility import checks
@@ -108,6 +109,7 @@ def _without_motion_spikes(flight: Flight) -> Flight:
             continue
         there = flight.valid & np.isfinite(channels[name])
         mask, x = glitches(channels[name], there)
+        let_go(channels[name])
         if not mask.any():
             continue
         if name in ANGULAR_RATE:

@@ -16,6 +16,7 @@ from ragg_runtime.evaluate import GRADIENTS, disc_angle
 from ragg_runtime.evidence.special import saturation
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import DEMODULATED, VOLTAGES
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Chain
 from ragg_runtime.timeseries import differentiate
@@ -109,7 +110,9 @@ class Picker:
 
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
         """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
-        there = np.flatnonzero(self.usable[first:last]) + first
+        there = (
+            self._there if first == 0 and last is None else np.flatnonzero(self.usable[first:last]) + first
+        )
         if self.kind == "channels":
             whole = np.arange(first, len(self.usable) if last is None else last)
             return whole[: max(most, 3 * len(self.taps))]
@@ -148,21 +151,25 @@ class Picker:
         inside = (rows + min(shift, output_shift, 0) >= 0) & (rows + max(shift, output_shift, 0) < n)
         rows = rows[inside]
         x = self.flight
-        time = x.time[rows] - x.time[0]
+        time = _picked(x.time, rows) - x.time[0]
         if even:
             time = rows * self.even[1]
         f = self.instrument.spin_frequency if spin_frequency is None else spin_frequency
         if "spin_angle" in x.channels and spin_frequency is None:
-            phi = np.asarray(x.channels["spin_angle"][rows])
+            phi = _picked(x.channels["spin_angle"], rows)
         else:
             phi = disc_angle(time, f)
         if backwards:
             phi = -phi
         moved = rows + shift
-        channels = {name: np.asarray(v[moved]) for name, v in x.channels.items()}
-        channels |= {name: v[moved] for name, v in self.derived.items()}
-        data = np.stack([v[rows + output_shift] for v in self._output()])
+        channels = {name: _picked(v, moved) for name, v in x.channels.items()}
+        channels |= {name: _picked(v, moved) for name, v in self.derived.items()}
+        data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
         return Rows(self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps)
+
+    @cached_property
+    def _there(self) -> Index:
+        return np.flatnonzero(self.usable)
 
     @cached_property
     def even(self) -> tuple[float, float]:
@@ -189,6 +196,13 @@ class Picker:
             return [outputs["G_out"]]
         k = self.instrument.scale_factor
         return [k / 2 * outputs["inline"], -k * outputs["cross"]]
+
+
+def _picked(column: Array, rows: Index) -> Array:
+    """Some rows of a column; of one on disk, none of the rest stays in memory."""
+    found = np.asarray(column[rows])
+    let_go(column)
+    return found
 
 
 def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = ()) -> Picker:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any, cast
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
+from ragg_runtime.evidence import likelihood
 from ragg_runtime.evidence.varying import BlockScores
 from ragg_runtime.passes import Piece
 
@@ -119,3 +121,12 @@ def test_a_record_shorter_than_its_spells() -> None:
     best = s.best(np.ones(1, dtype=bool))
     assert best is not None
     assert np.isfinite(best.log_p)
+
+
+@pytest.mark.parametrize(("ratio", "d1", "d2"), [(9.0, 2.0, 400.0), (1e4, 24.0, 4800.0), (3e6, 576.0, 1.2e5)])
+def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -> None:
+    """Logarithm of the F distribution's tail, against the regularised incomplete beta function in 60 digits."""
+    with mpmath.workdps(60):
+        x = mpmath.mpf(d2) / (d2 + d1 * mpmath.mpf(ratio))
+        expected = mpmath.log(mpmath.betainc(mpmath.mpf(d2) / 2, mpmath.mpf(d1) / 2, 0, x, regularized=True))
+    assert likelihood.log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)
