@@ -17,6 +17,7 @@ import click
 
 from ragg_runtime import progress
 from ragg_runtime.errors import UserError, printable
+from ragg_runtime.memory import reuse_memory
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow import Loaded
@@ -467,6 +468,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         from ragg_runtime.experiments.command import experiment
 
         cli.add_command(experiment)
+        reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)

@@ -30,6 +30,19 @@ MEMORY = 16384
 score to be a standard normal deviate, and slower memory than this buys little."""
 
 
+STRETCH = 2048
+"""Samples that are summed in single precision."""
+
+
+def products(X: Singles, right: Array) -> Array:
+    """X (terms, N) times right (N, k): single precision within a stretch, double from stretch to stretch."""
+    singles = right.astype(np.float32)
+    total = np.zeros((len(X), right.shape[1]))
+    for start in range(0, X.shape[1], STRETCH):
+        total += X[:, start : start + STRETCH] @ singles[start : start + STRETCH]
+    return total
+
+
 class Directions:
     """Whitened series of the terms of a dictionary over a segment."""
 
@@ -93,10 +106,9 @@ class Directions:
             spectrum = fft.rfft(x, axis=1, workers=count()) * weight
             parts = spectrum.view(np.float32)
             norm2 = np.einsum("ij,ij->i", parts, parts, dtype=np.float64)
-            exact = x.astype(np.float64)
             for Z in lost:
-                norm2 -= np.sum((exact @ Z) ** 2, axis=1)
-            yield at, x, exact @ back, norm2
+                norm2 -= np.sum(products(x, Z) ** 2, axis=1)
+            yield at, x, products(x, back), norm2
 
     def _back(self, right: Array, places: NDArray[np.intp] | None = None) -> Array:
         """(N, k): columns over whitened rows (all, or those at ``places``) through the transposed filter."""

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime import gradient
-from ragg_runtime.evidence.directions import Directions
+from ragg_runtime.evidence.directions import Directions, products
 from ragg_runtime.evidence.irregular import Periodogram
 from ragg_runtime.evidence.varying import BlockScores
 from ragg_runtime.evidence.work import Flown, Projector
@@ -168,7 +168,7 @@ class Scores:
         terms, slow = self.dictionary.terms, self.dictionary.slow if d.round else None
         for at, x, X in d.whitened(terms[:slow]):
             norm2 = np.einsum("ij,ij->i", X, X, dtype=np.float64)
-            yield at, x, X.astype(np.float64) @ right, norm2, X
+            yield at, x, products(X, right), norm2, X
         if slow is not None:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
                 yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
