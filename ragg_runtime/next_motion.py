@@ -35,7 +35,7 @@ AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
 """Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
 
-SIMULATED = 160.0
+SIMULATED = 96.0
 """Length of the motion that is computed, s."""
 
 DURATION = 600.0
