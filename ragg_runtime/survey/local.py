@@ -19,6 +19,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 from ragg_runtime.errors import UserError
+from ragg_runtime.memory import reuse_memory
 from ragg_runtime.survey.task import Job, Record, examine
 
 ATTEMPTS = 3
@@ -156,6 +157,7 @@ def _inherited() -> Iterator[None]:
 def _begin() -> None:
     """First call in a worker: Ctrl-C is the parent's; a worker does not outlive its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    reuse_memory()
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_follow, args=(parent,), daemon=True).start()
