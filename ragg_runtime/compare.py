@@ -297,10 +297,8 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
     for x, triangles in zip(f.flown, f.triangles, strict=True):
-        scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
-        for sums in x.each(scores.of, effort=omnibus.EFFORT):
-            scores.sums.join(sums)
-        found.append(omnibus.choose(scores))
+        projector = work.projector(triangles, f.n_base, given)
+        found.append(omnibus.search(x, projector, lambda piece, y: None)[0])
     return Remainder(tuple(found))
 
 

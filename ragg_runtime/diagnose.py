@@ -24,14 +24,14 @@ from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
-from ragg_runtime.evidence.omnibus import Found, Sums
+from ragg_runtime.evidence.omnibus import Found
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.special import Variance
-from ragg_runtime.evidence.work import Flown, Projector
+from ragg_runtime.evidence.work import Flown
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
-from ragg_runtime.metrics import Error
+from ragg_runtime.metrics import Error, finite
 from ragg_runtime.next_motion import Proposal
 from ragg_runtime.passes import Piece
 from ragg_runtime.segments import BLOCKS
@@ -88,10 +88,10 @@ class Ranked:
         return {
             "effect": self.effect,
             "p_value": self.p_value,
-            "log10_p": _finite(self.log_p / np.log(10.0)),
-            "chi2": _finite(self.chi2),
+            "log10_p": finite(self.log_p / np.log(10.0)),
+            "chi2": finite(self.chi2),
             "rank": self.rank,
-            "delta_bic": _finite(self.delta_bic),
+            "delta_bic": finite(self.delta_bic),
             "error_before": self.before.as_json(),
             "error_after": self.after.as_json(),
             "error_after_holdout": self.after_holdout.as_json(),
@@ -99,11 +99,6 @@ class Ranked:
             "combinations": [p.as_json() for p in self.combinations],
             "indistinguishable_from": list(self.indistinguishable_from),
         }
-
-
-def _finite(x: float) -> float | None:
-    """``None`` where an effect is certain: JSON knows no infinity."""
-    return float(x) if np.isfinite(x) else None
 
 
 @dataclass(frozen=True)
@@ -379,39 +374,17 @@ def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
 
 def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
     """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
-    searches = []
-    counted: dict[str, list[Variance]] = {}
+    places = _random_columns(f)
+
+    def variances(piece: Piece, y: Array) -> dict[str, Variance]:
+        return {e: Variance.of(piece, place, y) for e, place in places.items()}
+
+    searches, counted = [], []
     for x, triangles in zip(f.flown, f.triangles, strict=True):
-        scores = omnibus.Scores(x, work.projector(triangles, f.n_base, given))
-        variances = _variances(f, scores.projector)
-
-        def both(
-            piece: Piece, scores: omnibus.Scores = scores, variances: Variances = variances
-        ) -> tuple[Sums, dict[str, Variance]]:
-            return scores.of(piece), variances(piece)
-
-        for sums, found in x.each(both, effort=omnibus.EFFORT):
-            scores.sums.join(sums)
-            for e, v in found.items():
-                counted.setdefault(e, []).append(v)
-        searches.append(omnibus.choose(scores))
-    return Remainder(tuple(searches)), {e: special.pooled(v).test() for e, v in counted.items()}
-
-
-Variances = Callable[[Piece], dict[str, Variance]]
-
-
-def _variances(f: Fitted, projector: Projector) -> Variances:
-    """The sums of a segment for the test of every random effect."""
-    columns = _random_columns(f)
-
-    def of(piece: Piece) -> dict[str, Variance]:
-        if not columns:
-            return {}
-        y = projector.left(piece, projector.basis(piece))
-        return {e: Variance.of(piece, place, y) for e, place in columns.items()}
-
-    return of
+        found, more = omnibus.search(x, work.projector(triangles, f.n_base, given), variances)
+        searches.append(found)
+        counted += more
+    return Remainder(tuple(searches)), {e: special.pooled([v[e] for v in counted]).test() for e in places}
 
 
 def _random_columns(f: Fitted) -> dict[str, int]:

@@ -37,7 +37,12 @@ class Error:
 
     def as_json(self) -> dict[str, float | None]:
         """The object as JSON: NaN becomes null."""
-        return {k: (v if np.isfinite(v) else None) for k, v in asdict(self).items()}
+        return {k: finite(v) for k, v in asdict(self).items()}
+
+
+def finite(x: float) -> float | None:
+    """``None`` for NaN and infinity, which JSON does not know."""
+    return float(x) if np.isfinite(x) else None
 
 
 def channels(

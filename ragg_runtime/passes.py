@@ -219,9 +219,11 @@ def passed(
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         windows = gradient.windows(o, s.rows, noise.filters)
         if whitened:
-            tail = tails[k - 1].result() if memory and k else None  # the segment before was begun before
+            tail = None
+            if k and memory:
+                tail = tails[k - 1].result()  # the segment before was begun before
+                tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
-            tails[k - 1] = Future()  # the memory is free again
             flat = _white(columns, noise, tail, part.record.valid)
             gradient.project(flat, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))

@@ -8,8 +8,9 @@ over the segments of a flight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from ragg_runtime.terms import Dictionary, Term
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
+T = TypeVar("T")
 
 FAMILY = 0.004
 """Probability with which anything at all may seem left of an effect-free record."""
@@ -141,11 +143,9 @@ class Scores:
             Periodogram(self._longest, self.flown.observation.record.rate, self._excluded),
         )
 
-    def of(self, piece: Piece) -> Sums:
-        """The sums of one segment."""
+    def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
+        """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
         s = self._zero()
-        Q = self.projector.basis(piece)
-        y = self.projector.left(piece, Q)
         s.square = float(y @ y)
         s.samples = int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
@@ -194,6 +194,24 @@ class Scores:
         row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
         A = self.sums.along[list(places)]
         return G[np.ix_(row, row)] - A @ A.T
+
+
+def search(
+    flown: Flown, projector: Projector, further: Callable[[Piece, Array], T]
+) -> tuple[Omnibus, list[T]]:
+    """What is left of a flight, and what ``further`` makes of every segment and its whitened, projected residual."""
+    scores = Scores(flown, projector)
+
+    def both(piece: Piece) -> tuple[Sums, T]:
+        Q = projector.basis(piece)
+        y = projector.left(piece, Q)
+        return scores.of(piece, y, Q), further(piece, y)
+
+    found = []
+    for sums, more in flown.each(both, effort=EFFORT):
+        scores.sums.join(sums)
+        found.append(more)
+    return choose(scores), found
 
 
 def choose(s: Scores) -> Omnibus:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import ctypes
 import mmap
 import shutil
-import sys
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
@@ -15,6 +13,7 @@ import pyarrow as pa
 
 from ragg_runtime.errors import UserError
 from ragg_runtime.flight.record import Array, Flight, Mask
+from ragg_runtime.memory import give_back
 
 NOTES = 12
 """Most notes that are kept of the parts of a flight."""
@@ -89,9 +88,7 @@ def settled(flight: Flight) -> Flight:
     """The flight, once it has been read and examined: what that has left of the memory is given back."""
     let_go(flight.time, flight.valid, *flight.channels.values(), *flight.outputs.values())
     pa.default_memory_pool().release_unused()
-    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
-    if trim is not None:
-        trim(0)
+    give_back()
     return flight
 
 

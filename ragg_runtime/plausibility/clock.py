@@ -15,7 +15,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.plausibility.linear import explain
-from ragg_runtime.plausibility.rows import Picker
+from ragg_runtime.plausibility.rows import CHUNK, Picker
 from ragg_runtime.timeseries import differentiate
 
 BETTER = 1.1
@@ -23,9 +23,6 @@ BETTER = 1.1
 
 CONVINCING = 5.0
 """The same for the origin of a disc angle where nothing jitters."""
-
-
-_CHUNK = 1 << 16
 
 
 def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, str] | None:
@@ -40,8 +37,8 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
         return None
     first, step = p.even
     worst = 0.0
-    for a in range(0, len(x), _CHUNK):
-        k = np.flatnonzero(x.valid[a : a + _CHUNK]) + a
+    for a in range(0, len(x), CHUNK):
+        k = np.flatnonzero(x.valid[a : a + CHUNK]) + a
         worst = max(worst, float(np.max(np.abs(x.time[k] - (first + step * k)), initial=0.0)) / step)
     let_go(x.time, x.valid)
     jitters = worst > JITTER_NOTED

@@ -18,7 +18,7 @@ from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.likely import Likely, derived_rates, likely
 from ragg_runtime.plausibility.linear import explain
-from ragg_runtime.plausibility.rows import Picker, picker
+from ragg_runtime.plausibility.rows import CHUNK, Picker, picker
 from ragg_runtime.plausibility.spikes import glitches, spikes, told
 from ragg_runtime.timeseries import differentiate
 
@@ -27,8 +27,6 @@ Mask = NDArray[np.bool_]
 
 SENSELESS = 20.0
 """Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
-
-_CHUNK = 1 << 16
 
 
 def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
@@ -137,8 +135,8 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     n = len(p.flight)
     names = ("G_out",) if p.kind == "G_out" else ("V_1", "V_2", "V_3", "V_4")
     left = np.empty((len(names), n))
-    for start in range(0, n, _CHUNK):
-        rows = p.pick(np.arange(start, min(n, start + _CHUNK)))
+    for start in range(0, n, CHUNK):
+        rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)
         volts = np.stack(
             [
@@ -148,7 +146,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
                 for j in range(4)
             ]
         )
-        left[:, start : start + _CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
+        left[:, start : start + CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
     notes = []
     for name, e in zip(names, left, strict=True):
         mask = spikes(e, p.usable)

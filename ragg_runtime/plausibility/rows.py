@@ -198,6 +198,10 @@ class Picker:
         return [k / 2 * outputs["inline"], -k * outputs["cross"]]
 
 
+CHUNK = 1 << 16
+"""Rows of a whole flight that are looked at at a time."""
+
+
 def _picked(column: Array, rows: Index) -> Array:
     """Some rows of a column; of one on disk, none of the rest stays in memory."""
     found = np.asarray(column[rows])

@@ -12,11 +12,9 @@ from pathlib import Path
 
 import click
 
+from ragg_runtime.progress import SPELL
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.survey.task import Record
-
-SPELL = 15.0
-"""Where stderr is a file, a line is written this often at most, s."""
 
 
 @contextlib.contextmanager

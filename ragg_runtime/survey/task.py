@@ -39,6 +39,7 @@ from ragg_runtime.evaluate import vector
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument import Instrument, parse_instrument
 from ragg_runtime.load import Model
+from ragg_runtime.metrics import finite
 from ragg_runtime.plausibility import examined
 from ragg_runtime.threads import alone
 
@@ -209,8 +210,8 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         "ranking": [
             {
                 "effect": r.effect,
-                "log10_p": _finite(r.log_p / np.log(10.0)),
-                "delta_bic": _finite(r.delta_bic),
+                "log10_p": finite(r.log_p / np.log(10.0)),
+                "delta_bic": finite(r.delta_bic),
             }
             for r in d.ranking[:RANKED]
         ],
@@ -273,10 +274,6 @@ def _named(p: ParameterValue, effect: str | None) -> ParameterValue:
     return ParameterValue(name, p.accelerometer, p.value, p.std, p.unit)
 
 
-def _finite(x: float) -> float | None:
-    return float(x) if np.isfinite(x) else None
-
-
 def _plain(x: Any) -> Any:
     """The same in types of JSON alone."""
     if isinstance(x, Mapping):
@@ -287,4 +284,4 @@ def _plain(x: Any) -> Any:
         return x
     if isinstance(x, (int, np.integer)):
         return int(x)
-    return _finite(x)
+    return finite(x)

@@ -132,7 +132,8 @@ def scored() -> tuple[Scores, Array, Array]:
     projector = work.projector(f.triangles[0], f.n_base, ())
     scores = Scores(f.flown[0], projector)
     (piece,) = f.flown[0].each(lambda p: p)
-    scores.sums.join(scores.of(piece))
+    Q = projector.basis(piece)
+    scores.sums.join(scores.of(piece, projector.left(piece, Q), Q))
     X = scores.whitened(piece, range(len(scores.dictionary.terms)))
     return scores, X, projector.basis(piece)
 
