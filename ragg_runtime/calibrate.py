@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from ragg_runtime import design
 from ragg_runtime.design import Column, Observation
@@ -30,6 +31,10 @@ TAPS = 24576
 
 REACH = 5.0
 """Farthest that a parameter is fitted from its nominal value, in scales."""
+
+SETTLED = 0.01, 2e-3
+"""The step of a fit is its last if it gains less chi-square than this, or moves no parameter by this many scales: what
+is quadratic in so small a step is below the noise of any record."""
 
 NOISE_SEGMENTS = 8
 """Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
@@ -90,10 +95,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
         taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
         outputs = []
         for flat in np.split(piece.white, len(o.series), axis=1):
-            X, y = flat[:-1], flat[-1]
-            X = X[np.any(X != 0.0, axis=1)]
-            solution, rank = _least_squares(X, y)
-            rest = y - X.T @ solution
+            solution, rank = _least_squares(flat)
+            y = flat[-1]
+            rest = y - solution @ flat[:-1]
             # The fit takes as many degrees of freedom as it has columns.
             e = np.zeros(len(valid))
             e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
@@ -134,12 +138,16 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
-def _least_squares(X: Array, y: Array) -> tuple[Array, int]:
-    """Truncated least squares: directions that are numerically absent must not be amplified."""
-    norms = np.linalg.norm(X, axis=1)
-    R = design.triangle(np.vstack([X / norms[:, None], y]))
-    n = len(norms)
-    solution, _, rank, _ = np.linalg.lstsq(R[:n, :n], R[:n, n], rcond=1e-12)
+def _least_squares(columns: Array) -> tuple[Array, int]:
+    """Coefficients (n,) that fit the last of columns (n + 1, rows), and their rank.
+
+    Truncated: directions that are numerically absent must not be amplified.
+    """
+    R = design.triangle(columns)
+    n = len(R) - 1
+    norms = np.linalg.norm(R[:, :n], axis=0)
+    norms[norms == 0.0] = 1.0
+    solution, _, rank, _ = np.linalg.lstsq(R[:n, :n] / norms, R[:n, n], rcond=1e-12)
     return np.asarray(solution / norms), int(rank)
 
 
@@ -152,21 +160,23 @@ def fit(
     noise: Sequence[Noise] | None = None,
     iterations: int = 6,
 ) -> Calibration:
-    """Gauss-Newton on all flights at once.
+    """Gauss-Newton on all flights at once, from the nominal values or from ``start``.
 
     The model is so nearly linear in its parameters that two or three steps suffice. The noise is first
     taken as white; once the fit has settled it is estimated from what nothing explains, and the fit is
     repeated with every column whitened.
     """
     nominal = vector(model, instrument)
-    p = nominal.copy() if start is None else start.copy()
+    p = nominal.copy()
     found = design.base_columns(model, instrument)
     columns = tuple(c for c, _ in found)
     index = np.array([i for _, i in found])
     scale = np.array([c.scale for c in columns])
-    n = len(columns)
+    begun = nominal if start is None else start
+    away = np.clip((begun[index] - nominal[index]) / scale, -REACH, REACH)
+    p[index] = nominal[index] + away * scale
     known = list(noise) if noise is not None else None
-    eotvos = scale_factor(model.chain, p)
+    eotvos = scale_factor(model.chain, nominal)
     for iteration in range(iterations):
         at = Point(model, instrument, p.copy(), with_candidates=False)
         triangles, rows = [], 0
@@ -179,35 +189,57 @@ def fit(
             for T, count in passed(at, o, noise_k, _triangle, chosen=chosen):
                 rows += count
                 triangles.append(T)
-        step, covariance = solve(design.join(triangles), (nominal[index] - p[index]) / scale, n)
+        normal = with_prior(design.join(triangles), -away)
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
         # they are where the signatures are evaluated.
-        away = np.clip((p[index] - nominal[index]) / scale + step, -REACH, REACH)
+        step = np.clip(away + normal.step, -REACH, REACH) - away
+        settled = normal.gain(step) < SETTLED[0] or bool(np.max(np.abs(step)) < SETTLED[1])
+        away = away + step
         p[index] = nominal[index] + away * scale
-        settled = bool(np.max(np.abs(step)) < 1e-3)
         if known is None and (settled or iteration == 2):
             everything = Point(model, instrument, p.copy(), with_candidates=True)
             known = [estimate_noise(everything, o) for o in observations]
         elif known is not None and settled:
             break
     assert known is not None
-    return Calibration(p, columns, index, covariance, tuple(known), rows)
+    return Calibration(p, columns, index, normal.covariance, tuple(known), rows)
 
 
 def _triangle(piece: Piece) -> tuple[Array, int]:
     return design.triangle(piece.white), piece.white.shape[1]
 
 
-def solve(R: Array, to_nominal: Array, n: int) -> tuple[Array, Array]:
-    """Step (n,) and covariance (n, n), in scales, from a triangle [base (n) | ... | residual] and the prior.
+@dataclass(frozen=True)
+class _Linear:
+    """Linear least squares in scales, prior included: the triangle R (n, n) and the rotated data y (n,)."""
+
+    R: Array
+    y: Array
+
+    @property
+    def step(self) -> Array:
+        """(n,): the solution."""
+        return np.asarray(linalg.solve_triangular(self.R, self.y))
+
+    @property
+    def covariance(self) -> Array:
+        """(n, n)."""
+        inverse = np.linalg.inv(self.R)
+        return np.asarray(inverse @ inverse.T)
+
+    def gain(self, step: Array) -> float:
+        """By how much a step lowers chi-square."""
+        return float(self.y @ self.y - np.sum((self.y - self.R @ step) ** 2))
+
+
+def with_prior(T: Array, to_nominal: Array) -> _Linear:
+    """The fit of a triangle [base (n) | residual] and of the prior.
 
     The prior pulls every parameter to its nominal value, ``to_nominal`` away, with a width of one scale.
     """
-    rows = np.vstack([np.column_stack([R[:, :n], R[:, -1]]), np.column_stack([np.eye(n), to_nominal])])
-    T = np.asarray(np.linalg.qr(rows, mode="r"))
-    step = np.linalg.solve(T[:n, :n], T[:n, n])
-    inverse = np.linalg.inv(T[:n, :n])
-    return step, inverse @ inverse.T
+    n = len(to_nominal)
+    R = np.asarray(np.linalg.qr(np.vstack([T, np.column_stack([np.eye(n), to_nominal])]), mode="r"))
+    return _Linear(R[:n, :n], R[:n, n])
 
 
 def _white(o: Observation, eotvos: float) -> Noise:

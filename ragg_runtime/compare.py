@@ -25,7 +25,7 @@ from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.metrics import Error, Tally, channels, pooled
+from ragg_runtime.metrics import Error, Stretch, Tally, channels, pooled
 from ragg_runtime.passes import Noise, Piece, as_output
 from ragg_runtime.segments import BLOCKS, ROWS
 from ragg_runtime.terms import carrier, harmonics
@@ -59,12 +59,9 @@ class Scored:
 
 @dataclass(frozen=True)
 class _Counted:
-    """Of one segment: residuals (k, N), V; disc angle, samples selected (2, N) and valid; sums in the blocks of time."""
+    """Of one segment: its tally, and sums in the blocks of time."""
 
-    e: Array
-    phi: Array
-    selected: NDArray[np.bool_]
-    valid: NDArray[np.bool_]
+    tally: Tally
     squares: Array
     samples: Array
 
@@ -86,8 +83,8 @@ def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -
         v = r.valid[here]
         squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
         samples[b] = np.sum(v)
-    everything = np.ones(len(scored), dtype=np.bool_)
-    return _Counted(e, r.phi, np.stack([everything, scored]), r.valid, squares, samples)
+    selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
+    return _Counted(Tally.of(Stretch(e, r.phi, selected, r.valid), r.rate), squares, samples)
 
 
 @dataclass(frozen=True)
@@ -192,7 +189,7 @@ class Fitted:
             for part in lean.each(counted, whitened=False):
                 squares += part.squares
                 samples += part.samples
-                tally.add(part.e, part.phi, part.selected, part.valid)
+                tally.join(part.tally)
             tallies.append(tally)
             some = samples > 0
             blocks[n, some] = np.sqrt(squares[some] / samples[some, None])
@@ -253,9 +250,14 @@ def fit(
     instrument: Instrument,
     observations: Sequence[Observation],
     noise: Sequence[Noise] | None = None,
+    start: Array | None = None,
 ) -> Fitted:
-    """Calibrate a model on flights and prepare the evidence; the noise is estimated unless given."""
-    c = calibrate.fit(model, instrument, observations, noise=noise)
+    """Calibrate a model on flights and prepare the evidence.
+
+    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given.
+    """
+    model = model.for_fits(sum(len(o.record.time) for o in observations))
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
     if not scale_factor(model.chain, c.p) > 0.0:
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ragg_runtime import compare, design, display, next_motion, suggestion
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
-from ragg_runtime.evaluate import missing_channels
+from ragg_runtime.evaluate import missing_channels, vector
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.omnibus import Found
@@ -312,7 +312,24 @@ def _confirmed(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitte
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return None
-    return compare.fit(extend(f.model, chosen), f.instrument, f.observations, f.calibration.noise)
+    extended = extend(f.model, chosen)
+    start = _linear(f, chosen, extended)
+    return compare.fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+
+
+def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+    """Parameter vector of the extended model as the linear fit has it, SI."""
+    own = [
+        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect in chosen
+    ]
+    fitted, _ = f.coefficients([n for n, _ in own])
+    columns = (*f.calibration.columns, *(c for _, c in own))
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
+    p = vector(extended, f.instrument)
+    for c, place in design.base_columns(extended, f.instrument):
+        p[place] = value[c.label]
+    return p
 
 
 def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:

@@ -90,7 +90,9 @@ def windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Windo
         inside = here[lead:]
         weights = o.weights
         raw = np.concatenate([w * X[:, lead:][:, inside] for w in weights], axis=1)
-        parts = [w * filtered(X, taps)[:, lead:][:, inside] for w, taps in zip(weights, filters, strict=True)]
+        parts = [
+            filtered(w * X, taps, lead=lead)[:, inside] for w, taps in zip(weights, filters, strict=True)
+        ]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
         samples = slice(int(a) - rows.start, int(b) - rows.start)

@@ -6,7 +6,7 @@ import json
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, cached_property
 from importlib import resources
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
@@ -71,6 +71,10 @@ class Effect:
     parameters: tuple[EffectParameter, ...]
 
 
+MANY = 200_000
+"""Samples from which a model that was derived for a flight is worth half a second of compiling."""
+
+
 @dataclass(frozen=True)
 class Model:
     """A derived model.
@@ -89,6 +93,10 @@ class Model:
         The model in C: file name -> text, as derived.
     folded
         The generated module of the folded form, which only the paper's model has.
+    fitting
+        The C of chain and signatures: of what fits evaluate.
+    in_machine_code
+        Whether fits run in machine code (see :meth:`for_fits`).
     """
 
     effects: tuple[Effect, ...]
@@ -98,6 +106,20 @@ class Model:
     digest: str
     sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
+    fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    in_machine_code: bool = field(default=False, compare=False)
+
+    def for_fits(self, samples: int) -> Model:
+        """The model for fits to so many samples: in machine code if they outweigh the wait for the compiler."""
+        return self if self.in_machine_code or samples < MANY else replace(self, in_machine_code=True)
+
+    @cached_property
+    def evaluators(self) -> Mapping[str, Evaluator]:
+        """``chain`` and ``signatures``, as fits evaluate them."""
+        from ragg_runtime.native import for_fits
+
+        modules = {"chain": self.chain, "signatures": self.signatures}
+        return for_fits(modules, self.fitting if self.in_machine_code else {})
 
     def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
@@ -118,9 +140,13 @@ def packaged() -> Model:
 
     root = resources.files(generated)
     manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
-    names = (f"{n}.{kind}" for n in ("chain", "folded") for kind in ("c", "h"))
-    sources = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
-    return replace(_model(manifest, chain, signatures), sources=sources, folded=folded)
+
+    names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
+    c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
+    model = _model(manifest, chain, signatures, c)
+    sources = {name: c[name] for name in c if not name.startswith("signatures")}
+    # compiled once for all flights
+    return replace(model, sources=sources, folded=folded, in_machine_code=True)
 
 
 def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
@@ -137,11 +163,14 @@ def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
         sys.modules[module.__name__] = module
         exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
         modules[name] = module
-    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"))
-    return replace(model, sources={f"chain.{kind}": files[f"c/chain.{kind}"] for kind in ("c", "h")})
+    c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
+    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
+    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")})
 
 
-def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None) -> Model:
+def _model(
+    manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None, c: Mapping[str, str]
+) -> Model:
     effects = tuple(_effect(e) for e in manifest["catalogue"])
     present = list(manifest["effects"])
     by_id = {e.id: e for e in effects}
@@ -151,6 +180,7 @@ def _model(manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleTyp
         cast(Chain, chain),
         cast(Chain, signatures or chain),
         manifest["digest"],
+        fitting={n: text for n, text in c.items() if n.partition(".")[0] in ("chain", "signatures")},
     )
 
 

@@ -109,45 +109,88 @@ def pooled(errors: list[Error], weights: list[float]) -> Error:
         return Error(*(float(v) for v in np.sqrt(squares / total)))
 
 
+@dataclass(frozen=True)
+class Stretch:
+    """Residual series of some successive samples: e (k, N), V, zero where not valid (N,); disc angle (N,); and
+    selections of samples (groups, N).
+    """
+
+    e: Array
+    phi: Array
+    selected: NDArray[np.bool_]
+    valid: NDArray[np.bool_]
+
+    def __getitem__(self, some: slice) -> Stretch:
+        e = np.array(self.e[:, some])  # a copy, lest a few samples keep a whole segment in memory
+        return Stretch(e, self.phi[some], self.selected[:, some], self.valid[some])
+
+    def before(self, other: Stretch) -> Stretch:
+        """This stretch and the one that follows it."""
+        return Stretch(
+            np.concatenate([self.e, other.e], axis=1),
+            np.concatenate([self.phi, other.phi]),
+            np.concatenate([self.selected, other.selected], axis=1),
+            np.concatenate([self.valid, other.valid]),
+        )
+
+
+SERIES = 8
+"""Series that are demodulated at a time: they stay in the cache."""
+
+
 class Tally:
     """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
 
     ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass
-    has :func:`heard` the selection.
+    has :func:`heard` the selection. A tally of one segment is made :meth:`of` it; tallies of successive ones are
+    joined.
     """
 
     def __init__(self, k: int, groups: int, rate: float) -> None:
         self._taps = low_pass(rate)
-        self._tail = np.empty((k, 0))
-        self._tail_selected = np.empty((groups, 0), dtype=np.bool_)
-        self._tail_valid = np.empty(0, dtype=np.bool_)
-        self._tail_phi = np.empty(0)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
         self.demodulated = np.zeros(groups)
         self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
+        nothing = np.empty((groups, 0), dtype=np.bool_)
+        self._head = self._tail = Stretch(np.empty((k, 0)), np.empty(0), nothing, nothing[0])
+        """What the low-pass of the neighbours will hear besides their own."""
 
-    def add(self, e: Array, phi: Array, selected: NDArray[np.bool_], valid: NDArray[np.bool_]) -> None:
-        """Count in the next segment: residuals (k, N), V, zero where not valid (N,); disc angle (N,); selections
-        (groups, N).
-        """
-        counted = selected & valid
-        self.samples += np.sum(counted, axis=1)
-        self.squares += np.where(counted, 1.0, 0.0) @ (e**2).T
-        e = np.concatenate([self._tail, e], axis=1)
-        selected = np.concatenate([self._tail_selected, selected], axis=1)
-        valid = np.concatenate([self._tail_valid, valid])
-        angle = np.concatenate([self._tail_phi, phi])
+    @staticmethod
+    def of(s: Stretch, rate: float) -> Tally:
+        """The tally of one segment."""
+        tally = Tally(len(s.e), len(s.selected), rate)
+        counted = s.selected & s.valid
+        tally.samples += np.sum(counted, axis=1)
+        tally.squares += np.where(counted, 1.0, 0.0) @ (s.e**2).T
+        tally._demodulate(s)
+        reach = len(tally._taps) - 1
+        tally._head, tally._tail = s[:reach], s[max(0, len(s.phi) - reach) :]
+        return tally
+
+    def join(self, other: Tally) -> None:
+        """Count in the segment that follows."""
+        self.samples += other.samples
+        self.squares += other.squares
+        self.demodulated += other.demodulated
+        self._sums += other._sums
+        self._demodulate(self._tail.before(other._head))
+        reach = len(self._taps) - 1
+        longer = self._tail.before(other._tail) if len(other._tail.phi) < reach else other._tail
+        self._tail = longer[max(0, len(longer.phi) - reach) :]
+
+    def _demodulate(self, s: Stretch) -> None:
         n = len(self._taps)
-        if e.shape[1] >= n:
-            whole = np.where(heard(selected, valid, n), 1.0, 0.0)
-            self.demodulated += np.sum(whole, axis=1)
-            for c, carrier in enumerate((4 * np.sin(2 * angle), -2 * np.cos(2 * angle))):
-                x = oaconvolve(e * carrier, self._taps[None], mode="valid", axes=1)
-                self._sums[0, :, c] += whole @ x.T
-                self._sums[1, :, c] += whole @ (x**2).T
-        self._tail, self._tail_selected = e[:, -n + 1 :], selected[:, -n + 1 :]
-        self._tail_valid, self._tail_phi = valid[-n + 1 :], angle[-n + 1 :]
+        if len(s.phi) < n:
+            return
+        whole = np.where(heard(s.selected, s.valid, n), 1.0, 0.0)
+        self.demodulated += np.sum(whole, axis=1)
+        for c, carrier in enumerate((4 * np.sin(2 * s.phi), -2 * np.cos(2 * s.phi))):
+            for k in range(0, len(s.e), SERIES):
+                some = slice(k, k + SERIES)
+                x = oaconvolve(s.e[some] * carrier, self._taps[None], mode="valid", axes=1)
+                self._sums[0, :, c, some] += whole @ x.T
+                self._sums[1, :, c, some] += whole @ (x**2).T
 
     def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
         """The error object of one series; ``k_ggi`` in V/Eo."""

@@ -131,53 +131,46 @@ class _Rows:
             np.array([c.scale for _, c in found]),
         )
 
-    def put(self, target: Array, at: slice, rows: Array, shared: bool, signs: Array | None) -> None:
-        """Put derivatives (4, rows, n) into columns (columns, m, N) at some samples; ``signs`` combine them."""
-        if not len(self.column):
-            return
-        scale = self.scale[:, None]
-        if shared:
-            if signs is None:
-                target[self.column, :, at] = (rows[:, self.row] * scale).transpose(1, 0, 2)
+    def put(self, target: Array, at: slice, rows: Sequence[Array], shared: bool, signs: Array | None) -> None:
+        """Put derivatives, of each accelerometer (rows, n), into columns (columns, m, N) at some samples.
+
+        ``signs`` combine them.
+        """
+        for j in range(4):
+            sign = 1.0 if signs is None else signs[j]
+            output = j if signs is None else 0
+            if shared:
+                target[self.column, output, at] += rows[j][self.row] * (sign * self.scale[:, None])
             else:
-                target[self.column, 0, at] = np.tensordot(signs, rows[:, self.row], 1) * scale
-        elif signs is None:
-            target[self.column, self.accelerometer, at] = rows[self.accelerometer, self.row] * scale
-        else:
-            scale = scale * signs[self.accelerometer][:, None]
-            target[self.column, 0, at] = rows[self.accelerometer, self.row] * scale
+                own = self.accelerometer == j
+                target[self.column[own], output, at] = rows[j][self.row[own]] * (sign * self.scale[own, None])
 
 
 def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
     base = [c for c, _ in design.base_columns(at.model, at.instrument)]
     candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
-    modules = [(at.model.chain, base, 0, at.p)]
+    evaluators = at.model.evaluators
+    modules = [(at.model.chain, evaluators["chain"], base, 0, at.p)]
     if candidates:
         q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
-        modules.append((at.model.signatures, candidates, len(base), q))
+        modules.append((at.model.signatures, evaluators["signatures"], candidates, len(base), q))
     r, m = o.record, len(o.series)
     n = len(r.time)
     signs = None if o.kind == "voltages" else np.array([1.0, 1.0, -1.0, -1.0])
     columns = np.zeros((len(base) + len(candidates) + 1, m, n))
-    for chain, wanted, first, p in modules:
+    for chain, evaluator, wanted, first, p in modules:
         x = r.inputs(chain)
         own, shared = (_Rows.of(chain, wanted, first, s) for s in (False, True))
-        values = [chain.values_of(j, p) for j in range(4)]
-        rows = np.empty((4, len(chain.ROWS), min(n, CACHED)))
-        V = np.empty((4, min(n, CACHED)))
         for start in range(0, n, CACHED):
             some = slice(start, min(start + CACHED, n))
-            size = some.stop - some.start
-            series = (r.time[some], r.cos_phi[some], r.sin_phi[some], x[:, some])
-            for j in range(4):
-                rows[j, :, :size] = chain.derivatives(j, *series, values[j])
-                if first == 0:
-                    V[j, :size] = chain.accelerometer(j, *series, values[j])
-            own.put(columns, some, rows[:, :, :size], False, signs)
-            shared.put(columns, some, rows[:, :, :size], True, signs)
+            case = (r.time[some], x[:, some], p, r.phi[some], 1)
+            rows = [evaluator.derivatives(j, *case) for j in range(4)]
+            own.put(columns, some, rows, False, signs)
+            shared.put(columns, some, rows, True, signs)
             if first == 0:
-                columns[-1, :, some] = V[:, :size] if signs is None else signs @ V[:, :size]
+                V = evaluator.voltages(*case)
+                columns[-1, :, some] = V if signs is None else signs @ V
     if o.kind == "channels":
         for k in range(len(columns)):
             columns[k] = design.narrow(columns[k], r)

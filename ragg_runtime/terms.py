@@ -125,20 +125,22 @@ class Dictionary:
     ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
         """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
         chosen = self.terms if terms is None else terms
-        carriers = {h: carrier(r, h) for h in dict.fromkeys(t.harmonic for t in chosen)}
+        carriers = {h: np.float32(carrier(r, h)) for h in dict.fromkeys(t.harmonic for t in chosen)}
         wanted = dict.fromkeys(n for t in chosen for n in t.channels)
-        channels = {n: np.where(r.valid, self._channel(n, r), 0.0) / self._size[n] for n in wanted}
-        product = np.ones(len(r.time))
-        of: tuple[str, ...] = ()
+        channels = {
+            n: np.float32(np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]) for n in wanted
+        }
+        nothing = np.where(r.valid, np.float32(1.0), np.float32(0.0))
+        product, of = nothing, tuple[str, ...]()
         for start in range(0, len(chosen), most):
             part = chosen[start : start + most]
             x = np.empty((len(part), len(r.time)), dtype=np.float32)
             for n, t in enumerate(part):
-                if t.channels != of or not of:
-                    product, of = np.where(r.valid, 1.0, 0.0), t.channels
+                if t.channels != of:
+                    product, of = nothing, t.channels
                     for name in of:
                         product = product * channels[name]
-                np.multiply(product, carriers[t.harmonic], out=x[n], casting="same_kind")
+                np.multiply(product, carriers[t.harmonic], out=x[n])
             yield slice(start, start + len(part)), x
 
     def _channel(self, name: str, r: Record) -> Array:

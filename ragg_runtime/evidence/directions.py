@@ -25,10 +25,9 @@ from ragg_runtime.whiten import filtered
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-MEMORY = 16384
-"""Most taps of the filter that terms are whitened with: a direction need not be the best one for its
-score to be a standard normal deviate, and slower memory than this buys little."""
-
+MEMORY = 16384, 100.0
+"""Most taps, and most seconds, of the filter that terms are whitened with: a direction need not be the best one for
+its score to be a standard normal deviate, and slower memory than this buys little."""
 
 STRETCH = 2048
 """Samples that are summed in single precision."""
@@ -43,13 +42,27 @@ def products(X: Singles, right: Array) -> Array:
     return total
 
 
+def squares(X: Singles) -> Array:
+    """(terms,): sums of squares of X (terms, N), as :func:`products` sums."""
+    total = np.zeros(len(X))
+    for start in range(0, X.shape[1], STRETCH):
+        part = X[:, start : start + STRETCH]
+        total += np.matmul(part[:, None, :], part[:, :, None])[:, 0, 0]
+    return total
+
+
+def _kept(X: Singles, valid: NDArray[np.bool_]) -> Singles:
+    return X if valid.all() else X[:, valid]
+
+
 class Directions:
     """Whitened series of the terms of a dictionary over a segment."""
 
     def __init__(self, flown: Flown, dictionary: Dictionary, piece: Piece) -> None:
         self.piece, self.dictionary, self.whole = piece, dictionary, flown.observation
-        self.filters = [taps[:MEMORY] for taps in flown.noise.filters]
         r = piece.observation.record
+        memory = min(MEMORY[0], int(MEMORY[1] * r.rate))
+        self.filters = [taps[:memory] for taps in flown.noise.filters]
         self.size = len(r.time)
         self.round = piece.observation.kind != "channels" and bool(r.valid.all())
         """Whether terms can go round: not past gaps, nor through the demodulator's filter."""
@@ -71,7 +84,7 @@ class Directions:
                 x = design.narrow(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
             parts = [
-                np.float32(w) * filtered(x, taps)[:, lead:][:, valid]
+                _kept(filtered(x, np.asarray(w * taps), lead=lead), valid)
                 for w, taps in zip(o.weights, self.filters, strict=True)
             ]
             yield at, x[:, lead:], self._without_gradient(parts)
@@ -105,7 +118,7 @@ class Directions:
         for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
             spectrum = fft.rfft(x, axis=1, workers=count()) * weight
             parts = spectrum.view(np.float32)
-            norm2 = np.einsum("ij,ij->i", parts, parts, dtype=np.float64)
+            norm2 = squares(parts)
             for Z in lost:
                 norm2 -= np.sum(products(x, Z) ** 2, axis=1)
             yield at, x, products(x, back), norm2

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime import gradient
-from ragg_runtime.evidence.directions import Directions, products
+from ragg_runtime.evidence.directions import Directions, products, squares
 from ragg_runtime.evidence.irregular import Periodogram
 from ragg_runtime.evidence.varying import BlockScores
 from ragg_runtime.evidence.work import Flown, Projector
@@ -149,6 +149,7 @@ class Scores:
         s.square = float(y @ y)
         s.samples = int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
+        ones = np.ones((len(piece.observation.record.time), 1))
         s.blocks.level(piece, y)
         s.spectrum.add(piece, y)
         for at, x, inner, norm2, X in self._of_terms(Directions(self.flown, self.dictionary, piece), right):
@@ -157,8 +158,8 @@ class Scores:
             s.norm2[at] = norm2
             if X is not None:
                 s.blocks.add(piece, y, at, X)
-            s.raw[0, at] = np.sum(x, axis=1, dtype=np.float64)
-            s.raw[1, at] = np.einsum("ij,ij->i", x, x, dtype=np.float64)
+            s.raw[0, at] = products(x, ones)[:, 0]
+            s.raw[1, at] = squares(x)
         return s
 
     def _of_terms(
@@ -167,8 +168,7 @@ class Scores:
         """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
         terms, slow = self.dictionary.terms, self.dictionary.slow if d.round else None
         for at, x, X in d.whitened(terms[:slow]):
-            norm2 = np.einsum("ij,ij->i", X, X, dtype=np.float64)
-            yield at, x, products(X, right), norm2, X
+            yield at, x, products(X, right), squares(X), X
         if slow is not None:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
                 yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None

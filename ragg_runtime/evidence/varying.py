@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime.evidence import likelihood
+from ragg_runtime.evidence.directions import products, squares
 from ragg_runtime.passes import Piece
 from ragg_runtime.segments import block_edges
 
@@ -87,9 +88,9 @@ class BlockScores:
         at = slice(at.start, min(at.stop, self.count))
         X = X[: at.stop - at.start]
         starts, spells = self._runs(piece)
-        for target, factor in ((self.dot, y.astype(np.float32)), (self.norm2, X)):
-            sums = np.add.reduceat(X * factor, starts, axis=1, dtype=np.float64)
-            np.add.at(target[:, at], spells, sums.T)
+        for a, b, spell in zip(starts, [*starts[1:], len(y)], spells, strict=True):
+            self.dot[spell, at] += products(X[:, a:b], y[a:b, None])[:, 0]
+            self.norm2[spell, at] += squares(X[:, a:b])
 
     def best(self, good: NDArray[np.bool_]) -> Varying | None:
         """The most variable of the ``good`` terms."""

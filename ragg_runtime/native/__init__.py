@@ -8,7 +8,7 @@ variable ``RAGG_NATIVE`` may be ``off`` (always NumPy).
 
 from __future__ import annotations
 
-from ragg_runtime.native.backends import Compiled, Evaluator, Interpreted, evaluator
+from ragg_runtime.native.backends import Compiled, Evaluator, Interpreted, evaluator, for_fits
 from ragg_runtime.native.compiler import BuildError, Built, NativeWarning, build
 
 __all__ = [
@@ -20,4 +20,5 @@ __all__ = [
     "NativeWarning",
     "build",
     "evaluator",
+    "for_fits",
 ]

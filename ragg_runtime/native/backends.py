@@ -71,11 +71,15 @@ class Evaluator(Protocol):
 
 @dataclass(frozen=True)
 class Compiled(Base):
-    """A model in machine code; ``folded``: the library also holds the folded form of the base model."""
+    """A model in machine code; ``folded``: the library also holds the folded form of the base model.
+
+    ``name`` is the generated module's.
+    """
 
     library: Library
     folded: bool
     backend: str = "c"
+    name: str = "chain"
 
     def output(
         self,
@@ -88,7 +92,7 @@ class Compiled(Base):
     ) -> Array:
         case = self._case(t, inputs, p, angle)
         G = into(out, len(case.t))
-        name = "folded" if self.folded else "chain"
+        name = "folded" if self.folded else self.name
 
         def work(c: Case, first: int, last: int) -> None:
             self.library.series(name, "output", c, G[first:last])
@@ -126,7 +130,7 @@ class Compiled(Base):
         def work(c: Case, first: int, last: int) -> None:
             whole = last - first == found.shape[1]
             part = found if whole else np.empty((rows, last - first))
-            self.library.series("chain", function, c, part, leading)
+            self.library.series(self.name, function, c, part, leading)
             if not whole:
                 found[:, first:last] = part
 
@@ -234,3 +238,18 @@ def evaluator(
                 stacklevel=3,
             )
         return Interpreted(chain, folded)
+
+
+def for_fits(modules: Mapping[str, Module], sources: Mapping[str, str]) -> dict[str, Evaluator]:
+    """Evaluators of generated modules (name -> module) for their derivatives.
+
+    In machine code where ``sources`` (the C of all of them, or none) can be compiled; else in NumPy, without a note:
+    a fit is a little slower then, and the same but for rounding.
+    """
+    if sources:
+        try:
+            library = Library(build(sources).library)
+            return {name: Compiled(module, library, False, name=name) for name, module in modules.items()}
+        except BuildError:
+            pass
+    return {name: Interpreted(module, None) for name, module in modules.items()}
