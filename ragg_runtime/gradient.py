@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -40,8 +41,8 @@ class Window:
     ----------
     samples
         The window's samples, counted within the segment.
-    raw
-        (m valid, k): orthonormal basis before whitening, one output after the other.
+    plain
+        (k, m valid): what spans it before whitening, one output after the other.
     places
         Rows of the segment's whitened columns.
     white
@@ -49,9 +50,14 @@ class Window:
     """
 
     samples: slice
-    raw: Array
+    plain: Array
     places: NDArray[np.intp]
     white: Array
+
+    @cached_property
+    def raw(self) -> Array:
+        """(m valid, k): orthonormal basis before whitening."""
+        return orthonormal(self.plain)
 
 
 def unknown(o: Observation) -> bool:
@@ -89,14 +95,14 @@ def windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Windo
         X = splines(*r.angle(slice(a - lead, b))) * here
         inside = here[lead:]
         weights = o.weights
-        raw = np.concatenate([w * X[:, lead:][:, inside] for w in weights], axis=1)
+        plain = np.concatenate([w * X[:, lead:][:, inside] for w in weights], axis=1)
         parts = [
             filtered(w * X, taps, lead=lead)[:, inside] for w, taps in zip(weights, filters, strict=True)
         ]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
         samples = slice(int(a) - rows.start, int(b) - rows.start)
-        found.append(Window(samples, orthonormal(raw), places, orthonormal(np.concatenate(parts, axis=1))))
+        found.append(Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1))))
     return found
 
 
