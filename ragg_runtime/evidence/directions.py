@@ -25,9 +25,9 @@ from ragg_runtime.whiten import filtered
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-MEMORY = 16384, 100.0
-"""Most taps, and most seconds, of the filter that terms are whitened with: a direction need not be the best one for
-its score to be a standard normal deviate, and slower memory than this buys little."""
+MEMORY = 16384
+"""Most taps of the filter that terms are whitened with: a direction need not be the best one for its
+score to be a standard normal deviate, and slower memory than this buys little."""
 
 STRETCH = 2048
 """Samples that are summed in single precision."""
@@ -61,8 +61,7 @@ class Directions:
     def __init__(self, flown: Flown, dictionary: Dictionary, piece: Piece) -> None:
         self.piece, self.dictionary, self.whole = piece, dictionary, flown.observation
         r = piece.observation.record
-        memory = min(MEMORY[0], int(MEMORY[1] * r.rate))
-        self.filters = [taps[:memory] for taps in flown.noise.filters]
+        self.filters = [taps[:MEMORY] for taps in flown.noise.filters]
         self.size = len(r.time)
         self.round = piece.observation.kind != "channels" and bool(r.valid.all())
         """Whether terms can go round: not past gaps, nor through the demodulator's filter."""

@@ -46,12 +46,13 @@ def test_the_division_leaves_no_trace(
         valid[4000:4130] = False
         flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
     o = compare.observe(flight, s.sheet)
-    whole = compare.fit(load.packaged(), s.sheet, [o])
+    noise = compare.fit(load.packaged(), s.sheet, [o]).calibration.noise
+    whole = compare.fit(load.packaged(), s.sheet, [o], noise)
     for module in (passes, work):
         monkeypatch.setattr(module, "ROWS", 1700)
     monkeypatch.setattr(calibrate, "WHITE_SEGMENTS", 1000)
     assert len(passes.flight_segments(o)) > 5
-    parts = compare.fit(load.packaged(), s.sheet, [o], whole.calibration.noise)
+    parts = compare.fit(load.packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
     assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
