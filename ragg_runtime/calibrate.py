@@ -138,17 +138,24 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
-def _least_squares(columns: Array) -> tuple[Array, int]:
-    """Coefficients (n,) that fit the last of columns (n + 1, rows), and their rank.
+ABSENT = 1e-11
+"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
 
-    Truncated: directions that are numerically absent must not be amplified.
+
+def _least_squares(columns: Array) -> tuple[Array, float]:
+    """Coefficients (n,) that fit the last of columns (n + 1, rows), and how many they count as.
+
+    Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
+    on which side of an edge one is.
     """
     R = design.triangle(columns)
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0
-    solution, _, rank, _ = np.linalg.lstsq(R[:n, :n] / norms, R[:n, n], rcond=1e-12)
-    return np.asarray(solution / norms), int(rank)
+    U, s, Vt = np.linalg.svd(R[:n, :n] / norms)
+    faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
+    solution = Vt.T @ (faded / np.maximum(s, 1e-300) * (U.T @ R[:n, n]))
+    return np.asarray(solution / norms), float(np.sum(faded))
 
 
 def fit(

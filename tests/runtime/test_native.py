@@ -17,12 +17,16 @@ import pytest
 
 from derive.effects import catalogue
 from derive.pipeline import derive_model
+from ragg_runtime import compare
 from ragg_runtime.cli import main
 from ragg_runtime.errors import UserError
-from ragg_runtime.load import Model, from_files, packaged
+from ragg_runtime.evaluate import vector
+from ragg_runtime.load import MANY, Model, from_files, packaged
 from ragg_runtime.native import BuildError, Compiled, Interpreted, NativeWarning, backends, build, evaluator
 from ragg_runtime.native.arguments import cut
 from ragg_runtime.native.compiler import COMMON, Built, find_compiler, private_folder
+from ragg_runtime.passes import Point, linearised
+from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
 
@@ -100,6 +104,38 @@ def test_extended_model_is_that_of_numpy(extended: Model, case: tuple[Array, Arr
     assert len(D) == len(extended.chain.ROWS)
     rows = np.max(np.abs(D), axis=1, keepdims=True)
     assert np.all(np.abs(c.derivatives(2, t, inputs, q) - D) <= 1e-11 * rows)
+
+
+@needs_compiler
+def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Same verdict of the evidence and, but for rounding, the same figures; NumPy serves without a note."""
+    s = scenario(63, duration=300.0)
+    flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
+    found = []
+    for off in (False, True):
+        if off:
+            monkeypatch.setenv("RAGG_NATIVE", "off")
+        model = replace(packaged())  # evaluators of its own
+        o = compare.observe(flight, s.sheet)
+        at = Point(model, s.sheet, vector(model, s.sheet), with_candidates=True)
+        columns = linearised(at, o)
+        assert {e.backend for e in model.evaluators.values()} == {"numpy" if off else "c"}
+        found.append((columns, compare.compare(model, s.sheet, [flight])))
+    (c, by_c), (n, by_numpy) = found
+    size = np.max(np.abs(n), axis=2, keepdims=True)
+    assert np.sum(size > 0.0) > 150
+    assert np.all(np.abs(c - n) <= 1e-9 * size)
+    for name in ("nominal", "calibrated", "holdout"):
+        a, b = getattr(by_c, name), getattr(by_numpy, name)
+        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=1e-6)
+    assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-6)
+
+
+def test_a_derived_model_is_compiled_for_many_samples_only(extended: Model) -> None:
+    assert packaged().for_fits(10).in_machine_code
+    assert not extended.for_fits(30_000).in_machine_code
+    assert extended.for_fits(MANY).in_machine_code
+    assert {name.partition(".")[0] for name in extended.fitting} == {"chain"}
 
 
 @needs_compiler
