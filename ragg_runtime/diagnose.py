@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import compare, design, display, next_motion, suggestion
 from ragg_runtime.compare import Fitted, Remainder, Scored
+from ragg_runtime.calibrate import estimate_noise
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels, vector
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
@@ -332,10 +333,12 @@ def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
     return p
 
 
-def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
+def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
     """The field of all deterministic candidates, steps at their most likely instant among them.
 
-    Returns the field, the flights with the steps' columns put in, and the instants by effect, s.
+    Returns the field, the flights with the steps' columns put in, and the instants by effect, s. A step that no column
+    explained is part of the noise that was estimated: once its instant is known the noise is estimated again, and
+    everything with it (``quiet``: that has been done).
     """
     available = compare.testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
@@ -365,6 +368,10 @@ def _with_steps(f: Fitted) -> tuple[Field, Fitted, dict[str, float]]:
             exact[e.id] = float(time[step.sample])
         instants[e.id] = float(time[step.sample])
         stepped = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
+    if exact and not quiet:
+        noise = estimate_noise(replace(x.at, instants=exact), x.observation)
+        calmer = compare.fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
+        return _with_steps(calmer, quiet=True)
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
         stepped = list(work.block_triangles(x))

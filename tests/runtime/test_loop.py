@@ -78,13 +78,14 @@ def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise(effect: str) 
     assert d.verdict == "missing-effect"
     assert effect in claimed(d)
     assert d.after.rms_Eo < d.before.rms_Eo
-    if effect != "gain-step":  # whose instant is only found to a grid
-        assert d.after.rms_Eo == pytest.approx(d.noise_floor, rel=0.02)
-    else:
+    assert d.after.rms_Eo == pytest.approx(d.noise_floor, rel=0.02)
+    truth = np.std(s.simulate({}).G_out - s.simulate({}).G_out_noise_free) / d.fitted.k_ggi
+    assert d.noise_floor == pytest.approx(truth, rel=0.02)  # the effect is no part of the noise
+    if effect == "gain-step":
         instants = [
             p.value for r in d.ranking if r.effect == effect for p in r.parameters if p.name == "t_step"
         ]
-        assert instants == [pytest.approx(350.0, abs=5.0)]
+        assert instants == [pytest.approx(350.0, abs=0.1)]
 
 
 def test_two_effects_are_both_found() -> None:

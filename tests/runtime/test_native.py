@@ -128,7 +128,7 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
     for name in ("nominal", "calibrated", "holdout"):
         a, b = getattr(by_c, name), getattr(by_numpy, name)
         assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=1e-6)
-    assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-6)
+    assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-4)
 
 
 def test_a_derived_model_is_compiled_for_many_samples_only(extended: Model) -> None:
