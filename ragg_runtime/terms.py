@@ -121,7 +121,7 @@ class Dictionary:
         return x
 
     def chunks(
-        self, r: Record, terms: Sequence[Term] | None = None, most: int = 64
+        self, r: Record, terms: Sequence[Term] | None = None, most: int = 32
     ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
         """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
         chosen = self.terms if terms is None else terms
