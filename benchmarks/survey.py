@@ -1,8 +1,8 @@
 """A survey of many flights: from one worker to two, and the local pool against a Dask cluster.
 
-Forty-eight flights of 20 minutes at 16 Hz, the least that outweighs the start of a worker (2 s). Workers are on this machine; start-up of the processes is part of what
-is measured, as it is part of what is waited for. With less than two free processors the ratio tells
-nothing: the processors' idle share before the run stands beside it.
+Forty-eight flights of 20 minutes at 16 Hz: few beside hundreds, enough to outweigh the start of the workers, which
+is part of what is measured, as it is part of what is waited for. Workers are on this machine. With less than two
+free processors the ratio tells nothing: the processors' idle share before the run stands beside it.
 """
 
 from __future__ import annotations
