@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import compare, design, display, next_motion, suggestion
-from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.calibrate import estimate_noise
+from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels, vector
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
