@@ -133,7 +133,7 @@ def run() -> list[Row]:
     sm.GLS(y, X[: f.n_base].T, sigma=sigma).fit()
     whole = time.process_time() - start
     start = time.process_time()
-    work.block_triangles(f.flown[0].released())
+    work.blocks(f.flown[0].released())
     streamed = time.process_time() - start
     return [
         *rows,

@@ -171,7 +171,7 @@ def fit(
 
     The model is so nearly linear in its parameters that two or three steps suffice. The noise is first
     taken as white; once the fit has settled it is estimated from what nothing explains, and the fit is
-    repeated with every column whitened.
+    repeated with every column whitened. In the end the null biases take the residual's mean (``design.levelled``).
     """
     nominal = vector(model, instrument)
     p = nominal.copy()
@@ -186,15 +186,16 @@ def fit(
     eotvos = scale_factor(model.chain, nominal)
     for iteration in range(iterations):
         at = Point(model, instrument, p.copy(), with_candidates=False)
-        triangles, rows = [], 0
+        triangles, rows, sums = [], 0, np.zeros(len(columns) + 1)
         for k, o in enumerate(observations):
             noise_k, chosen = (
                 (_white(o, eotvos), spread(flight_segments(o), WHITE_SEGMENTS))
                 if known is None
                 else (known[k], None)
             )
-            for T, count in passed(at, o, noise_k, _triangle, chosen=chosen):
+            for T, count, part in passed(at, o, noise_k, _triangle, chosen=chosen):
                 rows += count
+                sums += part
                 triangles.append(T)
         normal = with_prior(design.join(triangles), -away)
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
@@ -209,11 +210,12 @@ def fit(
         elif known is not None and settled:
             break
     assert known is not None
+    p[index] += (design.levelled(step, sums, design.null_biases(columns)) - step) * scale
     return Calibration(p, columns, index, normal.covariance, tuple(known), rows)
 
 
-def _triangle(piece: Piece) -> tuple[Array, int]:
-    return design.triangle(piece.white), piece.white.shape[1]
+def _triangle(piece: Piece) -> tuple[Array, int, Array]:
+    return design.triangle(piece.white), piece.white.shape[1], piece.sums()
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ class Fitted:
     """A model fitted to flights, and everything that evidence is read from.
 
     ``triangles`` holds for every flight the triangle of its whitened columns [base | candidates | residual]
-    in each block of time; all tests are made on them alone.
+    in each block of time; all tests are made on them alone. ``sums`` (BLOCKS, size + 1) are those of the plain columns.
     """
 
     model: Model
@@ -101,6 +101,7 @@ class Fitted:
     calibration: Calibration
     flown: tuple[Flown, ...]
     triangles: tuple[tuple[Array, ...], ...]
+    sums: tuple[Array, ...]
     to_nominal: Array
     k_ggi: float
 
@@ -136,7 +137,7 @@ class Fitted:
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
 
-        With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted.
+        With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted. The null biases take the residual's mean.
         """
         T = self.half if held_out else self.whole
         n = self.n_base
@@ -146,7 +147,10 @@ class Fitted:
         R = np.asarray(np.linalg.qr(np.vstack([T[:, [*picked, T.shape[1] - 1]], prior]), mode="r"))
         k = len(picked)
         inverse = np.linalg.inv(R[:k, :k])
-        return inverse @ R[:k, k], inverse @ inverse.T
+        blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
+        sums = np.sum([x[blocks] for x in self.sums], axis=(0, 1))[[*picked, -1]]
+        biases = design.null_biases(self.calibration.columns)
+        return design.levelled(inverse @ R[:k, k], sums, biases), inverse @ inverse.T
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
         """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
@@ -267,13 +271,15 @@ def fit(
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
     flown = work.prepare(model, instrument, observations, c)
+    triangles, sums = zip(*(work.blocks(x) for x in flown), strict=True)
     return Fitted(
         model,
         instrument,
         tuple(observations),
         c,
         flown,
-        tuple(work.block_triangles(x) for x in flown),
+        triangles,
+        sums,
         work.to_nominal(model, instrument, c),
         scale_factor(model.chain, c.p),
     )

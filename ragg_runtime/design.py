@@ -178,6 +178,26 @@ def observe(o: Observation, v: Array, accelerometer: int | None) -> Array:
     return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
 
 
+def null_biases(columns: Sequence[Column]) -> list[int]:
+    """Places of the instrument's K0 among columns."""
+    return [n for n, c in enumerate(columns) if c.name == "K0" and c.effect is None]
+
+
+def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
+    """Coefficients (n,) with those at ``biases`` shifted until the residual of G_out has no mean.
+
+    ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted. Noise that
+    rises towards low frequencies leaves the mean of a record nearly free, and with it the null biases: by convention
+    they take it.
+    """
+    own = sums[list(biases)]
+    shifted = coefficients.copy()
+    if np.any(own):
+        left = sums[-1] - sums[:-1] @ coefficients
+        shifted[list(biases)] += own * left / (own @ own)
+    return shifted
+
+
 def orthonormal(columns: Array) -> Array:
     """(rows, k): orthonormal basis of columns (n, rows); those that vanish (knots in a gap) span nothing."""
     norms = np.linalg.norm(columns, axis=1)

@@ -351,7 +351,7 @@ def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[
     first = [n for e in search.choose(plain).chosen for n, _ in plain.candidates[e]]
     instants: dict[str, float] = {}
     exact: dict[str, float] = {}
-    stepped = list(triangles)
+    stepped, sums = list(triangles), f.sums[0].copy()
     for e in steps:
         own = [(n, c) for n, c in enumerate(columns) if c.effect == e.id]
         edges = [int(k) for k in x.edges[1:-1]]
@@ -367,17 +367,20 @@ def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[
             step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
             exact[e.id] = float(time[step.sample])
         instants[e.id] = float(time[step.sample])
-        stepped = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
+        places = [f.n_base + n for n, _ in own]
+        stepped = _stepped(stepped, x, step, places)
+        sums[np.ix_(x.edges[:-1] < step.sample, np.array(places))] = 0.0
     if exact and not quiet:
         noise = estimate_noise(replace(x.at, instants=exact), x.observation)
         calmer = compare.fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
         return _with_steps(calmer, quiet=True)
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
-        stepped = list(work.block_triangles(x))
+        triangles, sums = work.blocks(x)
+        stepped = list(triangles)
     elif instants:
         x = replace(x, at=replace(x.at, instants=instants))
-    f = replace(f, flown=(x,), triangles=(tuple(stepped),))
+    f = replace(f, flown=(x,), triangles=(tuple(stepped),), sums=(sums,))
     return _with_penalty(f, [*available, *instants]), f, instants
 
 

@@ -87,6 +87,11 @@ class Piece:
         """(m, N), V."""
         return np.asarray(self.columns[-1])
 
+    def sums(self, some: slice = slice(None)) -> Array:
+        """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
+        weights = output_weights(self.observation) * (self.observation.kind != "channels")
+        return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
+
     def left(self, coefficients: Array) -> Array:
         """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
         n = coefficients.shape[1]
@@ -97,7 +102,12 @@ class Piece:
 
 def as_output(o: Observation, e: Array) -> Array:
     """G_out (..., N) of what an observation holds (..., m, N): itself, or V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
-    return np.asarray(np.einsum("m,...mn->...n", 4 * o.weights if o.kind == "voltages" else o.weights, e))
+    return np.asarray(np.einsum("m,...mn->...n", output_weights(o), e))
+
+
+def output_weights(o: Observation) -> Array:
+    """(m,): how much each output of an observation counts in G_out."""
+    return 4 * o.weights if o.kind == "voltages" else o.weights
 
 
 def flight_segments(o: Observation) -> list[Segment]:

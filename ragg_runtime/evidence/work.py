@@ -63,24 +63,34 @@ class Flown:
         return replace(self, _kept=[])
 
 
-def block_triangles(flown: Flown) -> tuple[Array, ...]:
-    """Triangles (n + 1, n + 1) of the whitened columns [base | candidates | residual], one a block of time."""
+def blocks(flown: Flown) -> tuple[tuple[Array, ...], Array]:
+    """Of the columns [base | candidates | residual]: triangles (n + 1, n + 1) of the whitened ones, one a block of
+    time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
+    """
     size = 1
 
-    def triangles(piece: Piece) -> list[tuple[int, Array]]:
-        own = []
+    def own(piece: Piece) -> list[tuple[int, Array, Array]]:
+        found = []
         for b, rows in piece.segment.blocks:
             inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
-            own.append((b, design.triangle(piece.white[:, inside])))
-        return own
+            first = piece.segment.rows.start
+            sums = piece.sums(slice(rows.start - first, rows.stop - first))
+            found.append((b, design.triangle(piece.white[:, inside]), sums))
+        return found
 
-    found: list[Array | None] = [None] * BLOCKS
-    for own in flown.each(triangles):
-        for b, T in own:
+    triangles: list[Array | None] = [None] * BLOCKS
+    totals: list[Array | float] = [0.0] * BLOCKS
+    for parts in flown.each(own):
+        for b, T, sums in parts:
             size = len(T)
-            before = found[b]
-            found[b] = T if before is None else design.join([before, T])
-    return tuple(np.zeros((size, size)) if t is None else t for t in found)
+            before = triangles[b]
+            triangles[b] = T if before is None else design.join([before, T])
+            totals[b] = totals[b] + sums
+    empty = np.zeros((size, size))
+    return (
+        tuple(empty if t is None else t for t in triangles),
+        np.stack([np.broadcast_to(x, size) for x in totals]),
+    )
 
 
 def prepare(
