@@ -184,14 +184,13 @@ def fit(
     p[index] = nominal[index] + away * scale
     known = list(noise) if noise is not None else None
     eotvos = scale_factor(model.chain, nominal)
+    white = [_white(o, eotvos) for o in observations]
     for iteration in range(iterations):
         at = Point(model, instrument, p.copy(), with_candidates=False)
         triangles, rows, sums = [], 0, np.zeros(len(columns) + 1)
         for k, o in enumerate(observations):
             noise_k, chosen = (
-                (_white(o, eotvos), spread(flight_segments(o), WHITE_SEGMENTS))
-                if known is None
-                else (known[k], None)
+                (white[k], spread(flight_segments(o), WHITE_SEGMENTS)) if known is None else (known[k], None)
             )
             for T, count, part in passed(at, o, noise_k, _triangle, chosen=chosen):
                 rows += count

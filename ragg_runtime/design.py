@@ -8,8 +8,9 @@ stacking their triangles. (A QR update, not normal equations: the columns' sizes
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +75,8 @@ class Observation:
     record: Record
     series: tuple[Array, ...]
     name: str
+    memo: list[tuple[Sequence[Array], list[Any]]] = field(default_factory=list, compare=False, repr=False)
+    """What :mod:`ragg_runtime.gradient` has found for some filters."""
 
     @cached_property
     def data(self) -> Array:

@@ -9,7 +9,7 @@ fifteen of them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, product
 
@@ -22,6 +22,7 @@ from ragg_runtime.ingredients import Relaxations
 from ragg_runtime.segments import segments
 
 Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
 
 HIGHEST = 4
 """Highest multiple of the spin rate: what second-order terms of a rotating force reach (Eq. 17)."""
@@ -120,32 +121,52 @@ class Dictionary:
             x = x * self._channel(name, r)
         return x
 
-    def chunks(
-        self, r: Record, terms: Sequence[Term] | None = None, most: int = 32
-    ) -> Iterator[tuple[slice, NDArray[np.float32]]]:
-        """The terms in pieces: their places, and their series over ``size``, (terms, N); zero where not valid."""
+    def chunks(self, r: Record, terms: Sequence[Term] | None = None, most: int = 32) -> Chunks:
+        """The terms over a part of a flight, ``most`` at a time."""
         chosen = self.terms if terms is None else terms
-        carriers = {h: np.float32(carrier(r, h)) for h in dict.fromkeys(t.harmonic for t in chosen)}
+        carriers = {h: carrier(r, h).astype(np.float32) for h in dict.fromkeys(t.harmonic for t in chosen)}
         wanted = dict.fromkeys(n for t in chosen for n in t.channels)
         channels = {
-            n: np.float32(np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]) for n in wanted
+            n: (np.where(r.valid, self._channel(n, r), 0.0) / self._size[n]).astype(np.float32)
+            for n in wanted
         }
         nothing = np.where(r.valid, np.float32(1.0), np.float32(0.0))
-        product, of = nothing, tuple[str, ...]()
-        for start in range(0, len(chosen), most):
-            part = chosen[start : start + most]
-            x = np.empty((len(part), len(r.time)), dtype=np.float32)
-            for n, t in enumerate(part):
-                if t.channels != of:
-                    product, of = nothing, t.channels
-                    for name in of:
-                        product = product * channels[name]
-                np.multiply(product, carriers[t.harmonic], out=x[n])
-            yield slice(start, start + len(part)), x
+        return Chunks(chosen, most, carriers, channels, nothing)
 
     def _channel(self, name: str, r: Record) -> Array:
         x = self._slow.series(name, r) if ingredients.is_slow(name) else ingredients.series(name, r)
         return np.asarray(x - self.centre.get(name, 0.0))
+
+
+@dataclass(frozen=True)
+class Chunks(Sequence[tuple[slice, Singles]]):
+    """Places of terms, and their series over ``size``, (terms, N), zero where not valid: made when they are asked for.
+
+    ``one`` (N,) is the product of no channels.
+    """
+
+    terms: Sequence[Term]
+    most: int
+    carriers: Mapping[str, Singles]
+    channels: Mapping[str, Singles]
+    one: Singles
+
+    def __len__(self) -> int:
+        return -(-len(self.terms) // self.most)
+
+    def __getitem__(self, k: int) -> tuple[slice, Singles]:  # type: ignore[override]
+        if not 0 <= k < len(self):
+            raise IndexError(k)
+        part = self.terms[k * self.most : (k + 1) * self.most]
+        x = np.empty((len(part), len(self.one)), dtype=np.float32)
+        product, of = self.one, tuple[str, ...]()
+        for n, t in enumerate(part):
+            if t.channels != of:
+                product, of = self.one, t.channels
+                for name in of:
+                    product = product * self.channels[name]
+            np.multiply(product, self.carriers[t.harmonic], out=x[n])
+        return slice(k * self.most, k * self.most + len(part)), x
 
 
 @dataclass(frozen=True)

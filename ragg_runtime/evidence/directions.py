@@ -19,7 +19,7 @@ from ragg_runtime import design, gradient
 from ragg_runtime.evidence.work import Flown
 from ragg_runtime.passes import Piece
 from ragg_runtime.terms import Dictionary, Term
-from ragg_runtime.threads import count
+from ragg_runtime.threads import count, mapped
 from ragg_runtime.whiten import filtered
 
 Array = NDArray[np.float64]
@@ -78,7 +78,10 @@ class Directions:
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid = o.record.valid
-        for at, x in self.dictionary.chunks(wide, terms):
+        chunks = self.dictionary.chunks(wide, terms)
+
+        def through(k: int) -> tuple[slice, Singles, Singles]:
+            at, x = chunks[k]
             if o.kind == "channels":  # what the recorder made of G_out before it was recorded
                 x = design.narrow(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
@@ -86,7 +89,9 @@ class Directions:
                 _kept(filtered(x, np.asarray(w * taps), lead=lead), valid)
                 for w, taps in zip(o.weights, self.filters, strict=True)
             ]
-            yield at, x[:, lead:], self._without_gradient(parts)
+            return at, x[:, lead:], self._without_gradient(parts)
+
+        yield from mapped(through, range(len(chunks)))
 
     def gone_round(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """As :meth:`whitened`, through the periodic filter."""
@@ -114,13 +119,17 @@ class Directions:
         power = np.sum([np.abs(g) ** 2 for g in self.gains], axis=0) / self.size
         power[1 : len(power) - (self.size % 2 == 0)] *= 2.0
         weight = np.sqrt(power).astype(np.float32)
-        for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
+        chunks = self.dictionary.chunks(self.piece.observation.record, terms)
+
+        def scored(k: int) -> tuple[slice, Singles, Array, Array]:
+            at, x = chunks[k]
             spectrum = fft.rfft(x, axis=1, workers=count()) * weight
-            parts = spectrum.view(np.float32)
-            norm2 = squares(parts)
+            norm2 = squares(spectrum.view(np.float32))
             for Z in lost:
                 norm2 -= np.sum(products(x, Z) ** 2, axis=1)
-            yield at, x, products(x, back), norm2
+            return at, x, products(x, back), norm2
+
+        yield from mapped(scored, range(len(chunks)))
 
     def _back(self, right: Array, places: NDArray[np.intp] | None = None) -> Array:
         """(N, k): columns over whitened rows (all, or those at ``places``) through the transposed filter."""
