@@ -49,6 +49,12 @@ def examined(job: Job, files: Sequence[str], address: str) -> Generator[tuple[st
             waiting, again = len(futures), dict.fromkeys(files, 0)
             while waiting:
                 file, future = _next(client, address, done)
+                if future.status in (
+                    "lost",
+                    "pending",
+                ):  # its worker died with the result: it is being made again
+                    future.add_done_callback(lambda f, file=file: done.put((file, f)))
+                    continue
                 # A client that has lost its scheduler for a moment cancels everything; the flights are done again.
                 if future.status == "cancelled" and again[file] < ATTEMPTS and _connected(client):
                     again[file] += 1

@@ -133,6 +133,28 @@ def test_the_figures_are_those_of_this_machine_though_a_worker_is_killed(
         assert "all workers share" in done.stdout
 
 
+def test_a_result_that_dies_with_its_worker_is_made_again(
+    flights: Flights, whole: Survey, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    killed: list[int] = []
+    ask = cluster._next
+
+    def late(client: Any, address: str, done: Any) -> tuple[str, Any]:
+        file, future = ask(client, address, done)
+        if not killed and future.status == "finished":
+            (holder,) = client.who_has([future])[future.key]
+            killed.append(client.run(os.getpid)[holder])
+            os.kill(killed[0], signal.SIGKILL)
+            Cluster._wait(lambda: future.status != "finished" or int("not yet"))
+        return file, future
+
+    monkeypatch.setattr(cluster, "_next", late)
+    with running(tmp_path, 2) as c:
+        found = workflow.survey(workflow.load(flights[0]), flights[1], scheduler=c.address)
+    assert killed
+    assert json.dumps(found.summary.as_json()) == json.dumps(whole.summary.as_json())
+
+
 def test_a_lost_scheduler_is_one_message_and_what_is_done_is_kept(
     flights: Flights, whole: Survey, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
