@@ -127,7 +127,7 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
     assert np.all(np.abs(c - n) <= 1e-9 * size)
     for name in ("nominal", "calibrated", "holdout"):
         a, b = getattr(by_c, name), getattr(by_numpy, name)
-        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=1e-6)
+        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=1e-5)
     assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-4)
 
 
