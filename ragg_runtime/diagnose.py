@@ -379,7 +379,8 @@ def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[
         triangles, sums = work.blocks(x)
         stepped = list(triangles)
     elif instants:
-        x = replace(x, at=replace(x.at, instants=instants))
+        moved = {e: [f.n_base + n for n, c in enumerate(columns) if c.effect == e] for e in instants}
+        x = x.with_steps(instants, moved)
     f = replace(f, flown=(x,), triangles=(tuple(stepped),), sums=(sums,))
     return _with_penalty(f, [*available, *instants]), f, instants
 

@@ -227,7 +227,7 @@ def passed(
                 tail = tails[k - 1].result()  # the segment before was begun before
                 tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
-            flat = _white(columns, noise, tail, part.record.valid)
+            flat = whitened_columns(columns, noise, tail, part.record.valid)
             gradient.project(flat, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
         return work(Piece(s, part, columns, n_base, flat, sample, windows))
@@ -246,7 +246,7 @@ def passed(
         yield made
 
 
-def _white(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
+def whitened_columns(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
     """(n + 1, rows): columns (n + 1, m, N) through the filters, one output after the other."""
     rows = []
     for m, taps in enumerate(noise.filters):

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design
+from ragg_runtime import design, gradient
 from ragg_runtime.calibrate import Calibration
 from ragg_runtime.design import Observation
 from ragg_runtime.evaluate import vector
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
-from ragg_runtime.passes import Noise, Piece, Point, passed
+from ragg_runtime.passes import Noise, Piece, Point, passed, whitened_columns
 from ragg_runtime.segments import BLOCKS, ROWS, block_edges
 
 Array = NDArray[np.float64]
@@ -57,6 +57,21 @@ class Flown:
         if self._kept or np.any(v[:, n_base:]):
             return self, v
         return replace(self, at=replace(self.at, with_candidates=False)), v[:, :n_base]
+
+    def with_steps(self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]) -> Flown:
+        """The same with steps (effect -> instant, s; effect -> places of its columns), kept columns included."""
+        moved = [k for e in instants for k in places[e]]
+        kept = []
+        for piece in self._kept:  # a flight that is kept is one segment: the filter starts from rest
+            columns, white = piece.columns.copy(), piece.white.copy()
+            record = piece.observation.record
+            for e, instant in instants.items():
+                columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
+            part = whitened_columns(columns[moved], self.noise, None, record.valid)
+            gradient.project(part, piece.windows)
+            white[moved] = part
+            kept.append(replace(piece, columns=columns, white=white))
+        return replace(self, at=replace(self.at, instants=instants), _kept=kept)
 
     def released(self) -> Flown:
         """The same without the columns."""

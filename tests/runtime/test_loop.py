@@ -88,6 +88,18 @@ def test_a_hidden_effect_is_found_and_the_error_falls_to_the_noise(effect: str) 
         assert instants == [pytest.approx(350.0, abs=0.1)]
 
 
+def test_a_step_that_is_not_the_answer_is_scored_at_its_instant() -> None:
+    s, flight = flown(42, {"thermal-scale": HIDDEN["thermal-scale"]})
+    d = diagnosed(s, flight)
+    (step,) = (r for r in d.ranking if r.effect == "gain-step")
+    assert step.after.rms_Eo < step.before.rms_Eo
+    (x,) = d.fitted.flown
+    assert x.at.instants["gain-step"] > 0.0
+    (kept,), (anew,) = (list(f.each(lambda piece: piece)) for f in (x, x.released()))
+    np.testing.assert_array_equal(kept.columns, anew.columns)
+    np.testing.assert_allclose(kept.white, anew.white, rtol=1e-9, atol=1e-9)
+
+
 def test_two_effects_are_both_found() -> None:
     s, flight = flown(
         43, {"odd-quadratic": {"K_oq": [0, 0, 0, 2e-6 / G0]}, "bias-drift": HIDDEN["bias-drift"]}
