@@ -31,6 +31,8 @@ class Step:
         Error objects (rms_V, rms_Eo, ...) where a flight was given.
     flights
         The flights' names, with their SHA-256.
+    text
+        model.toml as it then was, so that one can go back to it; empty in histories of older versions.
     """
 
     action: str
@@ -39,6 +41,7 @@ class Step:
     before: Mapping[str, Any] | None = None
     after: Mapping[str, Any] | None = None
     flights: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    text: str = ""
 
     def as_json(self) -> dict[str, Any]:
         """The entry as it stands in the file."""
@@ -49,6 +52,7 @@ class Step:
             "before": None if self.before is None else dict(self.before),
             "after": None if self.after is None else dict(self.after),
             "flights": dict(self.flights),
+            **({"model": self.text} if self.text else {}),
         }
 
 
@@ -71,6 +75,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
                 before=s.get("before"),
                 after=s.get("after"),
                 flights=MappingProxyType(dict(s.get("flights", {}))),
+                text=str(s.get("model", "")),
             )
             for s in content["steps"]
         )

@@ -112,7 +112,7 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     instrument = parse_instrument(text, Path(source) if source else None)
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
-    history = (Step("new", _now()),)
+    history = (Step("new", _now(), text=text),)
     return _loaded(create_model_dir(path, text, generated=extend.files_of(instrument), history=history))
 
 
@@ -140,12 +140,22 @@ def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
     return _compare.compare(m.model, m.instrument, flights)
 
 
-def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
-    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+def diagnose(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float] = LIMITS,
+    compared: Comparison | None = None,
+) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`).
+
+    ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
+    """
 
     def extended(model: Model, ids: Sequence[str]) -> Model:
         return extend.with_effects(m.instrument, model, ids)
 
+    if compared is not None:
+        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
 
@@ -190,11 +200,11 @@ def survey(
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+def add(m: Loaded, effect: str, flights: Sequence[Flight] = (), *, save: bool = True) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all.
+    The directory is changed whole or not at all; without ``save`` it stays, and the result says what would be.
     """
     instrument = m.instrument
     known = extend.known(instrument)
@@ -246,7 +256,10 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(before),
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
+        text,
     )
+    if not save:
+        return Added(m, effect, before, after, parameters, combinations)
     directory = replace_model_dir(
         m.directory, text, generated=extend.files_of(extended), history=(*m.directory.history, step)
     )
@@ -256,12 +269,40 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
 def remove(m: Loaded, effect: str) -> Loaded:
     """Take an effect out of the model again."""
     text = remove_effect(m.directory.text, effect)
+    return change(m, text, "remove", effect)
+
+
+def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
+    """Put another text in the place of model.toml, derive its model, and note the step in the history."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = Step("remove", _now(), effect)
+    check_settings(extend.model_of(instrument), instrument)
+    step = Step(action, _now(), effect, text=text)
     directory = replace_model_dir(
         m.directory, text, generated=extend.files_of(instrument), history=(*m.directory.history, step)
     )
     return _loaded(directory)
+
+
+def as_of(m: Loaded, text: str) -> Loaded:
+    """The model with another text of model.toml, in memory alone: the directory stays as it is."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    model = extend.model_of(instrument)
+    check_settings(model, instrument)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
+
+
+def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
+    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone.
+
+    :func:`add` then calibrates it, and keeps it if that is wanted.
+    """
+    parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
+    expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
+    if effect in {e.id for e in extend.known(m.instrument).effects}:
+        raise UserError(
+            "an effect of this id exists already", found=repr(effect[:80]), remedy="choose another name"
+        )
+    return as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
 
 
 def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
