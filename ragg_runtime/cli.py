@@ -466,8 +466,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     try:
         from ragg_runtime.experiments.command import experiment
+        from ragg_runtime.studio.command import studio
 
         cli.add_command(experiment)
+        cli.add_command(studio)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:

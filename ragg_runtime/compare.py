@@ -532,7 +532,10 @@ def testable_effects(f: Fitted) -> list[str]:
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [
-        channels(e, x.observation.record, f.k_ggi, x.observation.record.valid)
-        for x, e in zip(f.flown, residuals, strict=True)
-    ]
+    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+
+
+def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
+    r = f.flown[flight].observation.record
+    return channels(x, r, f.k_ggi, r.valid)
