@@ -16,7 +16,7 @@ def mathml(latex: str, *, block: bool = False) -> str:
     from latex2mathml.converter import convert
 
     plain = f"<code>{html.escape(latex)}</code>"
-    if "\\" not in latex and "*" in latex:
+    if ("\\" not in latex and "*" in latex) or set("<>&") & set(latex):  # the converter passes markup on
         return plain
     try:
         made = convert(_OPERATOR.sub(r"\1=", _ABSENT.sub(r"\\mathbf", latex)), display="block" if block else "inline")

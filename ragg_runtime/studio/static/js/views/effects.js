@@ -4,6 +4,9 @@ import { look, on, server, view } from "../store.js";
 import { doing } from "../app.js";
 import { foreseen } from "./foresee.js";
 
+// a meter is full at this evidence (-log10 p) at least, lest chance look like a finding
+const LEAST = 100;
+
 let pointed = "";
 /** The effect under the pointer or the focus. */
 export const pointedAt = () => pointed;
@@ -22,7 +25,7 @@ export function effectsPane(box) {
   const foot = h("div.foot");
   const rest = h("div.rest");
   const lead = h("div.pane-head");
-  fill(box, lead, list, rest, foot);
+  fill(box, lead, foot, list, rest);
 
   const known = () => {
     const { state } = server;
@@ -34,7 +37,7 @@ export function effectsPane(box) {
       inside.length ? h("p.inside", {}, "In the model: ", inside.map((e) => h("span.chip", { title: e.title }, e.id, h("button", { type: "button", "aria-label": `Take ${e.id} out of the model`, title: "Take it out of the model", onclick: () => doing("remove", { effect: e.id }) }, "×")))) : null,
       !effects.length && state && state.banner ? h("p.note", {}, state.status.job ? "Every effect of the catalogue is being tested …" : "Not tested yet.") : null,
     );
-    const most = Math.max(1, ...effects.map((e) => e.evidence ?? 0));
+    const most = Math.max(LEAST, ...effects.map((e) => e.evidence ?? 0));
     fill(list, effects.map((e) => row(e, most)));
     const silent = state ? state.silent : [];
     fill(rest, silent.length ? h("details", {}, h("summary", {}, `${silent.length} effects on which this record is silent`), h("ul.silent", {}, silent.map((e) => h("li", {}, h("b", {}, e.title || e.id), " ", h("code", {}, e.id), h("p", {}, e.why))))) : null,
@@ -92,9 +95,9 @@ export function effectsPane(box) {
     fill(
       foot,
       n && now
-        ? h("p.foreseen", { role: "status" }, h("span", {}, number(now.before_Eo)), " → ", h("b", {}, number(now.rms_Eo)), " Eo", h("small", {}, ` held out ${number(now.holdout_Eo)}, noise ${number(now.noise_Eo)}`))
+        ? h("p.foreseen", { role: "status" }, h("span", {}, number(now.before_Eo)), " → ", h("b", {}, number(now.rms_Eo)), " Eo", h("small", {}, `held out ${number(now.holdout_Eo)}, noise ${number(now.noise_Eo)}`))
         : h("p.foreseen.quiet", {}, "Tick an effect to see what the error would become."),
-      h("button.main", { type: "button", disabled: !n || Boolean(state.status.job), onclick: commit }, n > 1 ? `Derive ${n} effects and calibrate` : "Derive and calibrate"),
+      h("button.main", { type: "button", disabled: !n || Boolean(state.status.job), onclick: commit, title: "Derive and calibrate (a)" }, n > 1 ? `Derive ${n} effects and calibrate` : "Derive and calibrate"),
     );
   };
 

@@ -72,7 +72,7 @@ export function figures(box) {
     box, head, strip,
     panel("measured", "Measured over model"),
     panel("residual", "Residual"),
-    h("div.pair", {}, panel("spectrum", "Spectrum of the residual"), panel("spectrogram", "Spectrogram")),
+    h("div.pair", {}, panel("spectrum", "Spectrum"), panel("spectrogram", "Spectrogram")),
     h("figure.panel.terms", { "aria-label": "Where it fails" }, h("figcaption", {}, h("h2", {}, "Where it fails: harmonic of the spin × motion term"), h("div.legend", {}, "σ, of what the model leaves")), heat, heatNote),
   );
 

@@ -23,7 +23,7 @@ export function historyView(main) {
         h("div.wide", {}, h("table.numbers.history", {},
           h("thead", {}, h("tr", {}, h("th", {}, "when"), h("th", {}, "step"), h("th.n", {}, "before, Eo"), h("th.n", {}, "after, Eo"), h("th.n", {}, "held out, Eo"), h("th", {}, "flights"), h("th", {}, ""))),
           h("tbody", {}, [...history.steps].reverse().map((s) => h("tr", { class: s.present ? "" : "left" },
-            h("td", {}, new Date(s.time).toLocaleString()),
+            h("td", {}, new Date(s.time).toLocaleString("sv")),
             h("th", { scope: "row" }, `${SAID[s.action] || s.action} `, s.action === "add" || s.action === "remove" ? h("code", {}, s.effect) : /^\d+$/.test(s.effect) ? `to the state after step ${Number(s.effect) + 1}` : s.effect),
             h("td.n", {}, s.before === null ? "–" : number(s.before)), h("td.n", {}, s.after === null ? "–" : number(s.after)), h("td.n", {}, s.holdout === null ? "–" : number(s.holdout)),
             h("td", {}, s.flights.join(", ")),
