@@ -133,9 +133,7 @@ def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tu
     x = f.flown[flight]
     wanted = rows or slice(0, len(x.observation.record.time))
     chosen = [
-        s
-        for s in flight_segments(x.observation)
-        if s.rows.start < wanted.stop and s.rows.stop > wanted.start
+        s for s in flight_segments(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
     ]
     both = np.stack([v, np.zeros_like(v)])
 

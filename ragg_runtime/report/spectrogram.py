@@ -39,12 +39,11 @@ def spectrogram(
     size = int(min(rate / (RESOLUTION * spin) * 2, n / 3)) if n else 0
     if size < 16:
         return None
-    hop = max(1, min(size // 4, size // 2), -(-(n - size) // COLUMNS) if n - size > COLUMNS * size else 0)
-    hop = max(hop, -(-(n - size) // COLUMNS))
+    hop = max(1, size // 4, -(-(n - size) // COLUMNS))
     starts = np.arange(0, n - size + 1, hop)
     window = np.hanning(size)
     scale = 2.0 / (rate * float(np.sum(window**2)))
-    f = np.fft.rfftfreq(size, 1.0 / rate)
+    f: Array = np.asarray(np.fft.rfftfreq(size, 1.0 / rate), dtype=np.float64)
     kept = (f > 0.0) & (f <= highest)
     density = np.full((int(np.sum(kept)), len(starts)), np.nan)
     for k, a in enumerate(starts):
@@ -60,4 +59,8 @@ def spectrogram(
         edges = np.arange(0, len(f) - by + 1, by)
         density = np.add.reduceat(density, edges, axis=0)[: len(edges)] / by
         f = f[edges] + 0.5 * (by - 1) * (f[1] - f[0])
-    return Spectrogram(start + (starts + 0.5 * size) / rate, f, np.sqrt(density))
+    return Spectrogram(
+        time=np.asarray(start + (starts + 0.5 * size) / rate, dtype=np.float64),
+        frequency=np.asarray(f, dtype=np.float64),
+        density=np.sqrt(density),
+    )

@@ -17,7 +17,9 @@ NEEDED = ("starlette", "uvicorn", "latex2mathml")
 @click.command()
 @click.argument("model_dir", metavar="[MODEL]", type=click.Path(path_type=Path), required=False)
 @click.argument("flights", metavar="[FLIGHT...]", type=click.Path(path_type=Path), nargs=-1)
-@click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1 (default: a free one).")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1 (default: a free one)."
+)
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 def studio(model_dir: Path | None, flights: Sequence[Path], port: int, no_browser: bool) -> None:
     """The loop in a browser: compare, see where the model fails, add what it lacks, watch the error fall.

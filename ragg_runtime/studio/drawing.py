@@ -124,7 +124,9 @@ def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
     name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"
     x = _volts(s, a, name, rows) / f.k_ggi
     spin = f.instrument.spin_frequency
-    found = spectrogram(x, np.asarray(r.valid[rows]), r.rate, float(r.time[rows.start]), spin, min(top, r.rate / 2))
+    found = spectrogram(
+        x, np.asarray(r.valid[rows]), r.rate, float(r.time[rows.start]), spin, min(top, r.rate / 2)
+    )
     if found is None:
         raise UserError("the stretch is too short for a spectrogram")
     t, g = found.time, found.frequency
@@ -136,7 +138,11 @@ def heat_map(s: State, a: Asked) -> dict[str, Any]:
     """Significance of harmonic x product of channels: the single channels, and the products that stand out most."""
     h = s.tracks.heat(a.effects, a.flight)
     strongest = np.nanmax(np.abs(np.where(np.isnan(h.z), 0.0, h.z)), axis=0)
-    single = [k for k, p in enumerate(h.products) if "*" not in p and "(" not in p and not p.startswith(("d_", "d2_"))]
+    single = [
+        k
+        for k, p in enumerate(h.products)
+        if "*" not in p and "(" not in p and not p.startswith(("d_", "d2_"))
+    ]
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
     chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
     return {

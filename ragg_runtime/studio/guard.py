@@ -97,7 +97,9 @@ class Guard:
             token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if self._keys.exchange(token):
                 return self._welcomed()
-        return _refused("open the address that `ragg studio` printed; it serves once: start it again for a new one")
+        return _refused(
+            "open the address that `ragg studio` printed; it serves once: start it again for a new one"
+        )
 
     def _known(self, headers: Headers) -> bool:
         try:

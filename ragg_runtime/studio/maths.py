@@ -19,7 +19,9 @@ def mathml(latex: str, *, block: bool = False) -> str:
     if ("\\" not in latex and "*" in latex) or set("<>&") & set(latex):  # the converter passes markup on
         return plain
     try:
-        made = convert(_OPERATOR.sub(r"\1=", _ABSENT.sub(r"\\mathbf", latex)), display="block" if block else "inline")
+        made = convert(
+            _OPERATOR.sub(r"\1=", _ABSENT.sub(r"\\mathbf", latex)), display="block" if block else "inline"
+        )
     except Exception:  # whatever a stranger's text does to the converter, the text can be shown
         return plain
     return str(made) if "\\" not in made else plain

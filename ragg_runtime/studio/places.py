@@ -59,7 +59,12 @@ class Places:
                 if kind is not None and len(entries) < LISTED:
                     entries.append({"name": e.name, "path": e.path, "kind": kind, "bytes": _size(e)})
         above = str(folder.parent) if any(r in folder.parents for r in self.roots) else None
-        return {"folder": str(folder), "above": above, "roots": list(map(str, self.roots)), "entries": entries}
+        return {
+            "folder": str(folder),
+            "above": above,
+            "roots": list(map(str, self.roots)),
+            "entries": entries,
+        }
 
 
 def safe_name(name: str) -> str:

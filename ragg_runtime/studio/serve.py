@@ -67,7 +67,7 @@ def _listening(port: int) -> socket.socket:
     except OSError as error:
         made.close()
         raise UserError(
-            "the port cannot be used", where=port, found=error.strerror, remedy="choose another with --port"
+            "the port cannot be used", where=str(port), found=error.strerror, remedy="choose another with --port"
         ) from None
     made.listen(128)
     return made

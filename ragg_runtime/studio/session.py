@@ -66,7 +66,9 @@ class State:
     def model(self) -> Loaded:
         """The model; UserError if none is open."""
         if self.loaded is None:
-            raise UserError("no model is open", remedy="choose a model directory, or make one from a test sheet")
+            raise UserError(
+                "no model is open", remedy="choose a model directory, or make one from a test sheet"
+            )
         return self.loaded
 
     @property
@@ -144,10 +146,10 @@ class Session:
 
     def add(self, effects: Sequence[str]) -> None:
         """Derive effects into the model, one after the other, and calibrate."""
-        self.state.model
+        m = self.state.model
         if not effects:
             raise UserError("no effect is chosen", remedy="tick one or several")
-        self.jobs.start(f"deriving {effects[0]}", partial(self._add, tuple(effects)))
+        self.jobs.start(f"deriving {effects[0]} into {m.name}", partial(self._add, tuple(effects)))
 
     def _add(self, effects: tuple[str, ...], part: Part) -> None:
         for e in effects:

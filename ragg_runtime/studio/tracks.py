@@ -116,7 +116,9 @@ class Tracks:
         o = f.flown[flight].observation
         if name == "measured":
             r = o.record
-            made = sum(w * np.where(r.valid, x, 0.0) for w, x in zip(output_weights(o), o.series, strict=True))
+            made = sum(
+                w * np.where(r.valid, x, 0.0) for w, x in zip(output_weights(o), o.series, strict=True)
+            )
             return np.asarray(made)
         if name == "modelled":
             return self.volts("measured", flight) - self.volts("residual", flight)
@@ -125,7 +127,9 @@ class Tracks:
     def _of(self, name: str, make: Callable[[], list[Array]]) -> list[Array]:
         return self.cache.get((name,), make)  # type: ignore[return-value]
 
-    def effect(self, effects: tuple[str, ...], flight: int, window: tuple[float, float] | None = None) -> Effect:
+    def effect(
+        self, effects: tuple[str, ...], flight: int, window: tuple[float, float] | None = None
+    ) -> Effect:
         """What these effects would take out of the residual, of a long flight where ``window`` (s) lies alone."""
         d = self.found
         if d is None:
@@ -203,7 +207,9 @@ class Tracks:
             if unit in ("inline", "cross"):
                 found = compare.demodulated_one(f, flight, x)
                 if not len(found[0]):
-                    raise UserError("the flight is too short to be demodulated", where=f.observations[flight].name)
+                    raise UserError(
+                        "the flight is too short to be demodulated", where=f.observations[flight].name
+                    )
                 time, x = found[0], found[1 if unit == "inline" else 2]
                 return _pyramid_of_gaps(time, x, 1.0 / r.rate)
             scale = 1.0 if unit == "V" else 1.0 / f.k_ggi

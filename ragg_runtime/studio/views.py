@@ -107,7 +107,11 @@ def _banner(s: State) -> Json | None:
         "errors": [
             {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
             {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},
-            {"label": "held out", **error(c.holdout), "about": "fitted on half of the blocks of time, scored on the rest"},
+            {
+                "label": "held out",
+                **error(c.holdout),
+                "about": "fitted on half of the blocks of time, scored on the rest",
+            },
         ],
         "noise": {"rms_Eo": c.noise_floor, "text": words.number(c.noise_floor)},
         "converged": converged if isinstance(converged, bool) else None,
@@ -144,7 +148,9 @@ def effects(d: Diagnosis) -> list[Json]:
                 "after_Eo": finite(r.after.rms_Eo),
                 "holdout_Eo": finite(r.after_holdout.rms_Eo),
                 "testable": r.rank > 0 and r.effect in _linear(d),
-                "values": [] if values is None else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
+                "values": []
+                if values is None
+                else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
                 "twins": row["twins"],
             }
         )
@@ -220,9 +226,7 @@ def _parameters(c: Comparison) -> Json:
             for g in v.groups
         ],
         "correlations": _correlations(f),
-        "pull": [
-            {"label": label, "sigma": sigma} for label, sigma in parameters.pulls(f, PULLED)
-        ],
+        "pull": [{"label": label, "sigma": sigma} for label, sigma in parameters.pulls(f, PULLED)],
     }
 
 

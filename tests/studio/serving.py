@@ -44,7 +44,10 @@ class Served:
 
 def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "ragg_runtime", *map(str, arguments)], capture_output=True, text=True, check=False
+        [sys.executable, "-m", "ragg_runtime", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
     )
 
 

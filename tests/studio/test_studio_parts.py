@@ -23,8 +23,12 @@ def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     return workflow.diagnose(m, workflow.read_flights(m, [DEMO]))
 
 
-@pytest.mark.parametrize("effects", [(), ("thermal-scale",), ("gain-step",), ("lag", "cubic-cross", "magnetic-bias")])
-def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(diagnosis: Diagnosis, effects: tuple[str, ...]) -> None:
+@pytest.mark.parametrize(
+    "effects", [(), ("thermal-scale",), ("gain-step",), ("lag", "cubic-cross", "magnetic-bias")]
+)
+def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
+    diagnosis: Diagnosis, effects: tuple[str, ...]
+) -> None:
     f = diagnosis.fitted
     field = f.field([r.effect for r in diagnosis.ranking])
     found = foresee.foreseen(f, foresee.plain(f), field, effects)
@@ -63,14 +67,22 @@ def test_a_pyramid_loses_no_extreme_and_no_gap() -> None:
     x[77_777], x[123_456] = 50.0, -60.0
     x[10_000:11_000] = np.nan
     p = pyramid(5.0, 0.01, n, lambda s: x[s])
-    for first, last, points in ((5.0, 2005.03, 700), (700.0, 1300.0, 300), (781.0, 784.0, 400), (0.0, 1e9, 100)):
+    for first, last, points in (
+        (5.0, 2005.03, 700),
+        (700.0, 1300.0, 300),
+        (781.0, 784.0, 400),
+        (0.0, 1e9, 100),
+    ):
         data = p.window(first, last, points)
         mark, count, start, step, kind = HEAD.unpack_from(data)
         values = np.frombuffer(data, "<f4", offset=HEAD.size).reshape(1 + kind, count)
         assert mark == b"RAGG"
         assert count <= 8 * points
         half = 0.5 * step if kind else 0.0
-        a, b = (int(np.clip(np.round((t - 5.0) / 0.01), 0, n)) for t in (start - half + 0.005 * kind, start + (count - 1) * step + half + 0.005))
+        a, b = (
+            int(np.clip(np.round((t - 5.0) / 0.01), 0, n))
+            for t in (start - half + 0.005 * kind, start + (count - 1) * step + half + 0.005)
+        )
         inside = x[a : b + 1].astype(np.float32)
         assert np.nanmax(values) == np.nanmax(inside)
         assert np.nanmin(values) == np.nanmin(inside)

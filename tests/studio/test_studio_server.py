@@ -75,8 +75,12 @@ def test_it_listens_to_this_machine_alone(server: Served) -> None:
     assert [struct.pack("<I", int(x.split(":")[0], 16)) for x in listening] == [b"\x7f\x00\x00\x01"]
 
 
-@pytest.mark.parametrize("host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "127.0.0.1.evil:{port}", ""])
-def test_a_name_that_is_made_to_point_here_is_refused(server: Served, client: httpx.Client, host: str) -> None:
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "127.0.0.1.evil:{port}", ""]
+)
+def test_a_name_that_is_made_to_point_here_is_refused(
+    server: Served, client: httpx.Client, host: str
+) -> None:
     cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
     ask = f"GET /api/state HTTP/1.1\nHost: {host.format(port=server.port)}\nCookie: {cookie}\nConnection: close\n\n"
     assert raw(server.port, ask).split()[1] in ("400", "421")
@@ -133,7 +137,18 @@ def test_no_answer_may_be_framed_sniffed_or_run_code_from_elsewhere(client: http
 
 
 @pytest.mark.parametrize(
-    "place", ["/etc", "/", "..", "{folder}/..", "{folder}/model/../../..", "{folder}/link", "\0", "~", "/proc/self/root"]
+    "place",
+    [
+        "/etc",
+        "/",
+        "..",
+        "{folder}/..",
+        "{folder}/model/../../..",
+        "{folder}/link",
+        "\0",
+        "~",
+        "/proc/self/root",
+    ],
 )
 def test_no_folder_beside_those_named_is_shown(client: httpx.Client, folder: Path, place: str) -> None:
     if not (folder / "link").is_symlink():
@@ -143,13 +158,20 @@ def test_no_folder_beside_those_named_is_shown(client: httpx.Client, folder: Pat
     assert "not open to the studio" in answer.json()["error"]["what"]
 
 
-def test_nothing_is_opened_made_or_served_from_elsewhere(client: httpx.Client, folder: Path, server: Served) -> None:
+def test_nothing_is_opened_made_or_served_from_elsewhere(
+    client: httpx.Client, folder: Path, server: Served
+) -> None:
     for body in ({"model": "/etc"}, {"flights": ["/etc/passwd"]}, {"flights": [f"{folder}/link/passwd"]}):
         assert client.post("/api/do/open", json=body).status_code == 400
     assert client.post("/api/do/new", json={"model": f"{folder}/../stolen"}).status_code == 400
     assert not (folder.parent / "stolen").exists()
     cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
-    for path in ("/static/../serve.py", "/static/%2e%2e/serve.py", "/static/..%2fserve.py", "/static//etc/passwd"):
+    for path in (
+        "/static/../serve.py",
+        "/static/%2e%2e/serve.py",
+        "/static/..%2fserve.py",
+        "/static//etc/passwd",
+    ):
         ask = f"GET {path} HTTP/1.1\nHost: 127.0.0.1:{server.port}\nCookie: {cookie}\nConnection: close\n\n"
         assert raw(server.port, ask).split()[1] in ("403", "404")
 
@@ -186,7 +208,15 @@ def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
 
 
 @pytest.mark.parametrize(
-    "add", ["__import__('os').system('true')", "K_x*f_i**99", "K_x.real", "K_x*exp(exp(exp(f_i)))*(", "", "K_x*" * 400]
+    "add",
+    [
+        "__import__('os').system('true')",
+        "K_x*f_i**99",
+        "K_x.real",
+        "K_x*exp(exp(exp(f_i)))*(",
+        "",
+        "K_x*" * 400,
+    ],
 )
 def test_a_hostile_expression_is_told_what_is_wrong(client: httpx.Client, folder: Path, add: str) -> None:
     settled(client)
@@ -216,7 +246,9 @@ def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> Non
     assert preview["holdout_Eo"] == pytest.approx(state["effects"][0]["holdout_Eo"], rel=1e-9)
     rms = {}
     for what in ("residual", "left", "effect"):
-        data = client.get("/api/series", params={"what": what, "effects": "thermal-scale", "points": 20000}).content
+        data = client.get(
+            "/api/series", params={"what": what, "effects": "thermal-scale", "points": 20000}
+        ).content
         mark, count, _, step, kind = struct.unpack_from("<4sIddI", data)
         assert (mark, count, kind) == (b"RAGG", 11520, 0)
         assert step == pytest.approx(1 / 16)
@@ -244,7 +276,7 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
                 assert "meanwhile" in refused.json()["error"]["what"] or refused.status_code == 409
             assert "bias-drift" in [e.id for e in load_model_dir(model).instrument.effects]
             with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
-                for line in events.iter_lines():
+                for _ in events.iter_lines():
                     state = one.get("/api/state").json()
                     if [e["id"] for e in state["model"]["effects"]] == ["bias-drift"]:
                         break
