@@ -46,6 +46,10 @@ class Asked:
 
 def series(s: State, a: Asked) -> bytes:
     """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
+    if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.glances):
+        look = s.glances[a.flight]
+        if look is not None:
+            return look[1].window(a.first, a.last, a.points)
     if a.what.startswith("channel:"):
         return s.tracks.channel(a.what.partition(":")[2], a.flight).window(a.first, a.last, a.points)
     window = (a.first, a.last)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import sys
 import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -16,6 +17,9 @@ from ragg_runtime.studio.routes import UPLOAD, application
 from ragg_runtime.studio.session import Session
 
 LOOPBACK = "127.0.0.1"
+
+SWITCH = 0.0005
+"""How long a thread that computes may keep one waiting that answers the page, s."""
 
 CLOSING = 1
 """Longest wait for open pages once it is interrupted, s."""
@@ -33,6 +37,7 @@ def serve(
     for path in (*([model] if model else []), *flights):
         if not path.exists():
             raise UserError("there is no such file or folder", where=path)
+    sys.setswitchinterval(SWITCH)
     session = Session(Places.of(model, flights))
     with _listening(port) as listening:
         keys = Keys()

@@ -14,12 +14,14 @@ from ragg_runtime.diagnose import Diagnosis
 from ragg_runtime.errors import UserError
 from ragg_runtime.evidence.search import Field
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.foresee import Plain
 from ragg_runtime.history import Step
 from ragg_runtime.model_toml import set_parameters
 from ragg_runtime.progress import PASSES
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
+from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.units import RawQuantity
 from ragg_runtime.workflow import Added, Loaded
@@ -35,6 +37,8 @@ class State:
     ----------
     loaded, paths, flights
         The model directory, the files of the flights, and the flights themselves.
+    glances
+        A first look at each file, and its output as it is drawn until the flight is compared.
     compared, diagnosed, plain
         Results for exactly these.
     previous
@@ -48,6 +52,7 @@ class State:
     loaded: Loaded | None = None
     paths: tuple[Path, ...] = ()
     flights: tuple[Flight, ...] = ()
+    glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     plain: Plain | None = None
@@ -102,6 +107,10 @@ class Session:
         if model is not None:
             self._put(**_nothing(), loaded=workflow.load(model))
         if flights:
+            part("reading the flights", 1.0)
+            g0 = self.state.model.instrument.g0
+            looks = tuple(_drawn(glance(p, g0)) for p in flights)
+            self._put(**_nothing(), paths=flights, flights=(), glances=looks)
             part("reading and examining the flights", 1.0)
             read = tuple(workflow.read_flights(self.state.model, flights))
             self._put(**_nothing(), paths=flights, flights=read)
@@ -233,6 +242,13 @@ class Session:
 
         if self.jobs.status.name:
             raise Busy
+
+
+def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
+    if found is None:
+        return None
+    x = found.values
+    return found, pyramid(found.start, found.step, len(x), lambda s: x[s])
 
 
 def _nothing() -> dict[str, object]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ragg_runtime.compare import Comparison, Fitted
 from ragg_runtime.diagnose import Diagnosis
+from ragg_runtime.flight.glance import Glance
 from ragg_runtime.history import Step
 from ragg_runtime.instrument import PARAMETERS, Instrument
 from ragg_runtime.load import Effect
@@ -16,6 +17,7 @@ from ragg_runtime.metrics import Error, finite
 from ragg_runtime.report import diagnose_page, panels, parameters, words
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.studio import maths
+from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
 from ragg_runtime.workflow import errors_of
 
@@ -71,6 +73,8 @@ def _about(e: Effect) -> Json:
 
 
 def _flights(s: State) -> list[Json]:
+    if not s.flights:
+        return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
     return [
         {
             "name": words.clean(x.name),
@@ -78,7 +82,7 @@ def _flights(s: State) -> list[Json]:
             "samples": len(x),
             "valid": int(x.valid.sum()),
             "rate_Hz": x.rate,
-            "start_s": float(x.time[0]),
+            "start_s": 0.0,  # figures count from the first sample
             "duration_s": x.duration,
             "notes": [words.clean(n) for n in x.notes],
             "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
@@ -86,6 +90,25 @@ def _flights(s: State) -> list[Json]:
         }
         for x, p in zip(s.flights, s.paths, strict=True)
     ]
+
+
+def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
+    """What is known of a flight at a first look."""
+    found = look[0]
+    n = len(found.values)
+    return {
+        "name": words.clean(found.name),
+        "path": str(path),
+        "samples": n,
+        "valid": n,
+        "rate_Hz": 1.0 / found.step,
+        "start_s": found.start,
+        "duration_s": n * found.step,
+        "notes": [],
+        "channels": [],
+        "outputs": ["G_out"],
+        "glanced": True,
+    }
 
 
 def error(e: Error) -> Json:

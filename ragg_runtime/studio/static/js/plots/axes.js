@@ -9,7 +9,7 @@ const fonts = () => {
   const size = parseFloat(getComputedStyle(document.documentElement).fontSize);
   return `${Math.round(size * 0.75)}px system-ui, "Helvetica Neue", Arial, sans-serif`;
 };
-const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
 const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−"));
 
@@ -76,4 +76,4 @@ export function wheel(plot, moved) {
   );
 }
 
-export { uPlot };
+

@@ -1,5 +1,5 @@
 // The whole flight as a strip, and the window on it: drag to choose one, drag its middle to move it.
-import { axis, colour, mounted } from "./axes.js";
+import { axis, colour, mounted, rem } from "./axes.js";
 
 export function overview(box, { whole, limits, moved }) {
   const made = mounted(
@@ -9,7 +9,7 @@ export function overview(box, { whole, limits, moved }) {
       series: [{}, { stroke: () => colour("before"), width: 1, points: { show: false } }, { stroke: () => colour("before"), width: 1, points: { show: false } }],
       bands: [{ series: [2, 1], fill: () => colour("before") }],
       axes: [axis(undefined, { labelSize: 0, label: undefined }), { show: false }],
-      padding: [2, 8, 0, 56],
+      padding: [2, 8, 0, 4.2 * rem()],
       cursor: { show: false },
       hooks: { draw: [(u) => shade(u, limits())] },
     },

@@ -1,5 +1,5 @@
 // Density over time and frequency as an image below a plot's axes; time and band are brushed together.
-import { axis, colour, mounted, wheel } from "./axes.js";
+import { axis, mounted, rem, wheel } from "./axes.js";
 
 // cividis, which colour-blind people read as everyone does (Nunez, Anderton, Renslow 2018), in nine steps
 const STOPS = [[0, 32, 77], [0, 48, 111], [57, 72, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120], [166, 157, 117], [196, 181, 108], [255, 234, 70]];
@@ -16,7 +16,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
     {
       scales: { x: { time: false, range: () => limits() }, y: { range: () => (found ? [0, found.frequency[1]] : [0, 1.5]) } },
       series: [{}, { scale: "y", points: { show: false } }],
-      axes: [axis("time since the first sample, s", { grid: { show: false } }), axis("frequency, Hz", { side: 3, grid: { show: false }, size: 44, labelSize: 20 })],
+      axes: [axis("time since the first sample, s", { grid: { show: false } }), axis("frequency, Hz", { side: 3, grid: { show: false }, size: 3 * rem(), labelSize: 1.4 * rem() })],
       cursor: { sync: { key: "time", scales: ["x", null] }, drag: { x: true, y: true, uni: 24, setScale: false }, points: { show: false }, y: false },
       hooks: {
         drawClear: [(u) => draw(u)],
@@ -93,6 +93,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
         }
       }
       c.putImageData(pixels, 0, 0);
+      made.plot.setScale("x", { min: limits()[0], max: limits()[1] });
       made.plot.redraw(false, true);
       return { low: Math.exp(low), high: Math.exp(high) };
     },

@@ -1,5 +1,5 @@
 // Amplitude densities on logarithmic axes, the multiples of the spin marked; a band can be brushed.
-import { axis, colour, logValues, mounted } from "./axes.js";
+import { axis, colour, logValues, mounted, rem } from "./axes.js";
 
 const LINES = [
   { id: "before", name: "before the last step", colour: "before", width: 1.6 },
@@ -22,7 +22,7 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
       series: [{}, ...LINES.map((l) => ({ label: l.name, stroke: () => colour(l.colour), width: l.width, dash: l.dash, points: { show: false } }))],
       axes: [
         axis("frequency before demodulation, Hz", { values: logValues, grid: GRID }),
-        axis("residual, Eo/√Hz", { side: 3, values: logValues, size: 44, labelSize: 20, grid: GRID }),
+        axis("residual, Eo/√Hz", { side: 3, values: logValues, size: 3 * rem(), labelSize: 1.4 * rem(), grid: GRID }),
       ],
       cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {

@@ -1,5 +1,5 @@
 // Series over time: envelopes where samples are many, the noise's one sigma, and what is laid over them.
-import { axis, colour, mounted, wheel } from "./axes.js";
+import { axis, colour, mounted, rem, wheel } from "./axes.js";
 
 const SYNC = "time";
 
@@ -22,10 +22,10 @@ export function timePlot(box, { label, lines, moved, level, picked, limits }) {
   const series = [{}];
   const bands = [];
   for (const line of lines) {
-    const stroke = () => colour(line.colour);
+    const stroke = () => colour(line.colour) + (line.dimmed && line.dimmed() ? "70" : "");
     const common = { stroke, width: line.width || 1, dash: line.dash, points: { show: false }, spanGaps: false };
     series.push({ ...common, label: line.name }, { ...common, label: `${line.name} ` });
-    bands.push({ series: [series.length - 1, series.length - 2], fill: () => `${colour(line.colour)}${line.alpha || "59"}` });
+    bands.push({ series: [series.length - 1, series.length - 2], fill: () => `${colour(line.colour)}${line.dimmed && line.dimmed() ? "30" : line.alpha || "59"}` });
   }
   const made = mounted(
     box,
@@ -35,7 +35,7 @@ export function timePlot(box, { label, lines, moved, level, picked, limits }) {
         y: { range: (u, low, high) => reach(low, high, level ? level() : 0) },
       },
       series, bands,
-      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 56 })],
+      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.2 * rem() })],
       cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {
         draw: [(u) => noise(u, level)],

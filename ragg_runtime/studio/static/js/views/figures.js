@@ -81,7 +81,7 @@ export function figures(box) {
     measured: timePlot(panels.measured.body, { limits, moved, lines: [{ name: "measured", colour: "before", width: 1.5 }, { name: "model", colour: "residual", width: 1 }] }),
     residual: timePlot(panels.residual.body, {
       label: "time since the first sample, s", limits, moved, level,
-      lines: [{ name: "before the last step", colour: "before", width: 1, alpha: "30" }, { name: "residual", colour: "residual", width: 1 }, { name: "predicted", colour: "effect", width: 1.6, alpha: "66" }],
+      lines: [{ name: "before the last step", colour: "before", width: 1, alpha: "30" }, { name: "residual", colour: "residual", width: 1, dimmed: () => Boolean(laid()) }, { name: "predicted", colour: "effect", width: 1.8, alpha: "66" }],
     }),
     spectrum: spectrumPlot(panels.spectrum.body, { band, banded, harmonic }),
     spectrogram: spectrogramPlot(panels.spectrogram.body, { limits, moved, band, banded, harmonic, spin }),
@@ -147,17 +147,20 @@ export function figures(box) {
   const unitName = () => (view.unit === "V" ? "V" : "Eo");
 
   const drawStrip = () => latest("strip", async () => {
-    if (!ready()) return;
+    if (!flight()) return;
     const [a, b] = whole();
-    plots.strip.show(await series({ flight: view.flight, unit: view.unit, what: "residual", from: a, to: b, points: points() }));
+    plots.strip.show(await series({ flight: view.flight, unit: view.unit, what: ready() ? "residual" : "measured", from: a, to: b, points: points() }));
+    if (!document.documentElement.dataset.drawn) document.documentElement.dataset.drawn = performance.now().toFixed(0);
   });
   const drawMeasured = () => latest("measured", async () => {
-    if (!ready()) return;
-    const common = asked(points());
-    const [m, p] = await Promise.all(["measured", "modelled"].map((what) => series({ ...common, what })));
-    note("measured", "");
+    if (!flight()) return;
+    const common = asked(points()), modelled = ready();
+    const began = performance.now();
+    const [m, p] = await Promise.all([series({ ...common, what: "measured" }), modelled ? series({ ...common, what: "modelled" }) : null]);
+    document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
+    note("measured", modelled ? "" : "As the file has it, not yet examined.");
     plots.measured.show([m, p]);
-    legend("measured", [[`measured, ${unitName()}`, "before"], ["model, calibrated", "residual"]]);
+    legend("measured", [[`measured, ${modelled ? unitName() : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
   });
   const drawResidual = () => latest("residual", async () => {
     if (!ready()) return;
@@ -221,9 +224,10 @@ export function figures(box) {
   };
   const all = () => {
     heading();
-    if (!ready()) return;
+    if (!flight()) return;
     drawStrip();
     drawMeasured();
+    if (!ready()) return;
     drawResidual();
     drawSpectrum();
     drawSpectrogram();
@@ -238,7 +242,8 @@ export function figures(box) {
     heading();
     if (key === shown) return;
     shown = key;
-    box.classList.toggle("empty", !ready());
+    box.classList.toggle("empty", !flight());
+    box.classList.toggle("waiting", !ready());
     all();
   };
 
