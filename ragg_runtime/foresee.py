@@ -1,7 +1,7 @@
 """What an effect would do before it is derived: the error that would be left, and its signature in the residual.
 
 Tests are made on whitened columns; an error is that of the plain ones. So besides the whitened triangles of
-:class:`~ragg_runtime.compare.Fitted` those of the plain columns are kept: with both, the error with any choice of
+:class:`~ragg_runtime.fit.fitted.Fitted` those of the plain columns are kept: with both, the error with any choice of
 effects is linear algebra of a few hundred rows, whatever the length of the flights.
 """
 
@@ -13,12 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design, gradient
-from ragg_runtime.compare import FITTED_BLOCKS, Fitted
-from ragg_runtime.evidence.search import Field
-from ragg_runtime.passes import Piece, as_output, flight_segments, passed
-from ragg_runtime.segments import BLOCKS
-from ragg_runtime.threads import one_thread
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.evidence.selection import Field
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.fitted import FITTED_BLOCKS, Fitted
+from ragg_runtime.fit.observation import as_output
+from ragg_runtime.fit.passes import Piece, flight_segments, passed
+from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.square_root import join, triangle
 
 Array = NDArray[np.float64]
 
@@ -54,11 +56,11 @@ def plain(f: Fitted) -> Plain:
 
     def own(piece: Piece) -> list[tuple[int, Array, int]]:
         r = piece.observation.record
-        e = as_output(piece.observation, gradient.without(piece.columns, piece.windows, r.valid))
+        e = as_output(piece.observation, unknown_gradient.without(piece.columns, piece.windows, r.valid))
         parts = []
         for b, rows in piece.segment.blocks:
             here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-            parts.append((b, design.triangle(e[:, here]), int(np.sum(r.valid[here]))))
+            parts.append((b, triangle(e[:, here]), int(np.sum(r.valid[here]))))
         return parts
 
     for x in f.flown:
@@ -67,7 +69,7 @@ def plain(f: Fitted) -> Plain:
                 found[b].append(T)
                 samples[b] += count
     nothing = np.zeros((f.size + 1, f.size + 1))
-    return Plain(tuple(design.join(t) if t else nothing for t in found), samples)
+    return Plain(tuple(join(t) if t else nothing for t in found), samples)
 
 
 @dataclass(frozen=True)

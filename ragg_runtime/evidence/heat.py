@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.evidence import omnibus, work
-from ragg_runtime.evidence.omnibus import Scores, Sums
-from ragg_runtime.evidence.work import Flown
-from ragg_runtime.passes import Piece
-from ragg_runtime.terms import Term, harmonics
-from ragg_runtime.threads import one_thread
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.fit import prepared
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.lack_of_fit.dictionary import Term, harmonics
+from ragg_runtime.lack_of_fit.omnibus import Scores, Sums
 
 Array = NDArray[np.float64]
 
@@ -26,13 +27,13 @@ class Heat:
     Attributes
     ----------
     harmonics, products
-        Rows and columns: const, cos 1 ...; products of channels, as :class:`~ragg_runtime.terms.Term` names them.
+        Rows and columns: const, cos 1 ...; products of channels, as :class:`~ragg_runtime.lack_of_fit.dictionary.Term` names them.
     z
         (rows, columns): in standard deviations; NaN where the model has the term, or the dictionary has it not.
     coefficient
         (rows, columns): V per SI unit of the product.
     level
-        From here on one of all the terms stands out (:data:`~ragg_runtime.evidence.omnibus.FAMILY`).
+        From here on one of all the terms stands out (:data:`~ragg_runtime.lack_of_fit.omnibus.FAMILY`).
     """
 
     harmonics: tuple[str, ...]
@@ -45,7 +46,7 @@ class Heat:
 @one_thread
 def heat(flown: Flown, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    projector = work.projector(triangles, n_base, given)
+    projector = prepared.projector(triangles, n_base, given)
     scores = Scores(flown, projector)
 
     def own(piece: Piece) -> Sums:
@@ -79,7 +80,7 @@ def _table(s: Scores) -> Heat:
 
 def series(flown: Flown, harmonic: str, product: str, coefficient: float) -> Array:
     """(N,) V: a generic term over a whole flight, with this coefficient."""
-    from ragg_runtime.terms import Dictionary
+    from ragg_runtime.lack_of_fit.dictionary import Dictionary
 
     r = flown.observation.record
     channels = () if product == "1" else tuple(product.split("*"))

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.files import flight_name
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import check_content, format_of
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 
 
 @dataclass(frozen=True)

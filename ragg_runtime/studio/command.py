@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 NEEDED = ("starlette", "uvicorn", "latex2mathml")
 """What the extra ``studio`` brings."""

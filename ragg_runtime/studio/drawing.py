@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import Record
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.model.record import Record
 from ragg_runtime.report import series as reported
-from ragg_runtime.report import words
 from ragg_runtime.report.spectrogram import spectrogram
 from ragg_runtime.studio.pyramid import HEAD
 from ragg_runtime.studio.session import State
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -150,8 +150,8 @@ def heat_map(s: State, a: Asked) -> dict[str, Any]:
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
     chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
     return {
-        "harmonics": [{"id": n, "words": words.harmonic(n)} for n in h.harmonics],
-        "products": [{"id": h.products[k], "words": words.product(h.products[k])} for k in chosen],
+        "harmonics": [{"id": n, "words": numbers.harmonic(n)} for n in h.harmonics],
+        "products": [{"id": h.products[k], "words": numbers.product(h.products[k])} for k in chosen],
         "z": [[float(h.z[i, k]) for k in chosen] for i in range(len(h.harmonics))],
         "level": h.level,
         "tried": int(np.sum(np.isfinite(h.z))),

@@ -8,8 +8,8 @@ import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from ragg_runtime import progress
-from ragg_runtime.errors import UserError
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError
 
 
 class Cancelled(Exception):

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.source import FORMATS
 
 LISTED = 500

@@ -18,14 +18,14 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from ragg_runtime import foresee
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.studio import drawing, views
 from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.jobs import Busy
 from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.take_away import take_away
 from ragg_runtime.studio.uploads import receive
-from ragg_runtime.units import RawQuantity
 
 BEAT = 0.15
 """How often a page is told of changes, s."""

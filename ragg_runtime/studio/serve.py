@@ -10,7 +10,7 @@ from pathlib import Path
 
 import uvicorn
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.studio.guard import Guard, Keys
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.routes import UPLOAD, application
@@ -72,7 +72,10 @@ def _listening(port: int) -> socket.socket:
     except OSError as error:
         made.close()
         raise UserError(
-            "the port cannot be used", where=str(port), found=error.strerror, remedy="choose another with --port"
+            "the port cannot be used",
+            where=str(port),
+            found=error.strerror,
+            remedy="choose another with --port",
         ) from None
     made.listen(128)
     return made

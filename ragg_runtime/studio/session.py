@@ -8,23 +8,24 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
-from ragg_runtime import foresee, workflow
-from ragg_runtime.compare import Comparison
-from ragg_runtime.diagnose import Diagnosis
-from ragg_runtime.errors import UserError
-from ragg_runtime.evidence.search import Field
+from ragg_runtime import foresee
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.progress import PASSES
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence.selection import Field
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.foresee import Plain
-from ragg_runtime.history import Step
-from ragg_runtime.model_toml import set_parameters
-from ragg_runtime.progress import PASSES
+from ragg_runtime.instrument.edit_toml import set_parameters
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.tracks import Tracks
-from ragg_runtime.units import RawQuantity
-from ragg_runtime.workflow import Added, Loaded
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.loop import Added, Loaded
 
 Part = Callable[[str, float], None]
 
@@ -105,20 +106,20 @@ class Session:
 
     def _open(self, model: Path | None, flights: tuple[Path, ...], part: Part) -> None:
         if model is not None:
-            self._put(**_nothing(), loaded=workflow.load(model))
+            self._put(**_nothing(), loaded=loop.load(model))
         if flights:
             part("reading the flights", 1.0)
             g0 = self.state.model.instrument.g0
             looks = tuple(_drawn(glance(p, g0)) for p in flights)
             self._put(**_nothing(), paths=flights, flights=(), glances=looks)
             part("reading and examining the flights", 1.0)
-            read = tuple(workflow.read_flights(self.state.model, flights))
+            read = tuple(loop.read_flights(self.state.model, flights))
             self._put(**_nothing(), paths=flights, flights=read)
         self._look(part)
 
     def new(self, model: Path, sheet: Path | None) -> None:
         """Make a model directory from a test sheet, and open it."""
-        workflow.new(model, sheet)
+        loop.new(model, sheet)
         self.open(model, ())
 
     def look(self) -> None:
@@ -131,11 +132,11 @@ class Session:
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
-            compared = workflow.compare(s.loaded, s.flights)
+            compared = loop.compare(s.loaded, s.flights)
             self._put(compared=compared, tracks=Tracks.of(compared, s.previous))
         s = self.state
         part("testing every effect", PASSES["diagnose"] * s.samples)
-        d = workflow.diagnose(s.model, s.flights, compared=s.compared)
+        d = loop.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
         self._put(diagnosed=d, plain=foresee.plain(d.fitted), tracks=s.tracks.diagnosed(d))
 
@@ -144,7 +145,7 @@ class Session:
         s = self.state
         if s.loaded is None or self.jobs.status.name:
             return
-        found = workflow.load(s.loaded.directory.path)
+        found = loop.load(s.loaded.directory.path)
         if found.directory.digest != s.loaded.directory.digest:
             self._changed(found)
 
@@ -164,21 +165,21 @@ class Session:
         for e in effects:
             s = self.state
             part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
-            result = workflow.add(s.model, e, s.flights)
+            result = loop.add(s.model, e, s.flights)
             self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
         self._look(part)
 
     def remove(self, effect: str) -> None:
         """Take an effect out of the model."""
         self._idle()
-        self._changed(workflow.remove(self.state.model, effect))
+        self._changed(loop.remove(self.state.model, effect))
 
     def edit(self, values: Mapping[str, RawQuantity]) -> None:
         """Change values of the test sheet."""
         self._idle()
         m = self.state.model
         text = set_parameters(m.directory.text, values)
-        self._changed(workflow.change(m, text, "edit", ", ".join(values)))
+        self._changed(loop.change(m, text, "edit", ", ".join(values)))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -193,7 +194,7 @@ class Session:
             to = step
         else:
             raise UserError(f"there is nothing to {action}")
-        self._changed(workflow.change(m, _text(m.directory.history, to), action, str(to)))
+        self._changed(loop.change(m, _text(m.directory.history, to), action, str(to)))
 
     def beside(self, step: int | None) -> None:
         """Compare the model as it was after a step with the same flights; ``None``: no longer."""
@@ -208,19 +209,19 @@ class Session:
     def _beside(self, step: int, text: str, part: Part) -> None:
         s = self.state
         part("comparing an earlier model", PASSES["compare"] * s.samples)
-        old = workflow.as_of(s.model, text)
-        self._put(beside=(step, workflow.compare(old, s.flights)))
+        old = loop.as_of(s.model, text)
+        self._put(beside=(step, loop.compare(old, s.flights)))
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed = workflow.with_own(self.state.model, effect, add, units)
+        listed = loop.with_own(self.state.model, effect, add, units)
         if not self.state.flights:
             raise UserError("no flight is open", remedy="choose one first")
         self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
 
     def _attempt(self, listed: Loaded, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         part(f"deriving {effect} and calibrating", PASSES["add"] * self.state.samples)
-        result = workflow.add(listed, effect, self.state.flights, save=False)
+        result = loop.add(listed, effect, self.state.flights, save=False)
         self._put(trial=(effect, add, units, result))
 
     def keep(self) -> None:
@@ -233,7 +234,7 @@ class Session:
     def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         s = self.state
         part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        result = workflow.add(workflow.with_own(s.model, effect, add, units), effect, s.flights)
+        result = loop.add(loop.with_own(s.model, effect, add, units), effect, s.flights)
         self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
         self._look(part)
 

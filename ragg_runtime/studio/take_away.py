@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping
 
-from ragg_runtime import texts, workflow
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli import terminal
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.studio import views
 from ragg_runtime.studio.session import State
+from ragg_runtime.workflow import loop
 
 File = tuple[str, str, bytes]
 HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
@@ -27,13 +28,13 @@ def _common(s: State) -> dict[str, object]:
     m, flights = s.model, s.flights
     return {
         "title": f"{m.name} and {', '.join(x.name for x in flights)}",
-        "sources": workflow.sources(m, flights),
-        "notes": texts.notes(m, flights),
+        "sources": loop.sources(m, flights),
+        "notes": terminal.notes(m, flights),
     }
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    whole = result | texts.origin(s.model, s.flights, command)
+    whole = result | terminal.origin(s.model, s.flights, command)
     return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
 
 

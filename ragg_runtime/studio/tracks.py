@@ -10,13 +10,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, foresee
-from ragg_runtime.compare import Comparison, Fitted
-from ragg_runtime.diagnose import Diagnosis
-from ragg_runtime.errors import UserError
+from ragg_runtime import foresee
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import heat
-from ragg_runtime.passes import output_weights
-from ragg_runtime.segments import ROWS
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.observation import output_weights
+from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]
@@ -172,7 +175,7 @@ class Tracks:
         """Harmonic x motion term of what is left once these effects are in."""
         d = self.found
         f = self.fitted if d is None else d.fitted
-        known = f.field([r.effect for r in d.ranking] if d else [])
+        known = field_of(f, [r.effect for r in d.ranking] if d else [])
         given = foresee.columns_of(known, effects)
         if not 0 <= flight < len(f.flown):
             raise UserError("there is no such flight", found=flight + 1)
@@ -205,7 +208,7 @@ class Tracks:
             x = self.series(name, flight, effects)
             time = r.time
             if unit in ("inline", "cross"):
-                found = compare.demodulated_one(f, flight, x)
+                found = comparison.demodulated_one(f, flight, x)
                 if not len(found[0]):
                     raise UserError(
                         "the flight is too short to be demodulated", where=f.observations[flight].name

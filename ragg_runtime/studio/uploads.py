@@ -7,8 +7,8 @@ from pathlib import Path
 
 from starlette.requests import ClientDisconnect, Request
 
-from ragg_runtime.atomic import replacing
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import replacing
 from ragg_runtime.studio.places import safe_name
 from ragg_runtime.studio.session import State
 

@@ -7,19 +7,22 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.compare import Comparison, Fitted
-from ragg_runtime.diagnose import Diagnosis
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.glance import Glance
-from ragg_runtime.history import Step
-from ragg_runtime.instrument import PARAMETERS, Instrument
-from ragg_runtime.load import Effect
-from ragg_runtime.metrics import Error, finite
-from ragg_runtime.report import diagnose_page, panels, parameters, words
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.model.model import Effect
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.report import diagnose_page, panels, parameters
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.studio import maths
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
-from ragg_runtime.workflow import errors_of
+from ragg_runtime.wording import numbers
+from ragg_runtime.workflow.loop import errors_of
 
 Json = dict[str, Any]
 
@@ -59,14 +62,18 @@ def _model(s: State) -> Json:
 def _about(e: Effect) -> Json:
     return {
         "id": e.id,
-        "title": words.clean(e.title),
-        "physics": words.clean(e.physics),
-        "source": words.clean(e.source),
-        "limits": words.clean(e.limits),
+        "title": numbers.clean(e.title),
+        "physics": numbers.clean(e.physics),
+        "source": numbers.clean(e.source),
+        "limits": numbers.clean(e.limits),
         "equation": maths.mathml(e.equation, block=True),
         "channels": list(e.channels),
         "parameters": [
-            {"symbol": maths.mathml(q.latex), "unit": words.unit(q.unit), "meaning": words.clean(q.meaning)}
+            {
+                "symbol": maths.mathml(q.latex),
+                "unit": numbers.unit(q.unit),
+                "meaning": numbers.clean(q.meaning),
+            }
             for q in e.parameters
         ],
     }
@@ -77,14 +84,14 @@ def _flights(s: State) -> list[Json]:
         return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
     return [
         {
-            "name": words.clean(x.name),
+            "name": numbers.clean(x.name),
             "path": str(p),
             "samples": len(x),
             "valid": int(x.valid.sum()),
             "rate_Hz": x.rate,
             "start_s": 0.0,  # figures count from the first sample
             "duration_s": x.duration,
-            "notes": [words.clean(n) for n in x.notes],
+            "notes": [numbers.clean(n) for n in x.notes],
             "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
             "outputs": list(x.outputs),
         }
@@ -97,7 +104,7 @@ def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
     found = look[0]
     n = len(found.values)
     return {
-        "name": words.clean(found.name),
+        "name": numbers.clean(found.name),
         "path": str(path),
         "samples": n,
         "valid": n,
@@ -113,7 +120,7 @@ def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
 
 def error(e: Error) -> Json:
     """The error object, as numbers and as text."""
-    return {"json": e.as_json(), "rms_Eo": finite(e.rms_Eo), "text": words.number(e.rms_Eo)}
+    return {"json": e.as_json(), "rms_Eo": finite(e.rms_Eo), "text": numbers.number(e.rms_Eo)}
 
 
 def _banner(s: State) -> Json | None:
@@ -136,7 +143,7 @@ def _banner(s: State) -> Json | None:
                 "about": "fitted on half of the blocks of time, scored on the rest",
             },
         ],
-        "noise": {"rms_Eo": c.noise_floor, "text": words.number(c.noise_floor)},
+        "noise": {"rms_Eo": c.noise_floor, "text": numbers.number(c.noise_floor)},
         "converged": converged if isinstance(converged, bool) else None,
         "adequate": c.adequate,
         "k_ggi": c.fitted.k_ggi,
@@ -189,15 +196,15 @@ def _silent(d: Diagnosis) -> list[Json]:
     found = []
     for n in d.not_testable:
         e = d.fitted.model.effect(n.effect)
-        found.append({**({} if e is None else _about(e)), "id": n.effect, "why": words.clean(n.why)})
+        found.append({**({} if e is None else _about(e)), "id": n.effect, "why": numbers.clean(n.why)})
     return found
 
 
 def _unexplained(d: Diagnosis) -> Json:
     return {
         "significant": d.remainder.significant,
-        "share": words.percent(d.remainder_share),
-        "p": words.probability(d.remainder.log_p),
+        "share": numbers.percent(d.remainder_share),
+        "p": numbers.probability(d.remainder.log_p),
         "terms": [
             {**shown, "harmonic": t["harmonic"], "product": t["term"], "how": t["how"]}
             for shown, t in zip(panels.terms(d.terms(), d.after.rms_Eo), d.terms(), strict=True)
@@ -208,11 +215,11 @@ def _unexplained(d: Diagnosis) -> Json:
 
 
 def _motion(p: Any) -> Json:
-    return {**p.as_json(), "words": words.clean(p.in_words())}
+    return {**p.as_json(), "words": numbers.clean(p.in_words())}
 
 
 def _symbol(s: Symbol) -> Json:
-    return {"pieces": [list(p) for p in s.pieces], "name": s.name, "meaning": words.clean(s.meaning)}
+    return {"pieces": [list(p) for p in s.pieces], "name": s.name, "meaning": numbers.clean(s.meaning)}
 
 
 def _rows(rows: Sequence[Row]) -> list[Json]:
@@ -274,7 +281,7 @@ def _sheet(i: Instrument, c: Comparison | None) -> list[Json]:
         rows.append(
             {
                 "name": q.name,
-                "symbol": [list(p) for p in words.symbol(q.symbol)],
+                "symbol": [list(p) for p in numbers.symbol(q.symbol)],
                 "meaning": q.description,
                 "unit": q.display_unit,
                 "values": [float(f"{x:.12g}") for x in shown],
@@ -291,7 +298,7 @@ def _history(history: Sequence[Step]) -> Json:
             {
                 "n": n,
                 "action": s.action,
-                "effect": words.clean(s.effect),
+                "effect": numbers.clean(s.effect),
                 "time": s.time,
                 "before": _rms(s.before, "calibrated"),
                 "after": _rms(s.after, "calibrated"),
@@ -342,7 +349,7 @@ def _trial(s: State) -> Json:
             {
                 "name": p.name,
                 "of": f"A{p.accelerometer}" if p.accelerometer else "",
-                "text": words.with_unit(words.plus_minus(p.value, p.std), p.unit),
+                "text": numbers.with_unit(numbers.plus_minus(p.value, p.std), p.unit),
             }
             for p in (a.combinations or a.parameters)
         ],

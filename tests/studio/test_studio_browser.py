@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 from serving import DEMO, Served, served
 
-from ragg_runtime import workflow
-from ragg_runtime.model_dir import load_model_dir
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
@@ -40,7 +40,7 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture(scope="module")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     folder = tmp_path_factory.mktemp("studio")
-    workflow.new(folder / "model")
+    loop.new(folder / "model")
     flight = folder / f"{HOSTILE.replace('/', '')}.parquet"
     flight.write_bytes(DEMO.read_bytes())
     with served(folder / "model", flight) as s:

@@ -8,19 +8,20 @@ import numpy as np
 import pytest
 from serving import DEMO
 
-from ragg_runtime import foresee, workflow
-from ragg_runtime.diagnose import Diagnosis
+from ragg_runtime import foresee
+from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import heat
-from ragg_runtime.history import Step
+from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.session import branches
+from ragg_runtime.workflow import loop
 
 
 @pytest.fixture(scope="module")
 def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
-    m = workflow.new(tmp_path_factory.mktemp("m") / "model")
-    return workflow.diagnose(m, workflow.read_flights(m, [DEMO]))
+    m = loop.new(tmp_path_factory.mktemp("m") / "model")
+    return loop.diagnose(m, loop.read_flights(m, [DEMO]))
 
 
 @pytest.mark.parametrize(
@@ -48,11 +49,11 @@ def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
 
 
 def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> None:
-    from ragg_runtime import compare
+    from ragg_runtime.lack_of_fit import remainder
 
     f = diagnosis.fitted
     h = heat.heat(f.flown[0], f.triangles[0], f.n_base)
-    best = compare.remainder(f).searches[0].terms[0]
+    best = remainder.remainder(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from serving import DEMO, Served, ragg, served, settled
 
-from ragg_runtime import workflow
-from ragg_runtime.model_dir import load_model_dir
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +26,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def server(folder: Path) -> Iterator[Served]:
     model = folder / "model"
-    workflow.new(model)
+    loop.new(model)
     flight = folder / "demo-flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
     with served(model, flight) as s:
@@ -263,7 +263,7 @@ def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> Non
 def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    workflow.new(model)
+    loop.new(model)
     with served(model, flight) as s, s.client() as one:
         with httpx.Client(base_url=s.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two:
             settled(one)
@@ -294,7 +294,7 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
 def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    workflow.new(model)
+    loop.new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
         assert c.post("/api/do/add", json={"effects": ["thermal-scale"]}).status_code == 202
@@ -314,7 +314,7 @@ def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
 def test_work_is_cancelled_without_loss(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    workflow.new(model)
+    loop.new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
         before = load_model_dir(model).digest
