@@ -41,7 +41,9 @@ def verdict(name: str, found: Sequence[str]) -> str:
 def parameter(p: Mapping[str, Any]) -> str:
     """A fitted parameter in one line."""
     which = f" of A{p['accelerometer']}" if p["accelerometer"] else ""
-    return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}"
+    own = p["name"].split(" ")[-1]
+    sum_ = " ".join(f"{w:+.4g} {own}[{j}]" for j, w in enumerate(p.get("weights", ()), 1) if w)
+    return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}{sum_ and f'  ({sum_})'}"
 
 
 def p_value(log10_p: float | None, value: float) -> str:

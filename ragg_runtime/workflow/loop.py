@@ -277,7 +277,7 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     covariance = cal.covariance[np.ix_(mine, mine)]
     return (
         tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(columns, values, covariance)),
+        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
     )
 
 
