@@ -151,6 +151,17 @@ def added(a: Mapping[str, Any], effects: Sequence[str], noise: float | None, ade
     return _fragment(*parts)
 
 
+def catalogue(entries: Sequence[Mapping[str, Any]]) -> str:
+    """The catalogue of effects."""
+    rows = [(e["id"], e["title"], e["equation"], ", ".join(e["channels"])) for e in entries]
+    return _fragment(_table(("effect", "what", "equation", "needs"), rows, words=4))
+
+
+def in_one_line(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
+    """The ``repr`` of a result: what it is, what it says, errors in Eo."""
+    return f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>"
+
+
 def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]]) -> str:
     """A model directory and its history."""
     rows = []
