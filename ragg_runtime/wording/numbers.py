@@ -176,15 +176,20 @@ def _channel(s: Series) -> str:
             inner = _channel(of)
             return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[name]
         case Derivative(of, order):
-            if not _MOTION.fullmatch(of.name):
-                return str(s)
-            return f"d{_channel(of)}/dt" if order == 1 else f"d²{_channel(of)}/dt²"
+            return _differentiated(of.name, order)
         case Channel(name):
-            found = _MOTION.fullmatch(name)
-            if found is None:
-                return name
-            stem = {"omega": "ω", "omegadot": "dω"}.get(found[1], found[1])
-            return f"{stem}_{found[2]}" + ("/dt" if found[1] == "omegadot" else "")
+            return _differentiated(name, 0)
+
+
+def _differentiated(name: str, order: int) -> str:
+    """A derivative of a channel by time; the angular acceleration is itself one of the angular rate."""
+    found = _MOTION.fullmatch(name)
+    if found is None:
+        return str(Derivative(Channel(name), order)) if order else name
+    stem = "ω" if found[1].startswith("omega") else found[1]
+    order += found[1] == "omegadot"
+    text = f"{stem}_{found[2]}"
+    return text if not order else f"d{text}/dt" if order == 1 else f"d²{text}/dt²"
 
 
 _MOTION = re.compile(r"(a|omega|omegadot|f)_([xyzio])")
