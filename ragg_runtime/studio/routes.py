@@ -17,8 +17,8 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from ragg_runtime import foresee
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.evidence import foresee
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.studio import drawing, views
 from ragg_runtime.studio.guard import TooLong

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
-from ragg_runtime import foresee
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import PASSES
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence.selection import Field
+from ragg_runtime.evidence import foresee
+from ragg_runtime.evidence.foresee import Plain
+from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
-from ragg_runtime.foresee import Plain
 from ragg_runtime.instrument.edit_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir.history import Step
@@ -66,7 +66,7 @@ class State:
     def field(self) -> Field | None:
         """The testable effects, steps included, on the triangles of everything."""
         d = self.diagnosed
-        return None if d is None else d.fitted.field([r.effect for r in d.ranking])
+        return None if d is None else field_of(d.fitted, [r.effect for r in d.ranking])
 
     @property
     def model(self) -> Loaded:

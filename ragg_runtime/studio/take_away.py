@@ -6,11 +6,10 @@ import json
 from collections.abc import Callable, Mapping
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli import terminal
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.studio import views
 from ragg_runtime.studio.session import State
-from ragg_runtime.workflow import loop
+from ragg_runtime.workflow import loop, origin
 
 File = tuple[str, str, bytes]
 HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
@@ -29,12 +28,12 @@ def _common(s: State) -> dict[str, object]:
     return {
         "title": f"{m.name} and {', '.join(x.name for x in flights)}",
         "sources": loop.sources(m, flights),
-        "notes": terminal.notes(m, flights),
+        "notes": origin.notes(m, flights),
     }
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    whole = result | terminal.origin(s.model, s.flights, command)
+    whole = result | origin.origin(s.model, s.flights, command)
     return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
 
 

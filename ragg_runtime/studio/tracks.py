@@ -10,16 +10,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import foresee
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import heat
+from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import output_weights
 from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]
@@ -152,7 +152,7 @@ class Tracks:
             rows = slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
 
         def make() -> Effect:
-            known = d.fitted.field([x.effect for x in d.ranking])
+            known = field_of(d.fitted, [x.effect for x in d.ranking])
             v = foresee.coefficients(d.fitted, known, effects)
             return Effect(*foresee.signature(d.fitted, flight, v, rows))
 

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from serving import DEMO
 
-from ragg_runtime import foresee
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import heat
+from ragg_runtime.evidence import foresee
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.pyramid import HEAD, pyramid
@@ -31,7 +32,7 @@ def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
     diagnosis: Diagnosis, effects: tuple[str, ...]
 ) -> None:
     f = diagnosis.fitted
-    field = f.field([r.effect for r in diagnosis.ranking])
+    field = field_of(f, [r.effect for r in diagnosis.ranking])
     found = foresee.foreseen(f, foresee.plain(f), field, effects)
     vectors = [foresee.coefficients(f, field, effects, held_out=h) for h in (False, True)]
     whole, half = f.score(vectors)
@@ -41,7 +42,7 @@ def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
 
 def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     f = diagnosis.fitted
-    v = foresee.coefficients(f, f.field(["thermal-scale"]), ["thermal-scale"])
+    v = foresee.coefficients(f, field_of(f, ["thermal-scale"]), ["thermal-scale"])
     rows, taken = foresee.signature(f, 0, v)
     assert rows == slice(0, 11520)
     before, after = (f.residuals_of(x)[0] for x in (np.zeros(f.size), v))
@@ -57,7 +58,7 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
-    field = f.field(["thermal-scale"])
+    field = field_of(f, ["thermal-scale"])
     given = heat.heat(f.flown[0], f.triangles[0], f.n_base, foresee.columns_of(field, ["thermal-scale"]))
     assert np.nanmax(np.abs(given.z)) < h.level
 

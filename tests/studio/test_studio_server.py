@@ -264,28 +264,31 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
     loop.new(model)
-    with served(model, flight) as s, s.client() as one:
-        with httpx.Client(base_url=s.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two:
-            settled(one)
-            # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
-            assert ragg("add", model, "bias-drift").returncode == 0
-            row = next(r for r in one.get("/api/state").json()["sheet"] if r["name"] == "K0")
-            change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
-            refused = two.post("/api/do/edit", json=change)
-            if refused.status_code != 202:
-                assert "meanwhile" in refused.json()["error"]["what"] or refused.status_code == 409
-            assert "bias-drift" in [e.id for e in load_model_dir(model).instrument.effects]
-            with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
-                for _ in events.iter_lines():
-                    state = one.get("/api/state").json()
-                    if [e["id"] for e in state["model"]["effects"]] == ["bias-drift"]:
-                        break
-            settled(one)
-            answers = [c.post("/api/do/edit", json=change) for c in (one, two)]
-            assert {a.status_code for a in answers} <= {202, 409}
-            settled(two)
-            assert one.post("/api/do/undo", json={}).status_code == 202
-            settled(one)
+    with (
+        served(model, flight) as s,
+        s.client() as one,
+        httpx.Client(base_url=s.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two,
+    ):
+        settled(one)
+        # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
+        assert ragg("add", model, "bias-drift").returncode == 0
+        row = next(r for r in one.get("/api/state").json()["sheet"] if r["name"] == "K0")
+        change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
+        refused = two.post("/api/do/edit", json=change)
+        if refused.status_code != 202:
+            assert "meanwhile" in refused.json()["error"]["what"] or refused.status_code == 409
+        assert "bias-drift" in [e.id for e in load_model_dir(model).instrument.effects]
+        with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
+            for _ in events.iter_lines():
+                state = one.get("/api/state").json()
+                if [e["id"] for e in state["model"]["effects"]] == ["bias-drift"]:
+                    break
+        settled(one)
+        answers = [c.post("/api/do/edit", json=change) for c in (one, two)]
+        assert {a.status_code for a in answers} <= {202, 409}
+        settled(two)
+        assert one.post("/api/do/undo", json={}).status_code == 202
+        settled(one)
     actions = [x.action for x in load_model_dir(model).history]
     assert actions[:2] == ["new", "add"]
     assert actions[-1] == "undo"
