@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -125,6 +125,15 @@ class Flight:
         """The same motion with other outputs (SI), e.g. a model's; it no longer stands for the file."""
         columns = {name: np.asarray(v, dtype=np.float64) for name, v in outputs.items()}
         return dataclasses.replace(self, outputs=columns, path=None, digest="")
+
+    def without(self, stretches: Sequence[tuple[float, float]]) -> Flight:
+        """The flight with stretches of time (from, to, s since the first sample) marked as not to be used, and said so."""
+        valid, notes = np.array(self.valid), list(self.notes)
+        since = self.time - self.time[0]
+        for first, last in stretches:
+            valid[(since >= first) & (since <= last)] = False
+            notes.append(f"left out by hand: {first:g} s to {last:g} s")
+        return dataclasses.replace(self, valid=valid, notes=tuple(notes))
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

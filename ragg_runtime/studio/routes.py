@@ -269,6 +269,19 @@ def _new(session: Session, body: Mapping[str, Any]) -> None:
     session.new(session.places.inside(_text(body, "model")), sheet)
 
 
+def _leave(session: Session, body: Mapping[str, Any]) -> None:
+    flight, ends = body.get("flight"), [body.get(k) for k in ("from", "to")]
+    if not isinstance(flight, int) or isinstance(flight, bool):
+        raise UserError("the number of a flight is needed", where="flight", found=repr(flight)[:40])
+    if ends == [None, None]:
+        session.leave_out(flight, None)
+        return
+    first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
+    if not first < last:
+        raise UserError("a stretch of time is needed", where="from, to", found=repr(ends)[:80])
+    session.leave_out(flight, (first, last))
+
+
 def _edit(session: Session, body: Mapping[str, Any]) -> None:
     found: dict[str, RawQuantity] = {}
     values = body.get("values")
@@ -300,6 +313,7 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "add": lambda session, body: session.add(_texts(body, "effects")),
     "remove": lambda session, body: session.remove(_text(body, "effect", 80)),
     "edit": _edit,
+    "leave": _leave,
     "undo": lambda session, body: session.go("undo"),
     "redo": lambda session, body: session.go("redo"),
     "restore": lambda session, body: session.go("restore", _step(body)),

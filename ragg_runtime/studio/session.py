@@ -38,6 +38,8 @@ class State:
     ----------
     loaded, paths, flights
         The model directory, the files of the flights, and the flights themselves.
+    read, cuts
+        The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
     glances
         A first look at each file, and its output as it is drawn until the flight is compared.
     compared, diagnosed, plain
@@ -53,6 +55,8 @@ class State:
     loaded: Loaded | None = None
     paths: tuple[Path, ...] = ()
     flights: tuple[Flight, ...] = ()
+    read: tuple[Flight, ...] = ()
+    cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
     glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
@@ -114,8 +118,22 @@ class Session:
             self._put(**_nothing(), paths=flights, flights=(), glances=looks)
             part("reading and examining the flights", 1.0)
             read = tuple(loop.read_flights(self.state.model, flights))
-            self._put(**_nothing(), paths=flights, flights=read)
+            self._put(**_nothing(), paths=flights, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)
+
+    def leave_out(self, flight: int, stretch: tuple[float, float] | None) -> None:
+        """Leave a stretch of a flight (from, to, s) out of everything; ``None``: take all of it back."""
+        self._idle()
+        s = self.state
+        if not 0 <= flight < len(s.read):
+            raise UserError("there is no such flight", found=str(flight + 1))
+        cuts = list(s.cuts)
+        cuts[flight] = () if stretch is None else (*cuts[flight], stretch)
+        flights = tuple(x.without(c) for x, c in zip(s.read, cuts, strict=True))
+        if not any(flights[flight].valid):
+            raise UserError("nothing of the flight would be left", where=s.read[flight].name)
+        self._put(**_nothing(), flights=flights, cuts=tuple(cuts))
+        self.look()
 
     def new(self, model: Path, sheet: Path | None) -> None:
         """Make a model directory from a test sheet, and open it."""

@@ -94,8 +94,9 @@ def _flights(s: State) -> list[Json]:
             "notes": [numbers.clean(n) for n in x.notes],
             "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
             "outputs": list(x.outputs),
+            "cuts": [list(c) for c in cuts],
         }
-        for x, p in zip(s.flights, s.paths, strict=True)
+        for x, p, cuts in zip(s.flights, s.paths, s.cuts, strict=True)
     ]
 
 
@@ -369,7 +370,8 @@ def commands(s: State) -> list[str]:
         found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
         found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
-    return found
+    cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
+    return [*cut, *found]
 
 
 def model_path(s: State) -> Path:

@@ -260,6 +260,23 @@ def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> Non
     assert "thermal-scale" in report.text
 
 
+def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
+    before = settled(client)["banner"]["errors"][1]["rms_Eo"]
+    for body in (
+        {"flight": 7, "from": 1, "to": 2},
+        {"flight": 0, "from": 2, "to": 1},
+        {"flight": 0, "from": -1, "to": 1e9},
+    ):
+        assert client.post("/api/do/leave", json=body).status_code == 400
+    assert client.post("/api/do/leave", json={"flight": 0, "from": 0.0, "to": 150.0}).status_code == 202
+    state = settled(client)
+    assert state["flights"][0]["valid"] == 11520 - 2401
+    assert state["banner"]["errors"][1]["rms_Eo"] != before
+    assert any("left out by hand" in line for line in state["commands"])
+    assert client.post("/api/do/leave", json={"flight": 0}).status_code == 202
+    assert settled(client)["banner"]["errors"][1]["rms_Eo"] == before
+
+
 def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())

@@ -144,7 +144,14 @@ async function refresh() {
 }
 
 let last = { job: "", count: -1 };
+let lost = false;
+function gone() {
+  lost = true;
+  trouble({ what: "the server does not answer", remedy: "if it was stopped, start it again: ragg studio; nothing is lost" });
+}
 function changed(status) {
+  if (lost) trouble(null);
+  lost = false;
   const idle = !status.job;
   job(status);
   if (status.error && idle && last.count !== status.count) trouble(status.error);
@@ -165,5 +172,14 @@ tools();
 await refresh();
 if (server.state && !server.state.model && view.view === "loop") look({ view: "files" });
 opened();
-events(changed, () => trouble({ what: "the server does not answer", remedy: "if it was stopped, start it again: ragg studio; nothing is lost" }));
+// A browser keeps few connections to one server: a tab that is not seen must not hold one.
+let listening = null;
+function listen() {
+  if (document.hidden && listening) listening = void listening.close();
+  else if (!document.hidden && !listening) {
+    listening = events(changed, gone);
+  }
+}
+document.addEventListener("visibilitychange", listen);
+listen();
 document.documentElement.dataset.ready = "yes";

@@ -35,7 +35,7 @@ export function effectsPane(box) {
       lead,
       h("h2", {}, "What may be missing"),
       inside.length ? h("p.inside", {}, "In the model: ", inside.map((e) => h("span.chip", { title: e.title }, e.id, h("button", { type: "button", "aria-label": `Take ${e.id} out of the model`, title: "Take it out of the model", onclick: () => doing("remove", { effect: e.id }) }, "×")))) : null,
-      !effects.length && state && state.banner ? h("p.note", {}, state.status.job ? "Every effect of the catalogue is being tested …" : "Not tested yet.") : null,
+      !effects.length && state && state.banner ? state.status.job ? h("p.note", {}, "Every effect of the catalogue is being tested …") : h("button", { type: "button", onclick: () => doing("look") }, "Test every effect") : null,
     );
     const most = Math.max(LEAST, ...effects.map((e) => e.evidence ?? 0));
     fill(list, effects.map((e) => row(e, most)));

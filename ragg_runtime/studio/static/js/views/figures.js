@@ -9,6 +9,7 @@ import { ramp, spectrogramPlot } from "../plots/spectrogram.js";
 import { spectrumLines, spectrumPlot } from "../plots/spectrum.js";
 import { timePlot } from "../plots/time.js";
 import { pointedAt } from "./effects.js";
+import { doing } from "../app.js";
 
 const UNITS = { V: ["V", "v"], Eo: ["Eo", "e"], inline: ["inline", "i"], cross: ["cross", "c"] };
 const MARGIN = 1; // windows to either side that are asked for beforehand, so that moving finds them there
@@ -116,6 +117,9 @@ export function figures(box) {
         h("button", { type: "button", onclick: () => pan(-0.5), "aria-label": "Earlier", title: "Earlier ([)" }, "‹"),
         h("button", { type: "button", onclick: () => pan(0.5), "aria-label": "Later", title: "Later (])" }, "›"),
         h("button", { type: "button", onclick: () => moved(null), title: "The whole flight (0)" }, "all")),
+      f && f.cuts && (view.from !== null || f.cuts.length) ? h("div.cuts", {},
+        view.from !== null ? h("button", { type: "button", disabled: Boolean(state.status.job), title: "Leave what is shown out of everything", onclick: () => doing("leave", { flight: view.flight, from: limits()[0], to: limits()[1] }).then((done) => done && moved(null)) }, "leave this out") : null,
+        f.cuts.length ? h("span.chip", {}, `left out: ${f.cuts.map(([a, b]) => `${number(a, 4)} – ${number(b, 4)} s`).join(", ")}`, h("button", { type: "button", "aria-label": "Take back what was left out", title: "Take it back", onclick: () => doing("leave", { flight: view.flight }) }, "×")) : null) : null,
       f && f.notes.length ? h("details.notes", {}, h("summary", {}, `${f.notes.length} notes on this record`), h("ul", {}, f.notes.map((n) => h("li", {}, n)))) : null,
     );
   };
@@ -238,7 +242,7 @@ export function figures(box) {
     const { state } = server;
     if (state && view.flight >= state.flights.length && state.flights.length) look({ flight: 0 });
     const b = state && state.banner;
-    const key = JSON.stringify([state && state.model && state.model.path, b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path)]);
+    const key = JSON.stringify([state && state.model && state.model.path, state && state.flights.map((f) => f.cuts), b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path)]);
     heading();
     if (key === shown) return;
     shown = key;
