@@ -42,11 +42,11 @@ def glance(path: Path, g0: float) -> Glance | None:
             return None
         (time, time_unit), (output, unit) = found
         known = units(g0)
-        ends = known.to_si(time[[0, -1]], time_unit, "s", str(path))
+        ends = known.to_si(time, time_unit, "s", str(path))
         values = output if unit == "V" else known.to_si(output, unit, "V", str(path))
     except (UserError, OSError, ValueError, KeyError, TypeError, IndexError, MemoryError):
         return None
-    step = float(ends[1] - ends[0]) / max(len(time) - 1, 1)
+    step = float(ends[1] - ends[0]) / max(len(values) - 1, 1)
     if not (np.isfinite(step) and step > 0.0):
         return None
     # as in a flight that has been read, time begins with the first sample
@@ -58,11 +58,16 @@ def _parquet(path: Path) -> tuple[Any, Any]:
 
     from ragg_runtime.flight.arrow import floats
 
-    names = ["time", "G_out"]
-    table = pq.read_table(path, columns=names, use_threads=True)
-    units_of = [(table.schema.field(n).metadata or {})[b"units"].decode() for n in names]
-    time, output = (floats(table.column(n).combine_chunks().cast("float64")) for n in names)
-    return (time, units_of[0]), (output, units_of[1])
+    def column(table: Any, name: str) -> Array:
+        return floats(table.column(name).combine_chunks().cast("float64"))
+
+    with pq.ParquetFile(path) as file:
+        schema = file.schema_arrow
+        time, volts = ((schema.field(n).metadata or {})[b"units"].decode() for n in ("time", "G_out"))
+        output = column(file.read(columns=["G_out"]), "G_out")
+        last = file.metadata.num_row_groups - 1
+        ends = [column(file.read_row_group(k, columns=["time"]), "time") for k in (0, last)]
+    return (np.array([ends[0][0], ends[1][-1]]), time), (output, volts)
 
 
 def _netcdf(path: Path) -> tuple[Any, Any]:
@@ -73,5 +78,6 @@ def _netcdf(path: Path) -> tuple[Any, Any]:
         for name in ("time", "G_out"):
             unit = file[name].attrs["units"]
             text = unit.decode() if isinstance(unit, bytes) else str(unit)
-            found.append((np.asarray(file[name][:], dtype=np.float64), text.split(" since ")[0]))
+            rows = slice(None) if name == "G_out" else slice(None, None, max(1, len(file[name]) - 1))
+            found.append((np.asarray(file[name][rows], dtype=np.float64), text.split(" since ")[0]))
     return found[0], found[1]

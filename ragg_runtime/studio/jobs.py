@@ -24,10 +24,12 @@ class Busy(Exception):
 class Status:
     """What the page shows: a count that grows with every change, and what is being worked on.
 
-    ``share`` is done of it (0 ... 1); ``error`` are the facts of the last failure.
+    ``revision`` grows with the state alone, not with progress; ``share`` is done of it (0 ... 1); ``error`` are the
+    facts of the last failure.
     """
 
     count: int = 0
+    revision: int = 0
     name: str = ""
     share: float = 0.0
     began: float = 0.0
@@ -37,6 +39,7 @@ class Status:
         spent = time.monotonic() - self.began if self.name else 0.0
         return {
             "count": self.count,
+            "revision": self.revision,
             "job": self.name,
             "share": self.share,
             "spent_s": spent,
@@ -77,7 +80,7 @@ class Jobs:
 
     def changed(self) -> None:
         """Something that the page shows has changed."""
-        self._tell()
+        self._tell(revision=self.status.revision + 1)
 
     def _tell(self, **changes: object) -> None:
         self.status = replace(self.status, count=self.status.count + 1, **changes)  # type: ignore[arg-type]

@@ -155,9 +155,9 @@ function changed(status) {
   const idle = !status.job;
   job(status);
   if (status.error && idle && last.count !== status.count) trouble(status.error);
-  const progressOnly = status.job && status.job === last.job && status.share !== last.share;
+  const same = status.revision === last.revision && status.job === last.job;
   last = status;
-  if (!progressOnly) refresh();
+  if (!same) refresh();
 }
 
 recall();

@@ -1,4 +1,5 @@
 // The whole flight as a strip, and the window on it: drag to choose one, drag its middle to move it.
+import { h } from "../dom.js";
 import { axis, colour, mounted, rem } from "./axes.js";
 
 export function overview(box, { whole, limits, moved }) {
@@ -11,11 +12,22 @@ export function overview(box, { whole, limits, moved }) {
       axes: [axis(undefined, { labelSize: 0, label: undefined }), { show: false }],
       padding: [2, 8, 0, 4.2 * rem()],
       cursor: { show: false },
-      hooks: { draw: [(u) => shade(u, limits())] },
+      hooks: { draw: [() => shade()] },
     },
     [[0, 1], [null, null], [null, null]],
   );
   const { plot } = made;
+  // the window is drawn by two veils and a frame: moving it must not draw the series again
+  const [before, after, frame] = ["veil", "veil", "frame"].map((name) => h(`i.${name}`));
+  plot.over.append(before, after, frame);
+  function shade() {
+    const width = plot.over.clientWidth, [x0, x1] = limits().map((t) => Math.min(Math.max(plot.valToPos(t, "x"), 0), width));
+    before.style.width = `${x0}px`;
+    after.style.left = `${x1}px`;
+    after.style.width = `${width - x1}px`;
+    frame.style.left = `${x0}px`;
+    frame.style.width = `${Math.max(2, x1 - x0)}px`;
+  }
   let grip = null;
   const at = (e) => plot.posToVal(Math.min(Math.max(e.clientX - plot.over.getBoundingClientRect().left, 0), plot.over.clientWidth), "x");
   plot.over.addEventListener("pointerdown", (e) => {
@@ -38,22 +50,10 @@ export function overview(box, { whole, limits, moved }) {
   plot.over.addEventListener("dblclick", () => moved(null, null));
   return {
     ...made,
+    shade,
     show(found) {
       const clean = (v) => Array.from(v, (x) => (Number.isNaN(x) ? null : x));
       plot.setData([found.x, clean(found.low), clean(found.high)]);
     },
   };
-}
-
-function shade(u, [a, b]) {
-  const { ctx, bbox } = u;
-  const [x0, x1] = [a, b].map((t) => Math.min(Math.max(u.valToPos(t, "x", true), bbox.left), bbox.left + bbox.width));
-  ctx.save();
-  ctx.fillStyle = colour("veil");
-  ctx.fillRect(bbox.left, bbox.top, x0 - bbox.left, bbox.height);
-  ctx.fillRect(x1, bbox.top, bbox.left + bbox.width - x1, bbox.height);
-  ctx.strokeStyle = colour("ink");
-  ctx.lineWidth = devicePixelRatio;
-  ctx.strokeRect(x0, bbox.top, Math.max(1, x1 - x0), bbox.height);
-  ctx.restore();
 }

@@ -102,6 +102,11 @@ export function figures(box) {
   const legend = (id, rows) =>
     fill(panels[id].legend, rows.filter(Boolean).map(([name, colour, kind]) => h("span", {}, h(`i.key.${colour}`, { class: kind || "" }), name)));
 
+  const windowText = () => {
+    const f = flight();
+    return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : "";
+  };
+  const headed = calm(() => heading(), 200);
   const heading = () => {
     const f = flight(), state = server.state;
     fill(
@@ -110,7 +115,7 @@ export function figures(box) {
         ? h("select", { "aria-label": "Flight", onchange: (e) => look({ flight: Number(e.target.value), from: null, to: null }) }, state.flights.map((x, k) => h("option", { value: String(k), selected: k === view.flight }, x.name)))
         : null,
       h("div.toggle", { role: "group", "aria-label": "Unit" }, Object.entries(UNITS).map(([id, [name, key]]) => h("button", { type: "button", "aria-pressed": String(view.unit === id), onclick: () => look({ unit: id }), title: `${name} (${key})` }, name))),
-      h("p.window", {}, f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : ""),
+      h("p.window", {}, windowText()),
       h("div.toggle", { role: "group", "aria-label": "Window" },
         h("button", { type: "button", onclick: () => zoom(1 / 1.6), "aria-label": "Zoom in", title: "Zoom in (+)" }, "+"),
         h("button", { type: "button", onclick: () => zoom(1.6), "aria-label": "Zoom out", title: "Zoom out (−)" }, "−"),
@@ -137,6 +142,7 @@ export function figures(box) {
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       if (panels[id]) note(id, [error.facts.what, error.facts.remedy].filter(Boolean).join(": "));
+      else if (id === "strip" && error.status) setTimeout(drawStrip, 1000);
     } finally {
       const { again } = pending[id];
       delete pending[id];
@@ -217,12 +223,14 @@ export function figures(box) {
 
   const slow = calm(() => (drawSpectrum(), drawSpectrogram()), 140);
   const zoomed = () => {
-    plots.strip.plot.redraw(false);
+    plots.strip.shade();
     plots.measured.zoomed();
+    head.querySelector(".window").textContent = windowText();
+    headed();
+    drawMeasured();
+    if (!ready()) return;
     plots.residual.zoomed();
     plots.spectrogram.zoomed();
-    heading();
-    drawMeasured();
     drawResidual();
     slow();
   };
