@@ -121,11 +121,6 @@ class Flight:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
 
-    def with_outputs(self, outputs: Mapping[str, ArrayLike]) -> Flight:
-        """The same motion with other outputs (SI), e.g. a model's; it no longer stands for the file."""
-        columns = {name: np.asarray(v, dtype=np.float64) for name, v in outputs.items()}
-        return dataclasses.replace(self, outputs=columns, path=None, digest="")
-
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""
         return dataclasses.replace(
