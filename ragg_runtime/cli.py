@@ -54,9 +54,13 @@ def _load(model_dir: Path) -> Loaded:
     from ragg_runtime import workflow
 
     m = workflow.load(model_dir)
-    for note in m.notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+    _notes(model_dir, m.notes)
     return m
+
+
+def _notes(model_dir: Path, notes: Sequence[str]) -> None:
+    for note in notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -98,11 +102,11 @@ def _command() -> str:
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
     from derive import everything
-    from ragg_runtime.publish import publish, settle
+    from ragg_runtime.publish import check_settled, publish
 
     root = out if out is not None else Path(str(everything.__file__)).parents[1]
-    settle(root)
     if check:
+        check_settled(root)
         found, versions = everything.difference(root), everything.about_versions(root)
         if found:
             raise UserError(
@@ -406,6 +410,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
     from ragg_runtime.provenance import provenance
 
     directory = load_model_dir(model_dir)
+    _notes(model_dir, directory.notes)
     steps = [s.as_json() for s in directory.history]
     made = provenance(_command(), directory)
     _emit({"steps": steps, "provenance": made}, json_file, texts.history(steps))

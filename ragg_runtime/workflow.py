@@ -127,7 +127,7 @@ def _loaded(directory: ModelDir) -> Loaded:
     note = (
         extend.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
     )
-    return Loaded(directory, model, () if note is None else (note,))
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:

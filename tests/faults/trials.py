@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive import everything, tree
-from ragg_runtime import extend, workflow
+from ragg_runtime import extend, transaction, workflow
 from ragg_runtime.cli import main
+from ragg_runtime.lock import locked
 from ragg_runtime.model_dir import load_model_dir
 from tests.derived import derived
 
@@ -117,9 +118,7 @@ def _project(base: Path) -> Path:
 
 def project_state(root: Path) -> str:
     """As ``ragg derive --check`` sees it, after it has finished what was begun."""
-    from ragg_runtime.publish import settle
-
-    settle(root)
+    settle(root, tuple(derived()))
     assert (root / "docs" / "mine.md").read_text() == "mine\n"
     found = {}
     for folder, files in derived().items():
@@ -131,6 +130,12 @@ def project_state(root: Path) -> str:
         found[folder] = "plain" if old else "derived"
     assert len(set(found.values())) == 1, found
     return found[everything.GENERATED]
+
+
+def settle(root: Path, among: Sequence[str]) -> None:
+    """Finish what a killed change left, as the next command does that writes there."""
+    with locked(root, 5.0):
+        transaction.finish(root, among)
 
 
 def _derive(place: Path) -> Sequence[str]:

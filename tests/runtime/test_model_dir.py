@@ -18,6 +18,7 @@ from pathlib import Path
 import pytest
 
 from ragg_runtime import model_dir as md
+from ragg_runtime.base import folder
 from ragg_runtime.errors import UserError
 from ragg_runtime.lock import locked
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
@@ -141,7 +142,7 @@ def die(moves: Iterator[int], after: int) -> None:
 
 def _moves(monkeypatch: pytest.MonkeyPatch, when: Callable[[], None]) -> None:
     """Call ``when`` after every single move of a file or folder."""
-    for owner, name in ((Path, "rename"), (os, "replace")):
+    for owner, name in ((folder.Folder, "move"), (folder.Folder, "exchange")):
         original = getattr(owner, name)
 
         def moved(*a: object, _original: Callable[..., object] = original, **k: object) -> object:
