@@ -64,7 +64,7 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), _symbol_rate)
+        return self.tape.rate(sp.sympify(e, strict=True), _symbol_rate)
 
     def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
         """``e`` at the instant t + delta, to second order in delta."""

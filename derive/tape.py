@@ -76,7 +76,7 @@ class Tape:
 
         Naming the same value again by the same name gives the same symbol.
         """
-        value = sp.sympify(value)
+        value = sp.sympify(value, strict=True)
         if value.is_Atom or (-value).is_Atom:
             return value
         s = symbol(name)
@@ -128,7 +128,7 @@ def simplify(
             known[s] = e
         else:
             kept.append((s, e))
-    final = [(name, sp.sympify(e).xreplace(known)) for name, e in outputs]
+    final = [(name, sp.sympify(e, strict=True).xreplace(known)) for name, e in outputs]
     return _share(_live(kept, final), final)
 
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ragg_runtime import progress
-from ragg_runtime.errors import UserError, printable
+from ragg_runtime.errors import UserError, one_line, printable
 from ragg_runtime.memory import reuse_memory
 
 if TYPE_CHECKING:
@@ -357,30 +357,34 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
-@click.option("--forget", is_flag=True, help="Trust them no longer.")
-def trust(model_dir: Path, forget: bool) -> None:
-    """Let the Python files of the model's effects_folder be executed, as they are now.
+@click.option("--list", "only_list", is_flag=True, help="Only say what would be executed.")
+@click.option("--forget", is_flag=True, help="Trust these files no longer.")
+def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
+    """Let the Python files of the model's effects_folder be executed, exactly as they are now.
 
-    Needed only where they are not your own, or do more than describe effects. Read them first.
+    Without this none is: read them first. MODEL_DIR may be a model.toml as well.
     """
     from ragg_runtime import trust as _trust
+    from ragg_runtime.instrument import read_instrument
     from ragg_runtime.model_dir import load_model_dir
 
-    instrument = load_model_dir(model_dir).instrument
+    is_file = model_dir.is_file()
+    instrument = read_instrument(model_dir) if is_file else load_model_dir(model_dir).instrument
     if instrument.effects_folder is None:
         raise UserError(
             "the model names no effects_folder", where=model_dir, remedy="there is nothing to trust"
         )
-    found = _trust.read_effects(instrument.effects_folder, instrument.path)
-    for path in found.sources:
-        click.echo(str(path))
-    for doubt in found.doubts:
-        click.echo(f"note: {doubt}")
+    found = _trust.read_effects(instrument.effects_folder)
+    for line in found.lines():
+        click.echo(line)
     if forget:
         was = _trust.forget(found)
         click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
+    elif only_list:
+        click.echo(f"{'On' if _trust.is_trusted(found) else 'Not on'} the list of trusted files.")
     else:
-        click.echo(f"Trusted as long as they stay as they are; written to {_trust.trust(found)}")
+        place = one_line(str(_trust.trust(found)))
+        click.echo(f"They will be executed as long as they stay as they are; written to {place}")
 
 
 @cli.command()

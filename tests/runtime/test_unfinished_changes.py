@@ -132,7 +132,7 @@ def test_a_link_is_no_unfinished_change(model: Path, name: str) -> None:
         workflow.add(workflow.load(model), "lag")
         assert [e.id for e in workflow.load(model).model.effects] == ["lag"]
     else:
-        with pytest.raises(UserError, match="a link where a folder is expected|cannot be read"):
+        with pytest.raises(UserError, match=r"a link where a folder is expected|cannot be read"):
             load_model_dir(model)
     assert seen(outside) == before
 

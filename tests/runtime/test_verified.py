@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from derive import pipeline
-from ragg_runtime import extend, verified, workflow
+from ragg_runtime import extend, trust, verified, workflow
 from ragg_runtime.instrument import parse_instrument
 
 ROOT = Path(workflow.__file__).parents[1]
@@ -122,6 +122,7 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path) -> None:
     instrument = parse_instrument('effects_folder = "own"\n' + text, tmp_path / "model.toml")
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "own" / "a.py").write_text(source)
+        trust.trust(trust.read_effects(tmp_path / "own"))
         found.add(verified.request(instrument))
     assert len(found) == len(lists) + 2
 
