@@ -23,6 +23,7 @@ from derive.symbols import (
     SIN_PHI,
     TIME,
     Channel,
+    local,
     symbol,
 )
 from derive.tape import Tape
@@ -55,7 +56,7 @@ class Context:
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
-        return symbol(name)
+        return symbol(local(name))
 
     def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
         """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
@@ -82,10 +83,10 @@ def _symbol_rate(s: sp.Symbol) -> sp.Expr:
     name = s.name
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
-    if name.startswith("d_"):
-        return symbol(f"d2_{name[2:]}")
     if name in _MOVING:
         return symbol(f"d_{name}")
+    if name.startswith("d_") and name[2:] in _MOVING:
+        return symbol(f"d2_{name[2:]}")
     return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
 
 

@@ -24,7 +24,7 @@ from derive.propagation import (
     motion_numbers,
 )
 from derive.stages import PAPER, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
 from derive.tape import Program, simplify
 
 
@@ -196,7 +196,7 @@ def chain(
         value,
         derivatives,
         tuple(Row(n, shared) for _, n, shared in named),
-        (*MOTION, *(auxiliary_channel(n) for n in extra)),
+        (*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
         (*INSTRUMENT, *effect_parameters(effects)),
         tuple(candidates) or tuple(effects),
     )

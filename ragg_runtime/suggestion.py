@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from math import comb
 
 from ragg_runtime import ingredients
+from ragg_runtime.flight.record import RATES
 from ragg_runtime.terms import Term
 
 _FUNCTIONS = {"abs": "absolute value", "sign": "sign", "square": "square"}
@@ -61,7 +62,7 @@ def _column(name: str) -> str | None:
     """Name for a column of the flight that holds a series which no expression can form."""
     if (slow := ingredients.SLOW.fullmatch(name)) is not None:
         return "slow_" + slow["of"].replace("(", "_").replace(")", "")
-    return name if ingredients.DERIVATIVE.fullmatch(name) else None
+    return name if ingredients.DERIVATIVE.fullmatch(name) and name not in RATES else None
 
 
 def _written(name: str) -> str | None:
