@@ -248,7 +248,15 @@ def diagnose(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Let the workers of a Dask cluster do it.")
+@click.option(
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only, "
+    "tls://HOST:PORT beyond your own walls.",
+)
+@click.option("--tls-ca", type=DIRECTORY, metavar="FILE", help="Of a tls:// scheduler: who signed it (PEM).")
+@click.option("--tls-cert", type=DIRECTORY, metavar="FILE", help="Your certificate for it (PEM).")
+@click.option("--tls-key", type=DIRECTORY, metavar="FILE", help="The key of your certificate (PEM).")
 @click.option(
     "--resume",
     type=DIRECTORY,
@@ -262,6 +270,9 @@ def survey(
     flights: Sequence[Path],
     jobs: int | None,
     scheduler: str | None,
+    tls_ca: Path | None,
+    tls_cert: Path | None,
+    tls_key: Path | None,
     resume: Path | None,
     json_file: str | None,
     report_file: str | None,
@@ -270,10 +281,15 @@ def survey(
     from ragg_runtime import texts, workflow
     from ragg_runtime.survey import progress, text
     from ragg_runtime.survey.journal import sha256
+    from ragg_runtime.survey.tls import tls_of, unproven
 
+    tls = tls_of(tls_ca, tls_cert, tls_key)
     m = _load(model_dir)
+    warning = None if scheduler is None else unproven(scheduler)
+    if warning is not None:
+        click.echo(printable(f"note: {warning}"), err=True)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
+        s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, tls=tls, resume=file, progress=show)
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*workflow.sources(m, []), *read]

@@ -36,6 +36,7 @@ from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.units import RawQuantity, read_quantity
 
 
@@ -177,6 +178,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
 ) -> Survey:
@@ -186,7 +188,14 @@ def survey(
     """
     place = m.directory.path / "model.toml"
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        tls=tls,
+        resume=resume,
+        progress=progress,
     )
 
 
