@@ -404,6 +404,21 @@ def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
 
 
 @cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.option("--look", is_flag=True, help="Change nothing.")
+def doctor(model_dir: Path, look: bool) -> None:
+    """What is damaged in a model directory; what can be mended without loss, is."""
+    from ragg_runtime.doctor import examined
+
+    found = examined(model_dir, mend=not look)
+    for f in found:
+        click.echo(printable(f"{f.what}\n  -> {f.way_back}" if f.way_back else f.what))
+    if any(f.open for f in found):
+        sys.exit(2)
+    click.echo(f"{one_line(str(model_dir))}: {'mended' if found else 'in order'}")
+
+
+@cli.command()
 @click.argument("model_dir", type=DIRECTORY, required=False)
 def build(model_dir: Path | None) -> None:
     """Compile the model's C beforehand (otherwise on first use); without MODEL_DIR, the paper's model."""

@@ -132,12 +132,6 @@ def is_committing(root: Path) -> bool:
         return False
 
 
-def set_aside(root: Path, name: str) -> None:
-    """Keep the record of a change that cannot be completed under another name, so that it is obeyed no more."""
-    with Folder.at(root) as top:
-        top.move(WORK, top, name)
-
-
 def _complete(top: Folder, commit: Folder, journal: _Journal) -> None:
     for name in journal.removed:
         _put_away(top, name, commit)
