@@ -4,6 +4,6 @@ from ragg_runtime.base.safe_path import without_current_folder
 
 without_current_folder()  # before anything else is imported
 
-from ragg_runtime.cli import main  # noqa: E402
+from ragg_runtime.cli.main import main  # noqa: E402
 
 main()

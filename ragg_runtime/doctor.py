@@ -10,12 +10,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ragg_runtime import extend, transaction, verified
+from ragg_runtime.base import transaction
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.folder import Folder, kind
-from ragg_runtime.errors import UserError
-from ragg_runtime.history import read_history
-from ragg_runtime.lock import locked
-from ragg_runtime.model_dir import GENERATED, HISTORY, MODEL, NAMES, load_model_dir, replace_model_dir
+from ragg_runtime.base.lock import locked
+from ragg_runtime.model_dir import derive, derived_cache
+from ragg_runtime.model_dir.directory import (
+    GENERATED,
+    HISTORY,
+    MODEL,
+    NAMES,
+    load_model_dir,
+    replace_model_dir,
+)
+from ragg_runtime.model_dir.history import read_history
 
 _PATIENCE = 30.0  # s; as long as any command waits for another one's change
 
@@ -122,8 +130,8 @@ def _history(path: Path, mend: bool) -> Iterator[Finding]:
 def _code(path: Path, mend: bool) -> Iterator[Finding]:
     """Code that is not what model.toml derives. Raises UserError where model.toml itself is wrong."""
     current = load_model_dir(path)
-    expected = extend.files_of(current.instrument)
-    held = {} if current.generated is None else verified.read(current.generated)
+    expected = derive.files_of(current.instrument)
+    held = {} if current.generated is None else derived_cache.read(current.generated)
     if held == expected or current.unfinished:
         return
     missing = bool(expected) and current.generated is None

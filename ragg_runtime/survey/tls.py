@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 
 @dataclass(frozen=True)

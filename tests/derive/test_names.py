@@ -22,8 +22,8 @@ from derive.effects import catalogue
 from derive.expression import _TAKEN, ExpressionError, from_expression
 from derive.pipeline import derive_model
 from derive.symbols import AUXILIARY, RATES
-from ragg_runtime.load import Model, from_files
-from ragg_runtime.native.compiler import BuildError, find_compiler
+from ragg_runtime.model.model import Model, from_files
+from ragg_runtime.model.native.compiler import BuildError, find_compiler
 
 Array = NDArray[np.float64]
 WORDS_OF_C = (

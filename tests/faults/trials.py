@@ -13,10 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive import everything, tree
-from ragg_runtime import extend, transaction, workflow
-from ragg_runtime.cli import main
-from ragg_runtime.lock import locked
-from ragg_runtime.model_dir import load_model_dir
+from ragg_runtime.base import transaction
+from ragg_runtime.base.lock import locked
+from ragg_runtime.cli.main import main
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
 from tests.derived import derived
 
 from .injected import NOBODY, Ended, Fault, run
@@ -64,9 +66,9 @@ def warm() -> None:
             base.mkdir()
             main(command.arguments(command.prepare(base)))
     for effects in ([], [EFFECT]):
-        instrument = workflow.parse_instrument(_sheet(effects))
-        extend.model_of(instrument)
-        extend.files_of(instrument)
+        instrument = loop.parse_instrument(_sheet(effects))
+        derive.model_of(instrument)
+        derive.files_of(instrument)
 
 
 @contextlib.contextmanager
@@ -86,7 +88,7 @@ def _model(effects: Sequence[str]) -> Callable[[Path], Path]:
     def make(base: Path) -> Path:
         sheet = base / "sheet.toml"
         sheet.write_text(_sheet(effects), "utf-8")
-        workflow.new(base / "model", sheet)
+        loop.new(base / "model", sheet)
         sheet.unlink()
         return base / "model"
 
@@ -98,7 +100,7 @@ def model_state(place: Path) -> str:
     found = load_model_dir(place)
     effects = [e.id for e in found.instrument.effects]
     assert effects in ([], [EFFECT]), effects
-    files = extend.files_of(found.instrument)
+    files = derive.files_of(found.instrument)
     if found.generated is None:
         assert not files, "generated/ is missing"
     else:

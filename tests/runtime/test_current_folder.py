@@ -11,13 +11,15 @@ from pathlib import Path
 import pytest
 
 import ragg_runtime
-from ragg_runtime import workflow
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 ROOT = Path(ragg_runtime.__file__).parents[1]
 # As pip writes the command.
-COMMAND = "import sys\nfrom ragg_runtime.cli import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+COMMAND = (
+    "import sys\nfrom ragg_runtime.cli.main import main\nif __name__ == '__main__':\n    sys.exit(main())\n"
+)
 EVIL = "import os\nos.close(os.open({mark!r}, os.O_CREAT | os.O_WRONLY))\nraise SystemExit('executed')\n"
 # Of the standard library, of others, of this program: what is looked up early and late.
 NAMES = (
@@ -31,7 +33,7 @@ NAMES = (
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a model and a short flight, in which everything that is imported has a double."""
     place = tmp_path_factory.mktemp("folder")
-    m = workflow.new(place / "model")
+    m = loop.new(place / "model")
     write_flight(simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), place / "f.parquet")
     for name in NAMES:
         text = EVIL.format(mark=str(place / f"executed-{name}"))
@@ -79,7 +81,7 @@ def test_a_checkout_that_is_not_installed(tmp_path: Path) -> None:
     out = run(tmp_path, sys.executable, "-m", "ragg_runtime", "effects")
     assert "thermal-scale" in out
     (tmp_path / "data").mkdir()
-    m = workflow.new(tmp_path / "data" / "model")
+    m = loop.new(tmp_path / "data" / "model")
     write_flight(
         simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), tmp_path / "data" / "f.parquet"
     )

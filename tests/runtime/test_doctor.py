@@ -11,13 +11,14 @@ from pathlib import Path
 import pytest
 from test_unfinished_changes import interrupted, plant, seen
 
-from ragg_runtime import trust, workflow
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
+from ragg_runtime.model_dir import trust
+from ragg_runtime.workflow import loop
 
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    return workflow.add(workflow.new(tmp_path / "model"), "lag").loaded.directory.path
+    return loop.add(loop.new(tmp_path / "model"), "lag").loaded.directory.path
 
 
 def doctor(model: Path, capsys: pytest.CaptureFixture[str], *more: str, status: int = 0) -> str:
@@ -39,7 +40,7 @@ def half(path: Path) -> None:
 
 def unfinished(model: Path) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        workflow.remove(workflow.load(model), "lag")
+        loop.remove(loop.load(model), "lag")
         interrupted(model, patch)
 
 
@@ -94,10 +95,10 @@ def test_a_way_back(model: Path, capsys: pytest.CaptureFixture[str], name: str) 
     assert way in said
     assert "mended" in said
     assert "in order" in doctor(model, capsys)
-    m = workflow.load(model)
+    m = loop.load(model)
     assert [e.id for e in m.model.effects] == ["lag"]
     assert m.notes == ()
-    workflow.remove(m, "lag")
+    loop.remove(m, "lag")
 
 
 def test_several_at_once(model: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -11,10 +11,10 @@ import h5py
 import numpy as np
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import hdf5_self_contained, read_flight, write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 G0 = 9.8
 
@@ -22,7 +22,7 @@ G0 = 9.8
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("whole")
-    m = workflow.new(folder / "model")
+    m = loop.new(folder / "model")
     write_flight(simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), folder / "f.nc")
     return folder / "f.nc"
 

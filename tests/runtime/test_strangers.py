@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 NAME = "\x1b[31m<script>alert(1)\u202e&\"'"
 
@@ -28,7 +28,7 @@ def test_a_flight_with_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    m = workflow.new("model")
+    m = loop.new("model")
     write_flight(simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0), "plain.parquet")
     shutil.move("plain.parquet", f"{NAME}.parquet")
     main(["compare", "model", f"{NAME}.parquet", "--json", "out.json", "--report", "out.html"])
@@ -47,7 +47,7 @@ def test_an_error_about_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    workflow.new("model")
+    loop.new("model")
     Path(f"{NAME}.csv").write_text(f"time [s],{NAME}[x [g]\n0,0\n", "utf-8")
     with pytest.raises(SystemExit) as end:
         main(["compare", "model", f"{NAME}.csv"])
@@ -59,16 +59,16 @@ def test_an_error_about_such_a_name(
 
 @pytest.mark.parametrize("identifier", ["../../etc", "a/b", "..", "", "lag\x00", "C:\\x", "-x", "a" * 300])
 def test_ids_with_path_parts_are_unknown(tmp_path: Path, identifier: str) -> None:
-    m = workflow.new(tmp_path / "model")
+    m = loop.new(tmp_path / "model")
     before = sorted(tmp_path.rglob("*"))
-    for attempt in (workflow.add, workflow.remove):
+    for attempt in (loop.add, loop.remove):
         with pytest.raises(UserError):
             attempt(m, identifier)
     line = f'effects = [{{ id = {json.dumps(identifier)}, stage = "transducer", add = "K*f_i", K = {{ unit = "ug" }} }}]'
     toml = (tmp_path / "model" / "model.toml").read_text("utf-8").replace("effects = []", line)
     (tmp_path / "evil.toml").write_text(toml, "utf-8")
     with pytest.raises(UserError):
-        workflow.new(tmp_path / "second", tmp_path / "evil.toml")
+        loop.new(tmp_path / "second", tmp_path / "evil.toml")
     (tmp_path / "evil.toml").unlink()
     assert sorted(tmp_path.rglob("*")) == before
 
@@ -76,12 +76,12 @@ def test_ids_with_path_parts_are_unknown(tmp_path: Path, identifier: str) -> Non
 @pytest.mark.parametrize(("parameter", "channel"), [("K1", "i_mine"), ("delta_phi", "x0"), ("V", "double")])
 def test_names_of_generated_code_are_the_users_own(tmp_path: Path, parameter: str, channel: str) -> None:
     """An effect whose parameter and channel are called like locals of generated code is found at its true size."""
-    toml = workflow.new(tmp_path / "model").directory.path / "model.toml"
+    toml = loop.new(tmp_path / "model").directory.path / "model.toml"
     line = (
         f'{{ id = "mine", stage = "transducer", add = "{parameter} * {channel}", {parameter} = '
         '{ unit = "ug/K", plausible = 1000 } }'
     )
-    m = workflow.load(tmp_path / "model")
+    m = loop.load(tmp_path / "model")
     flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
     x = np.cos(2 * np.pi * 0.37 * flight.time)
     k, signs = m.instrument.accelerometers, np.array([1.0, 1.0, -1.0, -1.0])
@@ -95,7 +95,7 @@ def test_names_of_generated_code_are_the_users_own(tmp_path: Path, parameter: st
         units={**flight.units, channel: "K"},
     )
     toml.write_text(toml.read_text("utf-8").replace("effects = []", f"effects = [{line}]"), "utf-8")
-    added = workflow.add(workflow.load(tmp_path / "model"), "mine", [flight])
+    added = loop.add(loop.load(tmp_path / "model"), "mine", [flight])
     assert {q.name for q in added.parameters} == {parameter}
     found = float(np.sum(weights * [q.value for q in added.parameters])) * 1e-6 * m.instrument.g0
     assert abs(found / weights[0] - truth) < 0.02 * truth

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
 from ragg_runtime.survey.tls import Tls, unproven
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 pytest.importorskip("distributed", reason="Dask is an optional extra: pip install 'ragg[cluster]'")
 from test_survey_cluster import Cluster
@@ -77,7 +77,7 @@ def test_a_survey_over_tls(
     cluster: Cluster, certificates: tuple[Tls, Tls], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert cluster.address.startswith("tls://")
-    m = workflow.new(tmp_path / "model")
+    m = loop.new(tmp_path / "model")
     write_flight(simulated(m.instrument, [], seed=1, duration=90.0, rate=16.0), tmp_path / "f.parquet")
     ours, theirs = certificates
     words = ["survey", str(tmp_path / "model"), str(tmp_path / "f.parquet"), "--scheduler", cluster.address]
@@ -111,11 +111,11 @@ def test_a_survey_over_tls(
 
 
 def test_what_the_options_must_be(tmp_path: Path, certificates: tuple[Tls, Tls]) -> None:
-    m = workflow.new(tmp_path / "model")
+    m = loop.new(tmp_path / "model")
     ours = certificates[0]
 
     def survey(address: str, tls: Tls | None) -> None:
-        workflow.survey(m, [tmp_path / "f.parquet"], scheduler=address, tls=tls)
+        loop.survey(m, [tmp_path / "f.parquet"], scheduler=address, tls=tls)
 
     with pytest.raises(UserError, match=r"expected: tls://"):
         survey("tcp://127.0.0.1:1", ours)

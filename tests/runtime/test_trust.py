@@ -11,9 +11,10 @@ from pathlib import Path
 import pytest
 
 import derive.effects
-from ragg_runtime import trust, workflow
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
+from ragg_runtime.model_dir import trust
+from ragg_runtime.workflow import loop
 
 PACKAGED = Path(derive.effects.__file__).parent
 EFFECT = (PACKAGED / "cubic_input.py").read_text("utf-8").replace('id="cubic-input"', 'id="mine"')
@@ -29,7 +30,7 @@ def own_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
     """A model directory with a folder of own effects."""
-    workflow.new(tmp_path / "model")
+    loop.new(tmp_path / "model")
     (tmp_path / "model" / "effects").mkdir(mode=0o755)
     put(tmp_path / "model" / "effects" / "mine.py", EFFECT)
     toml = tmp_path / "model" / "model.toml"
@@ -44,7 +45,7 @@ def put(path: Path, text: str) -> None:
 
 def refused(model: Path, *what: str) -> None:
     with pytest.raises(UserError) as caught:
-        workflow.load(model)
+        loop.load(model)
     for text in (*what, "effects_folder", "ragg trust", "mine.py", "none was executed"):
         assert text in caught.value.message
 
@@ -57,9 +58,9 @@ def test_nothing_runs_before_it_is_listed(model: Path, tmp_path: Path) -> None:
     """However harmless it looks, and though it is the user's own, written a moment ago."""
     refused(model, hashlib.sha256(EFFECT.encode()).hexdigest())
     trust.trust(listed(model))
-    m = workflow.load(model)
+    m = loop.load(model)
     assert "mine" in [e.id for e in m.model.candidates]
-    assert [e.id for e in workflow.add(m, "mine").loaded.model.effects] == ["mine"]
+    assert [e.id for e in loop.add(m, "mine").loaded.model.effects] == ["mine"]
 
 
 @pytest.mark.parametrize(
@@ -85,13 +86,13 @@ def test_text_that_sympy_evaluates_is_code(model: Path, tmp_path: Path, line: st
     assert not mark.exists()
     trust.trust(listed(model))
     with contextlib.suppress(UserError):
-        workflow.load(model)
+        loop.load(model)
     assert mark.exists(), "the text would have run: the trial is a fair one"
 
 
 def test_no_byte_code_is_written_nor_read(model: Path) -> None:
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     assert [p.name for p in (model / "effects").iterdir()] == ["mine.py"]
 
 
@@ -105,13 +106,13 @@ def test_a_folder_outside_follows_the_same_rule(model: Path, tmp_path: Path, by:
         put(toml, toml.read_text("utf-8").replace('"effects"', '"../outside"'))
     refused(model)
     trust.trust(trust.read_effects(tmp_path / "outside"))
-    assert "mine" in [e.id for e in workflow.load(model).model.candidates]
+    assert "mine" in [e.id for e in loop.load(model).model.candidates]
 
 
 @pytest.mark.parametrize("change", ["another byte", "another file", "another name"])
 def test_trust_ends_with_the_first_change(model: Path, change: str) -> None:
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     if change == "another byte":
         put(model / "effects" / "mine.py", EFFECT + " ")
     elif change == "another file":
@@ -120,14 +121,14 @@ def test_trust_ends_with_the_first_change(model: Path, change: str) -> None:
         (model / "effects" / "mine.py").rename(model / "effects" / "mine.py.txt")
         put(model / "effects" / "mine_.py", EFFECT)
         with pytest.raises(UserError, match="ragg trust"):
-            workflow.load(model)
+            loop.load(model)
         return
     refused(model)
 
 
 def test_trust_can_be_taken_back(model: Path) -> None:
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     assert trust.forget(listed(model))
     assert not trust.forget(listed(model))
     refused(model)
@@ -142,10 +143,10 @@ def test_the_variable(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(trust.VARIABLE, "listed")
     refused(model)
     monkeypatch.setenv(trust.VARIABLE, "all")
-    workflow.load(model)
+    loop.load(model)
     monkeypatch.setenv(trust.VARIABLE, "yes")
     with pytest.raises(UserError, match="expected: all, listed"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_the_command_lists_what_would_run(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -179,27 +180,27 @@ def test_the_command_lists_what_would_run(model: Path, capsys: pytest.CaptureFix
 def test_a_pipe_is_not_waited_for(model: Path) -> None:
     os.mkfifo(model / "effects" / "other.py")
     with pytest.raises(UserError, match="not a regular file"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_a_folder_that_cannot_be_read_and_a_fault_in_it(model: Path) -> None:
     put(model / "effects" / "mine.py", "EFFECT = 1 / 0\n")
     trust.trust(listed(model))
     with pytest.raises(UserError, match=r"mine\.py: ZeroDivisionError"):
-        workflow.load(model)
+        loop.load(model)
     put(model / "effects" / "mine.py", "raise SystemExit(0)\n")
     trust.trust(listed(model))
     with pytest.raises(UserError, match="SystemExit"):
-        workflow.load(model)
+        loop.load(model)
     (model / "effects" / "mine.py").unlink()
     (model / "effects" / "mine.py").symlink_to(model / "nowhere")
     with pytest.raises(UserError, match="cannot be read"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_a_new_model_from_a_sheet_finds_the_folder_of_the_sheet(model: Path, tmp_path: Path) -> None:
     with pytest.raises(UserError, match="none was executed"):
-        workflow.new(tmp_path / "first", model / "model.toml")
+        loop.new(tmp_path / "first", model / "model.toml")
     trust.trust(listed(model))
-    m = workflow.new(tmp_path / "second", model / "model.toml")
+    m = loop.new(tmp_path / "second", model / "model.toml")
     assert "mine" in [e.id for e in m.model.candidates]

@@ -9,13 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime import transaction, workflow
+from ragg_runtime.base import transaction
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.folder import Folder, NotPlainError, is_plain
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
-from ragg_runtime.lock import locked
-from ragg_runtime.model_dir import NAMES, load_model_dir
-from ragg_runtime.publish import publish
+from ragg_runtime.base.lock import locked
+from ragg_runtime.cli.main import main
+from ragg_runtime.cli.publish import publish
+from ragg_runtime.model_dir.directory import NAMES, load_model_dir
+from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links and pipes")
 
@@ -24,7 +25,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links and pipes
 def model(tmp_path: Path) -> Path:
     (tmp_path / "victim").mkdir()
     (tmp_path / "victim" / ".bashrc").write_text("mine\n")
-    return workflow.new(tmp_path / "model").directory.path
+    return loop.new(tmp_path / "model").directory.path
 
 
 def plant(root: Path, **journal: object) -> Path:
@@ -129,8 +130,8 @@ def test_a_link_is_no_unfinished_change(model: Path, name: str) -> None:
         (model / ".ragg" / "commit").symlink_to(commit)
     before = seen(outside)
     if name == ".ragg":
-        workflow.add(workflow.load(model), "lag")
-        assert [e.id for e in workflow.load(model).model.effects] == ["lag"]
+        loop.add(loop.load(model), "lag")
+        assert [e.id for e in loop.load(model).model.effects] == ["lag"]
     else:
         with pytest.raises(UserError, match=r"a link where a folder is expected|cannot be read"):
             load_model_dir(model)
@@ -163,11 +164,11 @@ def interrupted(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def cut_off(*_: object) -> None:
         raise OSError(5, "cut off")
 
-    m = workflow.load(model)
+    m = loop.load(model)
     with monkeypatch.context() as patch:
         patch.setattr(transaction, "_complete", cut_off)
         with pytest.raises(UserError, match="cut off"):
-            workflow.add(m, "lag")
+            loop.add(m, "lag")
 
 
 def test_who_reads_sees_the_new_state_and_moves_nothing(
@@ -180,17 +181,17 @@ def test_who_reads_sees_the_new_state_and_moves_nothing(
     said = capsys.readouterr()
     assert [s["effect"] for s in json.loads(said.out)["steps"]] == [None, "lag"]
     assert said.err.count("cut off after it had been made") == 1
-    m = workflow.load(model)
+    m = loop.load(model)
     assert [e.id for e in m.model.effects] == ["lag"]
     assert len(m.notes) == 1, "what was derived is seen too"
     assert seen(model) == before
-    workflow.remove(m, "lag")
+    loop.remove(m, "lag")
     assert sorted(p.name for p in model.iterdir()) == ["history.json", "model.toml"]
     assert [s.effect for s in load_model_dir(model).history] == ["", "lag", "lag"]
 
 
 def test_a_removal_that_is_unfinished(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    workflow.add(workflow.load(model), "lag")
+    loop.add(loop.load(model), "lag")
     whole = load_model_dir(model)
     plant(model, removed=["generated"])
     found = load_model_dir(model)
