@@ -1,1 +1,3 @@
-"""What everything else stands on: errors, files, folders, locks."""
+"""What every room stands on: errors, files written whole, locks, progress, threads, memory. Imports nothing of
+ours.
+"""
