@@ -16,7 +16,7 @@ from PIL import Image
 from playwright.sync_api import Page, sync_playwright
 
 FLIGHT = Path(__file__).parent / "demo-flight.parquet"
-TARGET = Path(__file__).parents[1] / "docs" / "studio.png"
+TARGET = Path(__file__).parents[1] / "docs" / "studio.jpg"
 SIZE = (1440, 900)
 WIDTH, GAP = 800, 10
 
@@ -60,7 +60,7 @@ def main() -> None:
     for k, shot in enumerate(shots):
         small = Image.open(io.BytesIO(shot)).convert("RGB").resize((WIDTH, height), Image.Resampling.LANCZOS)
         strip.paste(small, (0, k * (height + GAP)))
-    strip.save(TARGET, optimize=True)
+    strip.save(TARGET, quality=82, optimize=True)
 
 
 if __name__ == "__main__":

@@ -40,6 +40,7 @@ from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
 
 
@@ -141,7 +142,7 @@ def _loaded(directory: ModelDir) -> Loaded:
     note = (
         derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
     )
-    return Loaded(directory, model, () if note is None else (note,))
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
@@ -201,6 +202,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
 ) -> Survey:
@@ -210,7 +212,14 @@ def survey(
     """
     place = m.directory.path / "model.toml"
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        tls=tls,
+        resume=resume,
+        progress=progress,
     )
 
 
