@@ -7,11 +7,13 @@ is imported only where something is derived.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -46,6 +48,24 @@ class Known:
         )
 
 
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_SYMPY = threading.RLock()
+
+
+def _by_one(function: Callable[P, R]) -> Callable[P, R]:
+    """Let one thread at a time derive: SymPy's caches are not made for several."""
+
+    @functools.wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _SYMPY:
+            return function(*args, **kwargs)
+
+    return alone
+
+
+@_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
     from derive.effects import catalogue, from_sources
@@ -135,6 +155,7 @@ def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
     return [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
 
 
+@_by_one
 @cache
 def derived(
     effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import math
+import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from importlib import metadata, resources
 from pathlib import Path
@@ -77,7 +78,12 @@ async def _guarded(answer: Answer, session: Session, request: Request) -> Respon
         return JSONResponse({"error": {"what": "something else is being worked on; cancel it or wait"}}, 409)
     except TooLong:
         return JSONResponse({"error": {"what": "the request is too long"}}, 413)
-    except OSError as e:
+    except Exception as e:
+        if not isinstance(e, OSError):
+            traceback.print_exc()
+            return JSONResponse(
+                {"error": {"what": "this is a fault of the program; the terminal shows where"}}, 500
+            )
         return JSONResponse({"error": {"what": e.strerror or "the system refuses", "where": e.filename}}, 400)
 
 

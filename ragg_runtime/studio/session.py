@@ -19,6 +19,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.instrument.edit_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
@@ -163,9 +164,9 @@ class Session:
         s = self.state
         if s.loaded is None or self.jobs.status.name:
             return
-        found = loop.load(s.loaded.directory.path)
-        if found.directory.digest != s.loaded.directory.digest:
-            self._changed(found)
+        path = s.loaded.directory.path
+        if load_model_dir(path).digest != s.loaded.directory.digest:
+            self._changed(loop.load(path))
 
     def _changed(self, m: Loaded) -> None:
         """Another model in the place of this one: what was known of it becomes the state before."""
