@@ -155,8 +155,8 @@ def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
     return [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
 
 
-@_by_one
 @cache
+@_by_one
 def derived(
     effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]
 ) -> tuple[Model, Mapping[str, str]]:
