@@ -13,7 +13,7 @@ import sympy as sp
 
 from derive import stages
 from derive.effect import Effect
-from derive.stages import PAPER, Force, Geometry, Motion, Order, SensedForce
+from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
     COS_J,
@@ -21,6 +21,8 @@ from derive.symbols import (
     MOTION,
     SIN_J,
     SIN_PHI,
+    SPIN_ACCELERATION,
+    SPIN_RATE,
     TIME,
     Channel,
     symbol,
@@ -28,7 +30,7 @@ from derive.symbols import (
 from derive.tape import Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
-"""Angular rate of the disc, rad/s."""
+"""Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
 
 DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
 _STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
@@ -39,7 +41,8 @@ class Context:
     """What a hook may ask for, beyond its stage's own values.
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
-    the stage ``instrument`` sees the force of the unchanged instrument.
+    the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
+    angle, ``case`` the motion of what stands on the disc.
     """
 
     tape: Tape
@@ -52,6 +55,12 @@ class Context:
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
+    spin: Spin = Spin(SPIN_RATE, SPIN_ACCELERATION)
+
+    @property
+    def case(self) -> Motion:
+        """The motion of the accelerometers' cases, which turn with the disc."""
+        return stages.of_disc(self.motion, self.spin)
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
@@ -64,7 +73,16 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), _symbol_rate)
+        return self.tape.rate(sp.sympify(e), self._symbol_rate)
+
+    def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
+        if s == COS_PHI:
+            return -self.Omega * SIN_PHI
+        if s == SIN_PHI:
+            return self.Omega * COS_PHI
+        if s == SPIN_RATE:
+            return SPIN_ACCELERATION  # whose own rate is left out: no disc jerks so that it would show
+        return _rate_of_channel(s)
 
     def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
         """``e`` at the instant t + delta, to second order in delta."""
@@ -72,14 +90,12 @@ class Context:
         return e + delta * first + delta**2 / 2 * self.rate(first)
 
 
-def _symbol_rate(s: sp.Symbol) -> sp.Expr:
-    if s == COS_PHI:
-        return -OMEGA * SIN_PHI
-    if s == SIN_PHI:
-        return OMEGA * COS_PHI
+def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
+    name = s.name
     if s == TIME:
         return sp.Integer(1)
-    name = s.name
+    if s == SPIN_ACCELERATION:
+        return sp.Integer(0)
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
     if name.startswith("d_"):
@@ -110,7 +126,10 @@ class Accelerometer:
 
 
 def accelerometer(
-    effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None
+    effects: Sequence[Effect] = (),
+    order: Order = PAPER,
+    tape: Tape | None = None,
+    kinematics: Kinematics = "platform",
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
     tape = Tape() if tape is None else tape
@@ -118,12 +137,10 @@ def accelerometer(
     hooked = [(e, e.values) for e in effects]
 
     # 1 sensing
-    c = Context(tape, recorded_motion())
+    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
     for e, p in hooked:
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
-    M = stages.gradient(c.motion).applyfunc(sp.sympify)
-    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
 
     # 2 geometry
     increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
@@ -132,6 +149,13 @@ def accelerometer(
         cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
         c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
         c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
+        swing = let("rate_delta_phi", c.rate(d))
+        c.spin = Spin(
+            let("spin_rate_true", SPIN_RATE + swing),
+            let("spin_acceleration_true", SPIN_ACCELERATION + c.rate(swing)),
+        )
+    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
+    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
