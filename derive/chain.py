@@ -32,6 +32,9 @@ from derive.tape import Tape
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
 """Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
 
+RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
+"""The spin by the recorded disc angle."""
+
 DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
 _STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
 
@@ -55,7 +58,7 @@ class Context:
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
-    spin: Spin = Spin(SPIN_RATE, SPIN_ACCELERATION)
+    spin: Spin = RECORDED_SPIN
 
     @property
     def case(self) -> Motion:
@@ -159,6 +162,7 @@ def accelerometer(
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
+    rigid = symbol("dR")
 
     def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
@@ -175,6 +179,12 @@ def accelerometer(
         for e, p in hooked:
             if e.field:
                 f = f + e.field(g.r, p, c)
+        if k["dR"] != rigid:
+            arm = sp.Matrix(
+                [let(f"{label}_arm_{'xyz'[n]}", g.r[n] / (symbol("radius") + k["dR"])) for n in range(3)]
+            )
+            growth = c.rate(k["dR"])
+            f = f + stages.of_growing_arm(c.case, arm, growth, c.rate(growth))
         f = sp.Matrix([let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
         resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
         if label == "q":

@@ -154,6 +154,14 @@ def spin_gradient(m: Motion, spin: Spin) -> sp.Matrix:
     return (gradient(of_disc(m, spin)) - gradient(m)).applyfunc(sp.expand)
 
 
+def of_growing_arm(case: Motion, arm: Vector, growth: sp.Expr, acceleration: sp.Expr) -> Vector:
+    """Specific force at the end of an arm (unit vector) whose length changes: Coriolis, and its own acceleration.
+
+    ``growth`` and ``acceleration`` are the first and second time derivative of the length, m/s and m/s^2.
+    """
+    return 2 * growth * case.omega.cross(arm) + acceleration * arm
+
+
 def specific_force(a: Vector, M: sp.Matrix, g: Geometry) -> Force:
     """Eq. 11 and 12: f = a + M r, resolved along the triad."""
     f = a + M * g.r

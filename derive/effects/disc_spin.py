@@ -35,7 +35,7 @@ EFFECT = Effect(
     limits=(
         "share is 0 (Eq. 9) or 1 (nature); nothing in between is physical. The centripetal force of a steady "
         "spin is constant, and absorbed by K0, K1, vartheta_y and vartheta_z. The rate is that of spin_angle, or "
-        "2 pi spin_frequency where it is not recorded. A model with kinematics = \"full\" has all of it."
+        '2 pi spin_frequency where it is not recorded. A model with kinematics = "full" has all of it.'
     ),
     parameters=(
         EffectParameter("share", "share", "1", "share of the spin in the kinematics", 1.0, shared=True),

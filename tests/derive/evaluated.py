@@ -52,9 +52,7 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
 
 
 @lru_cache
-def voltage(
-    effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform"
-) -> Evaluated:
+def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
     a = accelerometer(effects, order, kinematics=kinematics)
     return evaluated(simplify(a.tape.assignments, [("V", a.voltage)], {}))

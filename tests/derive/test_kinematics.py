@@ -58,7 +58,10 @@ def derivative(f: Function, t: mp.mpf, order: int = 1) -> mp.matrix:
         shape.rows,
         shape.cols,
     ) + mp.matrix(
-        [[mp.diff(lambda s, i=i, k=k: f(s)[i, k], t, order) for k in range(shape.cols)] for i in range(shape.rows)]
+        [
+            [mp.diff(lambda s, i=i, k=k: f(s)[i, k], t, order) for k in range(shape.cols)]
+            for i in range(shape.rows)
+        ]
     )
 
 
@@ -132,7 +135,11 @@ def test_the_chain_feels_what_its_place_on_the_disc_does(way: str, j: int) -> No
 
     quarter = (0, 2, 1, 3)[j]
     at = about(2, quarter * mp.pi / 2 + mp.mpf(k["beta_z"]))
-    arm = at * mp.matrix([mp.cos(k["beta_x"]), 0, mp.sin(k["beta_x"])]) * (mp.mpf(k["radius"]) + mp.mpf(k["dR"]))
+    arm = (
+        at
+        * mp.matrix([mp.cos(k["beta_x"]), 0, mp.sin(k["beta_x"])])
+        * (mp.mpf(k["radius"]) + mp.mpf(k["dR"]))
+    )
     on_disc = about(2, angle(NOW)).T * force(arm, NOW)
     tau_x = at * mp.matrix([0, 1, 0])
     tau_y = at * mp.matrix([mp.cos(k["beta_x"]), 0, -mp.sin(k["beta_x"])])  # the triad dips (Eq. 19)
