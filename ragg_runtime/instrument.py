@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.model_form import PAPER, Form, read_form
 from ragg_runtime.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Parameter, Vector
 from ragg_runtime.units import RawQuantity, Units, read_quantity, units
 
@@ -74,6 +75,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    form: Form = PAPER
 
     @classmethod
     def build(
@@ -85,6 +87,7 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
+        form: Form = PAPER,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
         _check_names(accelerometers, PARAMETER, "accelerometers")
@@ -97,7 +100,7 @@ class Instrument:
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
         made = cls(
-            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
+            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder, form
         )
         _check_physical(made)
         return made
@@ -170,7 +173,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
+    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder", "model"), None, path)
     disc = _disc(_table(table, "disc", path), path)
     return Instrument.build(
         radius=disc["radius"],
@@ -180,6 +183,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         effects=_effects(table.get("effects", []), disc["g0"], path),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
+        form=read_form(table.get("model"), path),
     )
 
 
