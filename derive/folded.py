@@ -18,7 +18,8 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
-from derive.chain import RECORDED_SPIN, accelerometer, auxiliary_channel, recorded_motion
+from derive.chain import accelerometer, auxiliary_channel, recorded_motion
+from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
 from derive.stages import PAPER, Kinematics, Order

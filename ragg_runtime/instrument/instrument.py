@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, units
-from ragg_runtime.model_form import PAPER, Form
 
 
 @dataclass(frozen=True)
