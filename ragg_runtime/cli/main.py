@@ -136,6 +136,8 @@ def new(model_dir: Path, source: Path | None) -> None:
     from ragg_runtime.workflow import loop
 
     m = loop.new(model_dir, source)
+    for note in m.notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
     click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
 
@@ -158,9 +160,12 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
 @_json
 @_report
-def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def compare(
+    model_dir: Path, flights: Sequence[Path], ladder: bool, json_file: str | None, report_file: str | None
+) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
@@ -170,7 +175,7 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     read = loop.read_flights(m, flights)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
-        c = loop.compare(m, read)
+        c = loop.compare(m, read, ladder=ladder)
 
     def page() -> str:
         from ragg_runtime.report import compare_html
