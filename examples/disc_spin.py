@@ -176,7 +176,8 @@ def numbers() -> str:
         added = (e - paper[name]).expand()
         if added != 0:
             text = to_latex(added).replace("d_{2 spin angle}", r"\ddot\phi")
-            rows.append([f"${to_latex(symbol(name))}$", f"${text.replace('d_{spin angle}', r'{\dot\phi}')}$"])
+            text = text.replace("d_{spin angle}", r"{\dot\phi}")
+            rows.append([f"${to_latex(symbol(name))}$", f"${text}$"])
     return table(["number", "gains"], rows)
 
 
