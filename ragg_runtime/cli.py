@@ -17,6 +17,7 @@ import click
 
 from ragg_runtime import progress
 from ragg_runtime.errors import UserError, printable
+from ragg_runtime.file_commands import convert, map_command, mapping_option
 from ragg_runtime.memory import reuse_memory
 
 if TYPE_CHECKING:
@@ -127,11 +128,12 @@ def derive(out: Path | None, check: bool) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
-def new(model_dir: Path, source: Path | None) -> None:
+@mapping_option
+def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
     from ragg_runtime import workflow
 
-    m = workflow.new(model_dir, source)
+    m = workflow.new(model_dir, source, mapping)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
     click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
 
@@ -173,15 +175,22 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@mapping_option
 @_json
 @_report
-def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def compare(
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime import texts, workflow
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow.read_flights(m, flights)
+    read = workflow.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
         c = workflow.compare(m, read)
@@ -208,11 +217,13 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     metavar="WHAT=SIZE",
     help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
 )
+@mapping_option
 @_json
 @_report
 def diagnose(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     limits: Sequence[str],
     json_file: str | None,
     report_file: str | None,
@@ -222,7 +233,7 @@ def diagnose(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow.read_flights(m, flights)
+    read = workflow.read_flights(m, flights, mapping)
     _progress("calibrating, then testing every effect of the catalogue")
     allowed = workflow.motion_limits(m, limits)
     with progress.shown("diagnose", sum(map(len, read))):
@@ -251,11 +262,13 @@ def diagnose(
     metavar="FILE",
     help="Results file: continue what stands in it, add what is done.",
 )
+@mapping_option
 @_json
 @_report
 def survey(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     jobs: int | None,
     scheduler: str | None,
     resume: Path | None,
@@ -269,7 +282,9 @@ def survey(
 
     m = _load(model_dir)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = workflow.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
+        s = workflow.survey(
+            m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show, mapping=mapping
+        )
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*workflow.sources(m, []), *read]
@@ -290,10 +305,16 @@ def survey(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("effect")
 @click.argument("flights", type=DIRECTORY, nargs=-1)
+@mapping_option
 @_json
 @_report
 def add(
-    model_dir: Path, effect: str, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    model_dir: Path,
+    effect: str,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime import texts, workflow
@@ -302,7 +323,7 @@ def add(
     if report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow.read_flights(m, flights)
+    read = workflow.read_flights(m, flights, mapping)
     _progress(f"deriving the model with {effect}, calibrating")
     with progress.shown("add", sum(map(len, read))):
         result = workflow.add(m, effect, read)
@@ -460,6 +481,10 @@ def demo(output: Path) -> None:
     from ragg_runtime import demo as _demo
 
     _demo.main(output, command=_command())
+
+
+cli.add_command(convert)
+cli.add_command(map_command)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

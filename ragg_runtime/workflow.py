@@ -25,11 +25,20 @@ from ragg_runtime import display, extend
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.errors import UserError, at
-from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
-from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
+from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument, read_text
 from ragg_runtime.load import Model
-from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir import (
+    MAPPING,
+    ModelDir,
+    Step,
+    create_model_dir,
+    load_model_dir,
+    replace_model_dir,
+)
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.next_motion import LIMITS
 from ragg_runtime.plausibility import check_settings, examined
@@ -98,8 +107,15 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
     }
 
 
-def new(path: Path | str, source: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
+
+    ``mapping`` is kept with the model: what the columns of its flight files are.
+    """
+    kept = None
+    if mapping is not None:
+        kept = read_text(Path(mapping))
+        parse_mapping(kept, Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -113,7 +129,8 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    return _loaded(create_model_dir(path, text, generated=extend.files_of(instrument), history=history))
+    made = create_model_dir(path, text, generated=extend.files_of(instrument), history=history, mapping=kept)
+    return _loaded(made)
 
 
 def load(path: Path | str) -> Loaded:
@@ -130,9 +147,26 @@ def _loaded(directory: ModelDir) -> Loaded:
     return Loaded(directory, model, () if note is None else (note,))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+
+    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
+    default the model's own ``mapping.toml``, if it has one.
+    """
+    how = mapping_of(m, mapping)
+    found = []
+    for path in paths:
+        for x in _read_flights(path, m.instrument.g0, mapping=how):
+            found.append(settled(examined(m.model, m.instrument, x)))
+    return found
+
+
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.path / MAPPING
+    return replace(read_mapping(own), kept=True) if own.exists() else None
 
 
 def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
@@ -179,14 +213,23 @@ def survey(
     scheduler: str | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
     """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
 
     The arguments are those of :func:`ragg_runtime.survey.run.survey`.
     """
     place = m.directory.path / "model.toml"
+    how = mapping_of(m, mapping)
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        resume=resume,
+        progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
     )
 
 

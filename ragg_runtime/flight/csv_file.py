@@ -120,7 +120,9 @@ def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
     if not any(h.unit for h in found) and first and _of_units(first[0], len(found)):
         found = [replace(h, unit=u.strip()) for h, u in zip(found, first.pop(0), strict=True)]
         below = 1
-    headings = [replace(h, text=look.allows_text(h.name) and _text(h.name, n, first)) for n, h in enumerate(found)]
+    headings = [
+        replace(h, text=look.allows_text(h.name) and _text(h.name, n, first)) for n, h in enumerate(found)
+    ]
     return _Layout(path, compressed, delimiter, skipped + 1 + below, distinct(path, headings))
 
 

@@ -18,7 +18,17 @@ from numpy.typing import NDArray
 
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight.one_table import line_name
-from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading, is_unit
+from ragg_runtime.flight.source import (
+    Heading,
+    Look,
+    RawBatch,
+    Table,
+    Written,
+    chosen,
+    distinct,
+    heading,
+    is_unit,
+)
 
 NAME = "Excel"
 ENDINGS = (".xlsx", ".xlsm")
@@ -32,7 +42,16 @@ MOST_ROWS = (1 << 20) - 1
 
 _SNIFFED = 50
 _AT_ONCE = 16384
-_DAMAGED = (zipfile.BadZipFile, KeyError, ValueError, TypeError, AttributeError, IndexError, OSError, EOFError)
+_DAMAGED = (
+    zipfile.BadZipFile,
+    KeyError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    IndexError,
+    OSError,
+    EOFError,
+)
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
 
 
@@ -119,7 +138,11 @@ def _undated(path: Path) -> None:
             for name in old.namelist():
                 with old.open(name) as source, new.open(zipfile.ZipInfo(name), "w") as target:
                     if name == "docProps/core.xml":
-                        target.write(re.sub(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", b"2000-01-01T00:00:00Z", source.read()))
+                        target.write(
+                            re.sub(
+                                rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ", b"2000-01-01T00:00:00Z", source.read()
+                            )
+                        )
                     else:
                         shutil.copyfileobj(source, target, 1 << 20)
         shutil.copyfile(plain, path)
@@ -218,14 +241,7 @@ def _sheet(sheet: Any, path: Path, look: Look) -> _Sheet | None:
             found="text",
             expected="numbers",
         )
-    return _Sheet(sheet.title, _line(sheet.title), first, names, kept)
-
-
-def _line(title: str) -> str:
-    try:
-        return line_name(float(title))
-    except ValueError:
-        return title
+    return _Sheet(sheet.title, sheet.title, first, names, kept)
 
 
 def _of_units(row: Sequence[Any], count: int) -> bool:
@@ -255,7 +271,11 @@ def _batches(path: Path, sheet: _Sheet) -> Iterator[RawBatch]:
 
 
 def _batch(
-    rows: Sequence[tuple[Any, ...]], places: Sequence[tuple[int, Heading]], path: Path, sheet: _Sheet, first: int
+    rows: Sequence[tuple[Any, ...]],
+    places: Sequence[tuple[int, Heading]],
+    path: Path,
+    sheet: _Sheet,
+    first: int,
 ) -> RawBatch:
     found: dict[str, NDArray[Any]] = {}
     for place, h in places:
@@ -271,7 +291,9 @@ def _batch(
                     found=repr(c)[:60],
                     expected="a number, or nothing where it is missing",
                 )
-        found[h.name] = np.array([c if isinstance(c, int | float) else np.nan for c in cells], dtype=np.float64)
+        found[h.name] = np.array(
+            [c if isinstance(c, int | float) else np.nan for c in cells], dtype=np.float64
+        )
     return found
 
 

@@ -38,7 +38,12 @@ _HALO = WINDOW
 
 
 def read_flight(
-    path: Path | str, g0: float, *, need_output: bool = True, mapping: Mapped | None = None
+    path: Path | str,
+    g0: float,
+    *,
+    need_output: bool = True,
+    mapping: Mapped | None = None,
+    line: str | None = None,
 ) -> Flight:
     """The flight in a file (see :mod:`ragg_runtime.flight.formats`), in SI.
 
@@ -56,6 +61,8 @@ def read_flight(
         False lets a file of motion alone pass.
     mapping
         What the columns are, where the file has names and units of its own.
+    line
+        Which line is meant, where the file has several.
 
     Raises
     ------
@@ -63,7 +70,10 @@ def read_flight(
         If the file cannot be read as one uniformly sampled flight: what is wrong, where, and what to do.
     """
     path = Path(path)
-    return _flight(_single(open_sources(path, mapping), path), g0, need_output, False)
+    sources = open_sources(path, mapping)
+    if line is not None:
+        sources = [s for s in sources if s.line == line] or sources
+    return _flight(_single(sources, path), g0, need_output, line is not None)
 
 
 def read_flights(

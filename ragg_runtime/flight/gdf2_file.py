@@ -71,10 +71,14 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
             widths[c.name] = max(widths[c.name], *map(len, texts))
             if c.unit or c.name != "line":
                 exponents |= {c.name} if any("e" in t for t in texts) else set()
-                decimals[c.name] = max(decimals[c.name], *(len(t.split("e")[0].partition(".")[2]) for t in texts))
+                decimals[c.name] = max(
+                    decimals[c.name], *(len(t.split("e")[0].partition(".")[2]) for t in texts)
+                )
     with path.with_suffix(".dat").open("w", encoding="utf-8", newline="\n") as stream:
         for part in rows(_AT_ONCE):
-            padded = [[t.rjust(widths[c.name] + 1) for t in x] for c, x in zip(columns, cells(part), strict=True)]
+            padded = [
+                [t.rjust(widths[c.name] + 1) for t in x] for c, x in zip(columns, cells(part), strict=True)
+            ]
             stream.writelines("".join(row) + "\n" for row in zip(*padded, strict=True))
     lines = ["DEFN   ST=RECD,RT=COMM;RT:A4;COMMENTS:A76"]
     for n, c in enumerate(columns, 1):
@@ -82,7 +86,9 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
         size = f"{widths[c.name] + 1}" + ("" if kind == "A" else f".{decimals[c.name]}")
         null = nulls[c.name]
         told = [f"UNIT={_bare(c.unit)}"] * bool(c.unit) + [f"NULL={null}"] * bool(null)
-        lines.append(f"DEFN {n} ST=RECD,RT=;{_bare(c.name)}:{kind}{size}" + (":" + ",".join(told) if told else ""))
+        lines.append(
+            f"DEFN {n} ST=RECD,RT=;{_bare(c.name)}:{kind}{size}" + (":" + ",".join(told) if told else "")
+        )
     lines.append(f"DEFN {len(columns) + 1} ST=RECD,RT=;END DEFN")
     path.with_suffix(".dfn").write_text("\n".join(lines) + "\n", "utf-8")
 
@@ -151,7 +157,8 @@ def _fields(text: str, path: Path) -> tuple[list[_Field], str]:
         raise UserError(
             "the definition names no data",
             where=path,
-            found=", ".join(f"record type {k or '(none)'}" for k in records) or "no line that begins with DEFN",
+            found=", ".join(f"record type {k or '(none)'}" for k in records)
+            or "no line that begins with DEFN",
             expected="lines such as: DEFN 1 ST=RECD,RT=;EASTING:F12.2:UNIT=m",
         )
     return found, "DATA" if found[0].name.upper() == "RT" else ""
@@ -202,7 +209,9 @@ def _batches(path: Path, fields: Sequence[_Field], wanted: Sequence[_Field], kin
             for f in wanted:
                 cells = np.ascontiguousarray(table[:, f.start : f.stop]).view(f"S{f.stop - f.start}").ravel()
                 if f.text:
-                    found[f.name] = np.array([c.decode("utf-8", "replace").strip() for c in cells], dtype=object)
+                    found[f.name] = np.array(
+                        [c.decode("utf-8", "replace").strip() for c in cells], dtype=object
+                    )
                     continue
                 found[f.name] = _numbers(cells, f, path, before)
             before += len(lines)

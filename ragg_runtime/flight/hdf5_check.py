@@ -37,7 +37,9 @@ def refuse_foreign(file: h5py.File, path: Path) -> None:
                 raise UserError(
                     "the HDF5 file is no record",
                     where=path,
-                    found=f"more than {MOST_OBJECTS} objects" if count > MOST_OBJECTS else f"{inside[:80]} ...",
+                    found=f"more than {MOST_OBJECTS} objects"
+                    if count > MOST_OBJECTS
+                    else f"{inside[:80]} ...",
                     expected=f"at most {MOST_OBJECTS} groups and datasets, {DEEPEST} groups deep",
                 )
             link = group.get(name, getlink=True)

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.errors import UserError
 from ragg_runtime.flight.hdf5_check import refuse_foreign
-from ragg_runtime.flight.one_table import line_name
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
 
@@ -138,7 +137,7 @@ def _group(
             columns.append((Heading(h.name, unit(data).split(" since ")[0] or h.unit, text), p))
     distinct(path, [h for h, _ in columns])
     name = _text(group.attrs.get("line")) or place.rsplit("/", 1)[-1]
-    return Group(place=place, line=_number_name(name), length=length, columns=tuple(columns))
+    return Group(place=place, line=name, length=length, columns=tuple(columns))
 
 
 def _is_column(data: h5py.Dataset, look: Look) -> bool:
@@ -180,13 +179,6 @@ def _text(value: object) -> str:
     if isinstance(value, bytes):
         value = value.decode("utf-8", "replace")
     return value.strip("\0 \t\r\n") if isinstance(value, str) else ""
-
-
-def _number_name(name: str) -> str:
-    try:
-        return line_name(float(name))
-    except ValueError:
-        return name
 
 
 def _plain(name: str, number: int) -> str:

@@ -74,8 +74,8 @@ def _clock(values: NDArray[Any], where: str) -> Nanoseconds:
                 raise _unreadable(where, text, "hh:mm:ss, such as 13:28:50.4")
             found[n] = _NONE
             continue
-        second = round(float((match[3] or "0").replace(",", ".")) * 1e9)
-        found[n] = (int(match[1]) * 3600 + int(match[2]) * 60) * 10**9 + second
+        fraction = float((match[3] or "0").replace(",", "."))
+        found[n] = (int(match[1]) * 3600 + int(match[2]) * 60) * 10**9 + round(fraction * 1e9)
     return found
 
 
@@ -99,13 +99,17 @@ def _date(values: NDArray[Any], where: str) -> Nanoseconds:
 def _gps(week: NDArray[Any], second: NDArray[Any], where: str) -> Nanoseconds:
     """Nanoseconds since 1970, in GPS time."""
     if week.dtype.kind != "f" or second.dtype.kind != "f":
-        raise _unreadable(where, week[0] if week.dtype.kind != "f" else second[0], "a week and seconds, as numbers")
+        raise _unreadable(
+            where, week[0] if week.dtype.kind != "f" else second[0], "a week and seconds, as numbers"
+        )
     there = np.isfinite(week) & np.isfinite(second)
     w, s = np.where(there, week, 0.0), np.where(there, second, 0.0)
     wrong = (np.abs(w - np.rint(w)) > 0) | (w < 0) | (w > 9999) | (s < 0) | (s > 604800 + 1)
     if wrong.any():
         raise _unreadable(
-            where, f"week {w[wrong][0]:g}, {s[wrong][0]:g} s", "a whole week, and seconds from 0 to 604800 in it"
+            where,
+            f"week {w[wrong][0]:g}, {s[wrong][0]:g} s",
+            "a whole week, and seconds from 0 to 604800 in it",
         )
     epoch = int(GPS_EPOCH.timestamp()) * 10**9
     total = epoch + w.astype(np.int64) * 7 * _DAY + np.rint(s * 1e9).astype(np.int64)

@@ -1,28 +1,28 @@
 """``mapping.toml``: which column of a foreign file is what, in which unit, sign, axis and clock. Plain data.
 
-    [file]
-    line = "LINE"                   # column that tells flight lines apart
-    lines = ["1010", "1020"]        # only these
-    part = "flight/imu"             # group (HDF5), structure (MATLAB) or sheet (Excel)
+[file]
+line = "LINE"                   # column that tells flight lines apart
+lines = ["1010", "1020"]        # only these
+part = "flight/imu"             # group (HDF5), structure (MATLAB) or sheet (Excel)
 
-    [time]
-    column = "UTC"                  # or two: ["DATE", "CLOCK"], ["WEEK", "SECOND"]
-    format = "seconds"              # or "iso", "clock", "date clock", "gps"
-    unit = "s"                      # of "seconds"
-    origin = 2026-03-01T00:00:00Z   # of "seconds": when they were 0, if that is known
+[time]
+column = "UTC"                  # or two: ["DATE", "CLOCK"], ["WEEK", "SECOND"]
+format = "seconds"              # or "iso", "clock", "date clock", "gps"
+unit = "s"                      # of "seconds"
+origin = 2026-03-01T00:00:00Z   # of "seconds": when they were 0, if that is known
 
-    [columns]
-    a_x = { column = "ACC1", unit = "g", sign = -1, scale = 1.0, offset = 0.0 }
+[columns]
+a_x = { column = "ACC1", unit = "g", sign = -1, scale = 1.0, offset = 0.0 }
 
-    [axes]                          # the measurement frame's axes among the recorder's; a rotation
-    x = "y"
-    y = "x"
-    z = "-z"
+[axes]                          # the measurement frame's axes among the recorder's; a rotation
+x = "y"
+y = "x"
+z = "-z"
 
-    [demodulator]                   # how inline and cross were made
-    kind = "butterworth"
-    cutoff = "0.18 Hz"
-    order = 6
+[demodulator]                   # how inline and cross were made
+kind = "butterworth"
+cutoff = "0.18 Hz"
+order = 6
 """
 
 from __future__ import annotations
@@ -80,7 +80,8 @@ class Mapped:
     """A mapping as it was read; see the module's text for the file.
 
     ``axes`` has, for x, y and z of the measurement frame, the recorder's axis (0, 1, 2) and its sign;
-    ``demodulator`` what is known of it, as written; ``digest`` the SHA-256 of the text.
+    ``demodulator`` what is known of it, as written; ``digest`` the SHA-256 of the text. ``kept``: it is the
+    model's own, and does not apply to files that have none of its columns (a simulated flight, say).
     """
 
     path: Path
@@ -92,6 +93,7 @@ class Mapped:
     part: str | None = None
     demodulator: Mapping[str, str] | None = None
     digest: str = ""
+    kept: bool = False
 
     @property
     def columns(self) -> frozenset[str]:
@@ -110,7 +112,9 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     try:
         data = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise UserError("not valid TOML", where=path, found=str(error) or "tables nested too deeply") from None
+        raise UserError(
+            "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
+        ) from None
     for key, value in data.items():
         if key not in _TABLES:
             raise _unknown(at(path), key, _TABLES)
@@ -120,13 +124,22 @@ def parse_mapping(text: str, path: Path) -> Mapped:
             _check_keys(value, _KEYS[key], at(path, f"[{key}]"))
     file = data.get("file", {})
     lines = file.get("lines")
-    if lines is not None and not (isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines)):
-        raise UserError("lines is not a list of names", where=at(path, "[file]"), found=repr(lines)[:60], expected='["1010", "1020"]')
+    if lines is not None and not (
+        isinstance(lines, list) and lines and all(isinstance(x, str) for x in lines)
+    ):
+        raise UserError(
+            "lines is not a list of names",
+            where=at(path, "[file]"),
+            found=repr(lines)[:60],
+            expected='["1010", "1020"]',
+        )
     channels = {n: _entry(n, v, at(path, f"[columns] {n}")) for n, v in data.get("columns", {}).items()}
     if "time" not in data:
         raise UserError("[time] is missing", where=path, expected='[time] column = "...", unit = "s"')
     if "time" in channels:
-        raise UserError("time has a table of its own", where=at(path, "[columns]"), expected='[time] column = "..."')
+        raise UserError(
+            "time has a table of its own", where=at(path, "[columns]"), expected='[time] column = "..."'
+        )
     return Mapped(
         path=path,
         time=_time(data["time"], at(path, "[time]")),
@@ -153,7 +166,9 @@ def _entry(name: str, raw: Any, where: str) -> Entry:
     _check_keys(raw, _KEYS["columns"], where)
     sign = _number(raw.get("sign", 1), "sign", where)
     if sign not in (1.0, -1.0):
-        raise UserError("sign is 1 or -1", where=where, found=raw["sign"], remedy="for other factors there is scale")
+        raise UserError(
+            "sign is 1 or -1", where=where, found=raw["sign"], remedy="for other factors there is scale"
+        )
     scale = _number(raw.get("scale", 1), "scale", where)
     if scale == 0.0:
         raise UserError("a scale of zero leaves nothing", where=where)
@@ -187,7 +202,9 @@ def _time(raw: Mapping[str, Any], where: str) -> Time:
         )
     origin = raw.get("origin")
     if origin is not None and not isinstance(origin, datetime):
-        raise UserError("origin is not an instant", where=where, found=repr(origin)[:60], expected="2026-03-01T00:00:00Z")
+        raise UserError(
+            "origin is not an instant", where=where, found=repr(origin)[:60], expected="2026-03-01T00:00:00Z"
+        )
     if origin is not None and origin.tzinfo is None:
         origin = origin.replace(tzinfo=UTC)
     if origin is not None and written != "seconds":
@@ -202,7 +219,9 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
         text = str(raw.get(axis, axis)).strip().lstrip("+")
         bare = text.lstrip("-")
         if bare not in ("x", "y", "z") or len(text) > 2:
-            raise UserError("not an axis", where=at(where, axis), found=repr(raw.get(axis))[:40], expected='"x", "-y" ...')
+            raise UserError(
+                "not an axis", where=at(where, axis), found=repr(raw.get(axis))[:40], expected='"x", "-y" ...'
+            )
         found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
     order = [k for k, _ in found]
     if len(set(order)) < 3:
@@ -246,13 +265,22 @@ def _unit(raw: Any, where: str) -> str:
 
 
 def _word(raw: Any, key: str, where: str) -> str | None:
-    if raw is not None and (not isinstance(raw, str) or raw.strip() in ("", UNKNOWN) and key != "unit"):
-        raise UserError(f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text", where=where, found=repr(raw)[:60])
+    if raw is not None and (not isinstance(raw, str) or (raw.strip() in ("", UNKNOWN) and key != "unit")):
+        raise UserError(
+            f"{key} is not answered" if raw == UNKNOWN else f"{key} is not a text",
+            where=where,
+            found=repr(raw)[:60],
+        )
     return raw
 
 
 def _number(raw: Any, key: str, where: str) -> float:
-    if isinstance(raw, bool) or not isinstance(raw, int | float) or not math.isfinite(raw) or abs(raw) > 1e100:
+    if (
+        isinstance(raw, bool)
+        or not isinstance(raw, int | float)
+        or not math.isfinite(raw)
+        or abs(raw) > 1e100
+    ):
         raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
     return float(raw)
 

@@ -29,7 +29,9 @@ def _write(group: h5py.Group, variables: Mapping[str, Any]) -> None:
             inside.attrs["MATLAB_class"] = np.bytes_("struct")
             _write(inside, value)
         elif isinstance(value, str):
-            data = group.create_dataset(name, data=np.frombuffer(value.encode("utf-16-le"), np.uint16)[:, None])
+            data = group.create_dataset(
+                name, data=np.frombuffer(value.encode("utf-16-le"), np.uint16)[:, None]
+            )
             data.attrs["MATLAB_class"] = np.bytes_("char")
             data.attrs["MATLAB_int_decode"] = np.int32(2)
         else:

@@ -54,22 +54,26 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as vectors; several lines as structures; 7.3 where 5 has no room."""
     from scipy.io import savemat  # slow to import, and only this format needs it
 
-    whole = {}
+    whole: dict[str, Any] = {}
     for number, table in enumerate(tables):
         names = _names([c.name for c, _ in table.columns])
-        inside: dict[str, Any] = {n: np.asarray(v)[:, None] for n, (_, v) in zip(names, table.columns, strict=True)}
+        inside: dict[str, Any] = {
+            n: np.asarray(v)[:, None] for n, (_, v) in zip(names, table.columns, strict=True)
+        }
         inside["units"] = {n: c.unit for n, (c, _) in zip(names, table.columns, strict=True) if c.unit}
         inside["names"] = {n: c.name for n, (c, _) in zip(names, table.columns, strict=True) if c.name != n}
         inside = {n: v for n, v in inside.items() if not isinstance(v, dict) or v}
         if table.line is None:
             whole |= inside
         else:
-            whole[_names([f"line_{table.line}"])[0] if table.line else f"line_{number}"] = inside | {"line": table.line}
+            whole[_names([f"line_{table.line}"])[0] if table.line else f"line_{number}"] = inside | {
+                "line": table.line
+            }
     if sum(v.nbytes for t in tables for _, v in t.columns) > _LARGE:
         write_73(path, whole)
         return
     with path.open("wb") as stream:  # given a name, SciPy would append an ending
-        savemat(stream, whole, long_field_names=True, do_compression=True)
+        savemat(stream, whole, long_field_names=True, do_compression=True)  # type: ignore[arg-type]
         stream.seek(0)
         stream.write(b"MATLAB 5.0 MAT-file".ljust(116))  # SciPy writes the date there
 
@@ -217,7 +221,9 @@ def _unit_73(data: h5py.Dataset) -> str:
     name = data.name.rsplit("/", 1)[-1]
     text = units.get(name) if isinstance(units, h5py.Group) else None
     if isinstance(text, h5py.Dataset) and text.dtype.kind in "ui" and 0 < text.size <= 200:
-        return "".join(chr(int(c)) for c in np.asarray(text[()]).ravel(order="F") if 0 < int(c) < 0x110000).strip()
+        return "".join(
+            chr(int(c)) for c in np.asarray(text[()]).ravel(order="F") if 0 < int(c) < 0x110000
+        ).strip()
     return hdf5_file.unit_of(data)
 
 

@@ -48,7 +48,9 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
     distinct(path, headings)
     headings = [Heading("line", text=True) if h.name == "line" and lines else h for h in headings]
     return (
-        Table(path, tuple(headings), lambda: _batches(path, names, headings, str(dimensions[0]), length, lines)),
+        Table(
+            path, tuple(headings), lambda: _batches(path, names, headings, str(dimensions[0]), length, lines)
+        ),
     )
 
 

@@ -59,7 +59,7 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
         given = kept.get(field.name, "") if unit is None else unit.decode("utf-8", "replace").strip()
         found = heading(field.name, path, number)
         text = _is_text(field.type)
-        found = Heading(found.name, given or found.unit, text)
+        found = Heading(found.name, given or found.unit, bool(text))
         if not look.wants(found.name):
             continue
         if text is None or (text and not look.allows_text(found.name)):

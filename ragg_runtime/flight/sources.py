@@ -40,21 +40,32 @@ def open_sources(path: Path, mapping: Mapped | None = None, *, lenient: bool = F
     Without a mapping the columns stand under the names of the contract, each with its unit. ``lenient`` lets
     columns without a unit pass and leaves out those that are no numbers, for a copy in another format.
     """
+    if mapping is not None and mapping.kept and not _applies(path, mapping):
+        mapping = None
     if mapping is None:
         look = Look(text=lenient)
         tables = _lines(open_file(path, look), None)
         sources = _plain(tables, lenient)
     else:
         look = Look(only=mapping.columns, text=True, part=mapping.part)
-        tables = open_file(path, look)
-        _check_names(tables[0], mapping)
-        tables = _lines(tables, mapping.line)
+        found = open_file(path, look)
+        _check_names(found[0], mapping)
+        tables = _lines(found, mapping.line)
         if mapping.lines is not None:
             tables = _chosen(tables, mapping.lines, path)
         sources = _mapped(tables, mapping)
     if not sources:
         raise UserError("the file holds no rows", where=path)
     return sources
+
+
+def _applies(path: Path, mapping: Mapped) -> bool:
+    """Whether a file has any column that the mapping gives another name."""
+    renamed = {e.column for n, e in mapping.channels.items() if e.column != n}
+    renamed |= {n for n in mapping.time.columns if n != "time"}
+    if not renamed:
+        return True
+    return any(h.name in renamed for t in open_file(path, Look(text=True)) for h in t.headings)
 
 
 def _lines(tables: Sequence[Table], column: str | None) -> list[Table]:
@@ -93,7 +104,9 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
         columns = tuple(Column(h.name, h.unit) for h in kept) if lenient else columns_of(table.path, kept)
         notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
         batches = partial(_plain_batches, table, columns, way, origin)
-        found.append(Source(table.path, columns, batches, table.line, origin if way and way.dated else None, notes))
+        found.append(
+            Source(table.path, columns, batches, table.line, origin if way and way.dated else None, notes)
+        )
     return found
 
 
@@ -151,17 +164,17 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
             raise UserError(
                 "time is text, not seconds",
                 where=at(table.path, f"column {time.columns[0]!r}"),
-                remedy=f"say in {mapping.path} how it is written: [time] format = " + ", ".join(map(repr, WAYS)),
+                remedy=f"say in {mapping.path} how it is written: [time] format = "
+                + ", ".join(map(repr, WAYS)),
             )
         if way is not None:
             _, origin = _looked(table, time.columns, way, origin)
         headings = [Heading("time", "s" if way else time.unit or units[time.columns[0]])]
         headings += [Heading(n, e.unit or units[e.column]) for n, e in mapping.channels.items()]
-        columns = columns_of(table.path, headings)
-        columns, rotation = _rotated(columns, mapping)
+        columns, rotation = _rotated(columns_of(table.path, headings), mapping)
         batches = partial(_mapped_batches, table, mapping, origin, rotation)
         dated = way is None or way.dated
-        notes = (f"read by {mapping.path.name}",)
+        notes: tuple[str, ...] = (f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})",)
         if mapping.demodulator is not None:
             notes += ("demodulated: " + ", ".join(f"{k} {v}" for k, v in mapping.demodulator.items()),)
         found.append(Source(table.path, columns, batches, table.line, origin if dated else None, notes))

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight.csv_file import LONGEST_LINE
 from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
-from ragg_runtime.flight.one_table import line_name, union
+from ragg_runtime.flight.one_table import union
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading
 
 NAME = "Geosoft XYZ"
@@ -55,13 +55,17 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
         )
     columns = _columns(path, comments, rows)
     there = {what for x in lines for what, _ in x.told}
-    told = [Heading(f"//{what.capitalize()}", text=what == "date") for what in ("flight", "date") if what in there]
+    told = [
+        Heading(f"//{what.capitalize()}", text=what == "date") for what in ("flight", "date") if what in there
+    ]
     asked = [h for h in told if look.only is not None and h.name in look.only] if not look.text else told
     wanted = tuple(h for h in (*columns, *asked) if look.wants(h.name))
     wrong = next((h for h in wanted if h.text and not look.allows_text(h.name)), None)
     if wrong is not None:
         text = next(r.split()[columns.index(wrong)] for r in rows)
-        raise UserError("not a number", where=at(path, f"column {wrong.name!r}"), found=repr(text), expected="numbers")
+        raise UserError(
+            "not a number", where=at(path, f"column {wrong.name!r}"), found=repr(text), expected="numbers"
+        )
     names = _distinct_names(lines)
     return [
         Table(path, wanted, lambda x=x: _batches(path, x, columns, wanted), name)  # type: ignore[misc]
@@ -93,7 +97,9 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
             for start in range(0, count, _AT_ONCE):
                 part = slice(start, min(start + _AT_ONCE, count))
                 cells = [
-                    shortest(np.asarray(values[c.name][part]), "*") if c.name in values else ["*"] * (part.stop - start)
+                    shortest(np.asarray(values[c.name][part]), "*")
+                    if c.name in values
+                    else ["*"] * (part.stop - start)
                     for c in columns
                 ]
                 stream.writelines(" ".join(row) + "\n" for row in zip(*cells, strict=True))
@@ -110,7 +116,9 @@ def _scanned(path: Path) -> tuple[list[_Line], list[str], list[str]]:
         place = 0
         while raw := stream.readline(LONGEST_LINE):
             if len(raw) == LONGEST_LINE:
-                raise UserError("the file is not a Geosoft XYZ file", where=path, found="a line of a million characters")
+                raise UserError(
+                    "the file is not a Geosoft XYZ file", where=path, found="a line of a million characters"
+                )
             head = raw[:1]
             if head == b"/" or not (raw[:12].strip()[:1].isdigit() or raw[:12].strip()[:1] in b"-+.*"):
                 text = raw.decode("utf-8", "replace")
@@ -141,11 +149,7 @@ def _scanned(path: Path) -> tuple[list[_Line], list[str], list[str]]:
 
 def _name(kind: str, text: str) -> str:
     letter = _TYPES[kind.lower()]
-    try:
-        plain = line_name(float(text))
-    except ValueError:
-        plain = text
-    return plain if plain.upper().startswith(letter) else letter + plain
+    return text if text.upper().startswith(letter) else letter + text
 
 
 def _distinct_names(lines: Sequence[_Line]) -> list[str | None]:

@@ -14,7 +14,7 @@ import socket
 import threading
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from importlib import metadata
 from pathlib import Path
@@ -37,6 +37,8 @@ from ragg_runtime.diagnose import (
 from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import vector
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.mapping import Mapped, parse_mapping
+from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument import Instrument, parse_instrument
 from ragg_runtime.load import Model
 from ragg_runtime.metrics import finite
@@ -50,6 +52,9 @@ Record = dict[str, Any]
 
 RANKED = 5
 """Effects of the ranking that are kept."""
+
+BETWEEN = "::"
+"""Between the file and the line of a flight."""
 
 SEEN = 0.1
 """A parameter counts as seen if its standard deviation is below this share of its prior's."""
@@ -67,16 +72,25 @@ class Job:
         :func:`fingerprint` of the program that asks: one that differs would give other figures.
     cluster
         Whether the flight is looked at on another machine.
+    mapping
+        Text and place of the mapping by which flights are read, and whether it is the model's own.
     """
 
     text: str
     path: str
     program: tuple[tuple[str, str], ...]
     cluster: bool = False
+    mapping: tuple[str, str, bool] | None = None
+
+    def mapped(self) -> Mapped | None:
+        if self.mapping is None:
+            return None
+        text, path, kept = self.mapping
+        return replace(parse_mapping(text, Path(path)), kept=kept)
 
 
-def job(text: str, path: Path, *, cluster: bool = False) -> Job:
-    return Job(text, str(path.resolve()), fingerprint(), cluster)
+def job(text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None) -> Job:
+    return Job(text, str(path.resolve()), fingerprint(), cluster, mapping)
 
 
 @cache
@@ -103,8 +117,8 @@ def examine(given: Job, file: str) -> Record:
 
     Raises MemoryError and OSError, which a further attempt may mend.
     """
-    path = Path(file)
-    record: Record = {"flight": path.name, "file": file}
+    path, line = divided(file)
+    record: Record = {"flight": Path(file).name, "file": file}
     try:
         _same_program(given)
         if given.cluster and not path.exists():
@@ -117,7 +131,8 @@ def examine(given: Job, file: str) -> Record:
             )
         with _one_thread(), alone():
             instrument, model = _model(given.text, given.path)
-            flight = examined(model, instrument, read_flight(path, instrument.g0))
+            read = read_flight(path, instrument.g0, mapping=given.mapped(), line=line)
+            flight = examined(model, instrument, read)
             return record | _figures(model, instrument, flight)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
@@ -125,6 +140,26 @@ def examine(given: Job, file: str) -> Record:
         raise
     except Exception as error:
         return record | {"error": {"kind": "fault", "message": _fault(error)}}
+
+
+def expanded(given: Job, files: Sequence[str]) -> list[str]:
+    """The files, and for those with several lines ``file::line`` for each; what cannot be read stays as it is."""
+    found = []
+    for file in files:
+        try:
+            names = [s.line for s in open_sources(Path(file), given.mapped())]
+        except (UserError, OSError):
+            names = [None]
+        found += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]
+    return found
+
+
+def divided(file: str) -> tuple[Path, str | None]:
+    """The path and the line of ``file::line``; a file of that very name comes first."""
+    path, between, line = file.rpartition(BETWEEN)
+    if not between or Path(file).exists():
+        return Path(file), None
+    return Path(path), line
 
 
 def _same_program(given: Job) -> None:

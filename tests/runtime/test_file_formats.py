@@ -52,7 +52,9 @@ def same(left: dict, right: dict, *, ordered: bool = True) -> None:
         assert kind(columns) == kind(right[line])
         for name, (unit, values) in columns.items():
             assert unit == right[line][name][0], name
-            assert values.tobytes() == np.where(values == values, right[line][name][1], values).tobytes(), name
+            assert values.tobytes() == np.where(values == values, right[line][name][1], values).tobytes(), (
+                name
+            )
             assert np.array_equal(np.isnan(values), np.isnan(right[line][name][1])), name
 
 
@@ -68,10 +70,12 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     path = tmp_path / f"x{ending}"
     write_tables(path, lambda: tables)
     found = content(path)
-    if ending in (".nc",):  # names of lines are words in the CF conventions
+    if ending == ".nc":  # names of lines are words in the CF conventions
         found = {None if k is None else k.replace("_", " "): v for k, v in found.items()}
     same(expected(tables), found, ordered=ending != ".nc")
-    assert sorted(p.suffix for p in tmp_path.iterdir()) == ([".dat", ".dfn"] if ending == ".dat" else [path.suffix])
+    assert sorted(p.suffix for p in tmp_path.iterdir()) == (
+        [".dat", ".dfn"] if ending == ".dat" else [path.suffix]
+    )
 
 
 @settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
@@ -107,14 +111,16 @@ def test_equal_tables_give_equal_files(tmp_path: Path, ending: str) -> None:
 def test_every_format_is_registered_once() -> None:
     endings = [e for f in ALL for e in f.ENDINGS]
     assert len(endings) == len(set(endings))
-    assert {e for e in ENDINGS} <= set(endings)
+    assert set(ENDINGS) <= set(endings)
 
 
 def test_a_name_that_begins_like_a_formula_is_text(tmp_path: Path) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     path = tmp_path / "x.xlsx"
     evil = "=1+1"
-    write_tables(path, lambda: [Written([(Column("time", "s"), np.arange(3.0)), (Column(evil, "V"), np.ones(3))])])
+    write_tables(
+        path, lambda: [Written([(Column("time", "s"), np.arange(3.0)), (Column(evil, "V"), np.ones(3))])]
+    )
     cell = openpyxl.load_workbook(path).active["B1"]
     assert (cell.data_type, cell.value) == ("s", f"{evil} [V]")
 
