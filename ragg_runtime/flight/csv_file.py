@@ -20,7 +20,16 @@ from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.instants import is_instant
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, is_unit
+from ragg_runtime.flight.source import (
+    Heading,
+    Look,
+    RawBatch,
+    Table,
+    Written,
+    distinct,
+    heading,
+    units_below,
+)
 
 NAME = "csv"
 ENDINGS = (".csv", ".csv.gz")
@@ -117,9 +126,10 @@ def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
         raise _not_text(path, error) from None
     found = [heading(name, path, n) for n, name in enumerate(names, 1)]
     below = 0
-    if not any(h.unit for h in found) and first and _of_units(first[0], len(found)):
-        found = [replace(h, unit=u.strip()) for h, u in zip(found, first.pop(0), strict=True)]
-        below = 1
+    units = units_below(first[0], len(found)) if first and not any(h.unit for h in found) else None
+    if units is not None:
+        found = [replace(h, unit=u) for h, u in zip(found, units, strict=True)]
+        below, first = 1, first[1:]
     headings = [
         replace(h, text=look.allows_text(h.name) and _text(h.name, n, first)) for n, h in enumerate(found)
     ]
@@ -132,16 +142,6 @@ def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:
         if line.strip() and not line.startswith("#"):
             return number, line.rstrip("\n")
     raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
-
-
-def _of_units(row: Sequence[str], count: int) -> bool:
-    """Whether a row is one of units: none is a number but 1, and each is a unit or empty."""
-    cells = [c.strip().strip("[]()").strip() for c in row]
-    return (
-        len(cells) == count
-        and any(c and not _is_number(c) for c in cells)
-        and all(not c or is_unit(c) for c in cells)
-    )
 
 
 def _text(name: str, column: int, rows: Sequence[Sequence[str]]) -> bool:

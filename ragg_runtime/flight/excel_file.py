@@ -27,7 +27,7 @@ from ragg_runtime.flight.source import (
     chosen,
     distinct,
     heading,
-    is_unit,
+    units_below,
 )
 
 NAME = "Excel"
@@ -170,15 +170,16 @@ def _check_size(path: Path) -> None:
 def _workbook(path: Path) -> Iterator[Any]:
     from openpyxl import load_workbook  # slow to import, and only this format needs it
 
-    try:
-        # The values that Excel has computed are read, never the formulas.
-        book = load_workbook(path, read_only=True, data_only=True, keep_links=False, keep_vba=False)
-    except Exception as error:  # openpyxl and the XML parser each raise their own
-        raise _damaged(path, error) from None
-    try:
-        yield book
-    finally:
-        book.close()
+    with path.open("rb") as stream:
+        try:
+            # The values that Excel has computed are read, never the formulas.
+            book = load_workbook(stream, read_only=True, data_only=True, keep_links=False, keep_vba=False)
+        except Exception as error:  # openpyxl and the XML parser each raise their own
+            raise _damaged(path, error) from None
+        try:
+            yield book
+        finally:
+            book.close()
 
 
 def _damaged(path: Path, error: Exception) -> UserError:
@@ -220,10 +221,12 @@ def _sheet(sheet: Any, path: Path, look: Look) -> _Sheet | None:
                 found = [heading(w, path, n) for n, w in enumerate(words, 1)]
                 first = number + 1
             continue
-        if not sample and not any(h.unit for h in found) and _of_units(row, len(found)):
-            found = [replace(h, unit=str(c or "").strip(" []()")) for h, c in zip(found, row, strict=False)]
-            first = number + 1
-            continue
+        if not sample and not any(h.unit for h in found):
+            units = units_below([str(c or "") for c in row[: len(found)]], len(found))
+            if units is not None:
+                found = [replace(h, unit=u) for h, u in zip(found, units, strict=True)]
+                first = number + 1
+                continue
         sample.append(row)
         if len(sample) >= _SNIFFED:
             break
@@ -242,11 +245,6 @@ def _sheet(sheet: Any, path: Path, look: Look) -> _Sheet | None:
             expected="numbers",
         )
     return _Sheet(sheet.title, sheet.title, first, names, kept)
-
-
-def _of_units(row: Sequence[Any], count: int) -> bool:
-    cells = [str(c).strip(" []()") if c is not None else "" for c in row[:count]]
-    return any(c and c != "1" for c in cells) and all(not c or is_unit(c) for c in cells)
 
 
 def _is_text(column: int, rows: Sequence[Sequence[Any]]) -> bool:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import Column, Heading, Look, RawBatch, Table, Written, distinct
+from ragg_runtime.flight.source import Column, Heading, Look, RawBatch, Table, Written, distinct, not_numbers
 
 NAME = "ASEG-GDF2"
 ENDINGS = (".dat", ".dfn")
@@ -49,8 +49,10 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
     """The data records as one table."""
     data, definition = _beside(path, ".dat"), _beside(path, ".dfn")
     fields, kind = _fields(_text(definition), definition)
-    wanted = [f for f in fields if look.wants(f.name) and (not f.text or look.allows_text(f.name))]
-    wanted = [f for f in wanted if f.name.upper() != "RT"]
+    wanted = [f for f in fields if look.wants(f.name) and f.name.upper() != "RT"]
+    for f in wanted:
+        if f.text and not look.allows_text(f.name):
+            raise not_numbers(definition, f.name, "text (A)")
     headings = distinct(definition, [Heading(f.name, f.unit, f.text) for f in wanted])
     return (Table(path, headings, lambda: _batches(data, fields, wanted, kind)),)
 

@@ -170,6 +170,14 @@ def heading(text: str, path: Path, number: int = 1) -> Heading:
     return Heading(match["name"], (match["unit"] or "").strip())
 
 
+def units_below(cells: Sequence[str], count: int) -> list[str] | None:
+    """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers."""
+    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\))\s*", r"\1\2", c).strip() for c in cells]
+    if len(found) != count or not all(not c or is_unit(c) for c in found):
+        return None
+    return found if any(c not in ("", "1") for c in found) else None
+
+
 def is_unit(text: str) -> bool:
     """Whether the text reads as a unit."""
     known = units(9.8)  # whether a text is a unit does not depend on the model's g
