@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, printable
 
 FILE = click.Path(path_type=Path)
 mapping_option = click.option(
@@ -41,7 +41,7 @@ def map_command(flight: Path, output: Path | None) -> None:
 
     What the file does not say is marked with "?" and asked for: units are never guessed.
     """
-    from ragg_runtime.atomic import write_text
+    from ragg_runtime.base.files import write_text
     from ragg_runtime.flight.guess import draft
 
     made = draft(flight)

@@ -1,4 +1,4 @@
-"""Units as people write them, turned into units as :mod:`ragg_runtime.units` reads them."""
+"""Units as people write them, turned into units as :mod:`ragg_runtime.instrument.units` reads them."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.formats import format_of
 from ragg_runtime.flight.mapping import Mapped

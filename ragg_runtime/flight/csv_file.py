@@ -16,20 +16,11 @@ from typing import IO
 import pyarrow as pa
 import pyarrow.csv
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.instants import is_instant
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import (
-    Heading,
-    Look,
-    RawBatch,
-    Table,
-    Written,
-    distinct,
-    heading,
-    units_below,
-)
+from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, units_below
 
 NAME = "csv"
 ENDINGS = (".csv", ".csv.gz")

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
 from ragg_runtime.flight.one_table import joined
 from ragg_runtime.flight.source import Column, Heading, Look, RawBatch, Table, Written, distinct, not_numbers

@@ -23,7 +23,7 @@ from ragg_runtime.flight.mapping import UNKNOWN
 from ragg_runtime.flight.names import ROLES, role_of
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.flight.source import Heading, Look, Table, is_unit
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 
 _LOOKED_AT = 20_000  # rows whose numbers are looked at for remarks
 _DATED = (datetime(1995, 1, 1, tzinfo=UTC), datetime(2045, 1, 1, tzinfo=UTC))

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import h5py
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 MOST_OBJECTS = 200_000
 """Groups and datasets of a file, beyond which it is no record: a survey of 2,000 lines has 30 in each."""

@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.hdf5_check import refuse_foreign
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading

@@ -37,10 +37,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.files import read_text
 from ragg_runtime.flight.instants import WAYS
-from ragg_runtime.instrument import read_text
-from ragg_runtime.units import read_quantity, units
+from ragg_runtime.instrument.units import read_quantity, units
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""

@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import hdf5_file
 from ragg_runtime.flight.mat73 import write_73
 from ragg_runtime.flight.shapes import Place, places

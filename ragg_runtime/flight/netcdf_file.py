@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import hdf5_file
 from ragg_runtime.flight.one_table import joined
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading

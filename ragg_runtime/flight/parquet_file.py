@@ -12,19 +12,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import (
-    Heading,
-    Look,
-    RawBatch,
-    Table,
-    Written,
-    distinct,
-    heading,
-    not_numbers,
-)
+from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, not_numbers
 
 NAME = "parquet"
 ENDINGS = (".parquet", ".pq")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 WIDEST = 16
 """Columns of one array that are taken apart: accelerations along three axes, voltages of a few discs."""

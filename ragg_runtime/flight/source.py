@@ -11,9 +11,9 @@ from typing import Any, Protocol, TypeVar
 
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.record import Array
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 
 Batch = Mapping[str, Array]
 RawBatch = Mapping[str, NDArray[Any]]

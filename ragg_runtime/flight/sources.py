@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.instants import WAYS, Clock, Way, midnight, way_of
 from ragg_runtime.flight.lines import split

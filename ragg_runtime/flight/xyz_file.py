@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.csv_file import LONGEST_LINE
 from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
 from ragg_runtime.flight.one_table import union

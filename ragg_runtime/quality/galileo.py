@@ -27,7 +27,9 @@ def in_line_sum(uv: Sequence[Array]) -> Array:
     return np.asarray(total - np.mean(total))
 
 
-def in_line_sum_filtered(uv: Sequence[Array], rate: float, low: float = 0.03, high: float = 0.1) -> Array | None:
+def in_line_sum_filtered(
+    uv: Sequence[Array], rate: float, low: float = 0.03, high: float = 0.1
+) -> Array | None:
     """The same, band-passed (``dontfilter=False``)."""
     return causal_band(in_line_sum(uv), rate, low, high, _ORDER)
 
@@ -59,7 +61,9 @@ def phase_lag(a: Array, b: Array, rate: float) -> float:
     n = len(a)
     both = correlate((a - a.mean()) / a.std(), (b - b.mean()) / b.std())
     lags = np.arange(1 - n, n)
-    near = slice(max(0, int(both.argmax()) - 20), int(both.argmax()) + 21)  # the spline of all gives the same there
+    near = slice(
+        max(0, int(both.argmax()) - 20), int(both.argmax()) + 21
+    )  # the spline of all gives the same there
     fine = np.arange(lags[near][0], lags[near][-1], 0.1)
     return float(fine[np.argmax(CubicSpline(lags[near], both[near])(fine))] / rate)
 

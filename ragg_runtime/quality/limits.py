@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ragg_runtime.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import UserError, did_you_mean
 
 
 @dataclass(frozen=True)

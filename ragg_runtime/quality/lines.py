@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.files import file_digest, flight_name
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array
 from ragg_runtime.flight.sampling import uniform
 from ragg_runtime.flight.source import Column, Source
 from ragg_runtime.flight.sources import open_sources
-from ragg_runtime.units import Units, units
+from ragg_runtime.instrument.units import Units, units
 
 STANDARD_G = 9.80665
 """m/s^2, for units made with g: quality control has no model that says another (the metre convention's value)."""
@@ -151,7 +151,10 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
     time = found.pop("time")
     if len(time) < SHORTEST:
         raise UserError(
-            "the line is too short", where=source.path, found=f"{len(time)} samples", expected=f"{SHORTEST} or more"
+            "the line is too short",
+            where=source.path,
+            found=f"{len(time)} samples",
+            expected=f"{SHORTEST} or more",
         )
     grid = uniform(time, source.path)
     channels = {}
@@ -160,7 +163,12 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
         whole[grid.index] = values / EOTVOS if is_gradient(n) else values
         channels[n] = whole
     return SurveyLine(
-        name=name, flight=flight, time=grid.time, rate=1.0 / grid.step, channels=channels, origin=source.origin
+        name=name,
+        flight=flight,
+        time=grid.time,
+        rate=1.0 / grid.step,
+        channels=channels,
+        origin=source.origin,
     )
 
 

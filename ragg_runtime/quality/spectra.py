@@ -49,7 +49,9 @@ def band_pass(values: Array, rate: float, low: float, high: float) -> Array | No
     high = min(high, 0.45 * rate)
     if whole is None or high <= 1.2 * low or len(whole) < 64:
         return None
-    return np.asarray(sosfiltfilt(butter(4, (low, high), "band", fs=rate, output="sos"), whole - np.mean(whole)))
+    return np.asarray(
+        sosfiltfilt(butter(4, (low, high), "band", fs=rate, output="sos"), whole - np.mean(whole))
+    )
 
 
 def causal_band(values: Array, rate: float, low: float, high: float, order: int) -> Array | None:

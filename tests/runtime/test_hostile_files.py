@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import pytest
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import excel_file, mat_file, read_flight
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.source import Column, Written
@@ -136,7 +136,7 @@ def test_an_excel_bomb_and_formulas(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     path = tmp_path / "x.xlsx"
     book = openpyxl.Workbook()
     book.active.append(["time [s]", "v [V]"])
-    book.active.append([0.0, "=1/0+WEBSERVICE(\"http://127.0.0.1\")"])
+    book.active.append([0.0, '=1/0+WEBSERVICE("http://127.0.0.1")'])
     book.active.append([1.0, 2.0])
     book.save(path)
     (source,) = open_sources(path)
@@ -152,9 +152,13 @@ def test_entities_in_a_workbook_do_not_unfold(tmp_path: Path) -> None:
     with zipfile.ZipFile(path) as old:
         parts = {n: old.read(n) for n in old.namelist()}
     name = next(n for n in parts if "sheet1" in n)
-    entities = b"".join(b'<!ENTITY l%d "%s">' % (k, b"&l%d;" % (k - 1) * 10 if k else b"lol") for k in range(30))
-    parts[name] = parts[name].replace(b"<worksheet", b"<!DOCTYPE x [" + entities + b"]><worksheet", 1).replace(
-        b"time [s]", b"&l29;"
+    entities = b"".join(
+        b'<!ENTITY l%d "%s">' % (k, b"&l%d;" % (k - 1) * 10 if k else b"lol") for k in range(30)
+    )
+    parts[name] = (
+        parts[name]
+        .replace(b"<worksheet", b"<!DOCTYPE x [" + entities + b"]><worksheet", 1)
+        .replace(b"time [s]", b"&l29;")
     )
     with zipfile.ZipFile(path, "w") as new:
         for n, data in parts.items():

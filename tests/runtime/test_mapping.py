@@ -11,13 +11,13 @@ import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import cli
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import cli
 from ragg_runtime.flight import Flight, read_flight, read_flights, write_flight
 from ragg_runtime.flight.guess import draft
 from ragg_runtime.flight.mapping import Mapped, parse_mapping
 from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.workflow import loop
 
 G0 = 9.8
 HERE = Path("mapping.toml")
@@ -41,7 +41,9 @@ def foreign(path: Path, time: str = "{t:.4f}", head: str = "T", lines: tuple[int
             w = [np.degrees(x.channels[n][k]) for n in ("omega_y", "omega_x")]
             w.append(-np.degrees(x.channels["omega_z"][k]))
             values = [*a, *w, -1e3 * x.outputs["G_out"][k]]
-            rows.append(f"{line}," * bool(lines) + time.format(t=t, s=t % 60) + "," + ",".join(map(repr, values)))
+            rows.append(
+                f"{line}," * bool(lines) + time.format(t=t, s=t % 60) + "," + ",".join(map(repr, values))
+            )
     path.write_text("\n".join(rows).replace("np.float64(", "").replace(")", "") + "\n")
     return x
 
@@ -87,7 +89,11 @@ def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
         ("2026-03-01 12:00:{s:07.4f}", 'column = "T"\nformat = "iso"', datetime(2026, 3, 1, tzinfo=UTC)),
         ("12:00:{s:07.4f}", 'column = "T"\nformat = "clock"', None),
         ("1200{s:07.4f}", 'column = "T"\nformat = "clock"', None),
-        ("{t:.4f}", 'column = "T"\nunit = "s"\norigin = 2026-03-01T12:00:00Z', datetime(2026, 3, 1, 12, tzinfo=UTC)),
+        (
+            "{t:.4f}",
+            'column = "T"\nunit = "s"\norigin = 2026-03-01T12:00:00Z',
+            datetime(2026, 3, 1, 12, tzinfo=UTC),
+        ),
     ],
 )
 def test_clocks(tmp_path: Path, time: str, written: str, origin: datetime | None) -> None:
@@ -105,9 +111,15 @@ def test_clocks(tmp_path: Path, time: str, written: str, origin: datetime | None
 def test_gps_week_and_midnight(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
     x = foreign(path, "2408,{t:.4f}", head="W,S")
-    found = read_flight(path, G0, mapping=parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"')))
+    found = read_flight(
+        path,
+        G0,
+        mapping=parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"')),
+    )
     assert found.time == pytest.approx(x.time, abs=1e-4)
-    (source,) = open_sources(path, parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"')))
+    (source,) = open_sources(
+        path, parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"'))
+    )
     assert source.origin == datetime(2026, 3, 1, tzinfo=UTC)  # a Sunday
     path.write_text("time,v [V]\n23:59:59.5,1\n00:00:00.0,2\n0:00:00.5,3\n")
     (source,) = open_sources(path)
@@ -239,15 +251,17 @@ def test_a_mapping_is_begun_from_an_xyz_file(tmp_path: Path) -> None:
 def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path("mapping.toml").write_text(TEXT)
-    m = workflow.new("model", None, Path("mapping.toml"))
+    m = loop.new("model", None, Path("mapping.toml"))
     assert Path("model/mapping.toml").read_text() == TEXT
-    how = workflow.mapping_of(m, None)
+    how = loop.mapping_of(m, None)
     assert how is not None
     assert how.kept
     foreign(Path("x.csv"))
     assert read_flights("x.csv", G0, mapping=how)[0].channels["a_x"] == pytest.approx(made().channels["a_x"])
     write_flight(made(), "plain.csv")  # a file that has none of its columns is read as it is
-    assert np.array_equal(read_flights("plain.csv", G0, mapping=how)[0].channels["a_x"], made().channels["a_x"])
+    assert np.array_equal(
+        read_flights("plain.csv", G0, mapping=how)[0].channels["a_x"], made().channels["a_x"]
+    )
     run = CliRunner().invoke(cli, ["new", "other", "--map", "none.toml"])
     assert isinstance(run.exception, UserError)
     assert not Path("other").exists()
