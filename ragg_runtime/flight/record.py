@@ -104,6 +104,10 @@ class Flight:
         units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
         set_field(self, "units", MappingProxyType(units))
 
+    def __repr__(self) -> str:
+        columns = " ".join((*self.channels, *self.outputs))
+        return f"<Flight {self.name}: {self.duration:.6g} s at {self.rate:.6g} Hz; {columns}>"
+
     def __len__(self) -> int:
         return len(self.time)
 

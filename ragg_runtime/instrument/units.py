@@ -18,7 +18,7 @@ import pint
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.unit_spelling import spellings
+from ragg_runtime.instrument.unit_spelling import spellings
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 

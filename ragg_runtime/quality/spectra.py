@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, lfilter, sosfiltfilt, welch
+from scipy.signal import butter, detrend, lfilter, sosfiltfilt, welch
 
 from ragg_runtime.flight.record import Array
 
@@ -32,7 +32,7 @@ def density(values: Array, rate: float) -> tuple[Array, Array]:
     if whole is None:
         return np.empty(0), np.empty(0)
     size = min(len(whole), max(16, round(SEGMENT * rate)))
-    f, p = welch(whole, fs=rate, nperseg=size, detrend="linear")
+    f, p = welch(detrend(whole), fs=rate, nperseg=size)
     return np.asarray(f[1:]), np.asarray(p[1:])
 
 
