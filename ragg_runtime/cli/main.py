@@ -19,6 +19,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.memory import reuse_memory
 from ragg_runtime.cli.file_commands import convert, map_command, mapping_option
+from ragg_runtime.cli.quality_command import qc
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
@@ -474,6 +475,7 @@ def demo(output: Path) -> None:
 
 cli.add_command(convert)
 cli.add_command(map_command)
+cli.add_command(qc)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -5,7 +5,7 @@ Its users find their numbers again; where this project's own figures differ, the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -68,24 +68,42 @@ def phase_lag(a: Array, b: Array, rate: float) -> float:
     return float(fine[np.argmax(CubicSpline(lags[near], both[near])(fine))] / rate)
 
 
-def frobenius(uv: Sequence[Array], ne: Sequence[Array], rate: float) -> float:
-    """Eo: the standard deviation of the tensor's Frobenius norm above 0.1 Hz (``checkFrobenius``).
-
-    Its transform from six channels to the tensor (there after Brewster 2016), its filter. galileoQC puts the filtered
-    Gxy in the place of Gyy, which is not followed here.
-    """
+def tensor(uv: Sequence[Array], ne: Sequence[Array]) -> dict[str, Array]:
+    """The gradient's components from six channels of three discs, as ``checkFrobenius`` has them (Brewster, 2016)."""
     i1, i2, i3 = uv
     c1, c2, c3 = ne
     s2, s3 = np.sqrt(2.0), np.sqrt(3.0)
-    xx = 2 / 3 * (i3 - s2 * c1)
-    xy = 0.75 / s2 * (np.sqrt(2 / 3) * i3 - np.sqrt(1.5) * (c1 - c2))
-    xz = np.sqrt(6) / (2 + 3 * s2) * (c1 - c2 + 2 * i3)
-    yy = s2 / 3 * c1 - (s2 * c2 + c3) / s3 - i3 / 3
-    yz = 3 / s2 * (2 / 3 * (c3 - i1 + i2) - (c1 + c2) / 3)
-    zz = s2 / 3 * c1 + (s2 * c2 + c3) / s3 - i3 / 3
-    parts = [causal_band(x, rate, 0.1, min(0.49, 0.49 * rate), _ORDER) for x in (xx, xy, xz, yy, yz, zz)]
-    if any(p is None for p in parts):
-        return float("nan")
-    weights = (1, 2, 2, 1, 2, 1)
-    total = np.sum([w * p**2 for w, p in zip(weights, parts, strict=True) if p is not None], axis=0)
+    return {
+        "xx": 2 / 3 * (i3 - s2 * c1),
+        "xy": 0.75 / s2 * (np.sqrt(2 / 3) * i3 - np.sqrt(1.5) * (c1 - c2)),
+        "xz": np.sqrt(6) / (2 + 3 * s2) * (c1 - c2 + 2 * i3),
+        "yy": s2 / 3 * c1 - (s2 * c2 + c3) / s3 - i3 / 3,
+        "yz": 3 / s2 * (2 / 3 * (c3 - i1 + i2) - (c1 + c2) / 3),
+        "zz": s2 / 3 * c1 + (s2 * c2 + c3) / s3 - i3 / 3,
+    }
+
+
+def frobenius(uv: Sequence[Array], ne: Sequence[Array]) -> float:
+    """Eo: the standard deviation of the tensor's Frobenius norm above 0.1 Hz, of a line at 1 Hz (``checkFrobenius``).
+
+    Faithfully: the channels' means are not taken away, so that the filter's start is in it, and the filtered xy stands
+    in the place of yy. :func:`frobenius_centred` does without both.
+    """
+    parts = {n: causal_band(v, 1.0, 0.1, 0.49, _ORDER) for n, v in tensor(uv, ne).items()}
+    return _norm({**parts, "yy": parts["xy"]})
+
+
+def frobenius_centred(uv: Sequence[Array], ne: Sequence[Array], rate: float) -> float:
+    """The same of channels without their means, with yy in its own place, at any rate."""
+    centred = [[v - np.mean(v) for v in group] for group in (uv, ne)]
+    made = tensor(*centred)
+    return _norm({n: causal_band(v, rate, 0.1, 0.49 * min(rate, 1.0), _ORDER) for n, v in made.items()})
+
+
+def _norm(parts: Mapping[str, Array | None]) -> float:
+    total = np.zeros(1)
+    for name, values in parts.items():
+        if values is None:
+            return float("nan")
+        total = total + (1.0 if name[0] == name[1] else 2.0) * values**2
     return float(np.std(np.sqrt(total)))
