@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import lsqr
 
 from ragg_runtime.flight.record import Array
 from ragg_runtime.quality.lines import SurveyLine
@@ -90,21 +93,23 @@ def crossings(tracks: Sequence[Track | None]) -> list[Crossing]:
 def misfits(
     lines: Sequence[SurveyLine], found: Sequence[Crossing], channels: Sequence[str]
 ) -> tuple[list[Misfits], dict[str, Array]]:
-    """Of every channel that has at least three crossings; and the differences themselves, NaN where none is."""
+    """Of every channel that has at least three crossings; and the levelled differences, NaN where there is none."""
     result, every = [], {}
     for name in channels:
         d = np.array([_difference(lines, c, name) for c in found])
         there = np.isfinite(d)
         if there.sum() < 3:
             continue
-        every[name] = d
+        left, levelled = _levelled(d[there], [c for c, t in zip(found, there, strict=True) if t], len(lines))
+        every[name] = np.full(len(d), np.nan)
+        every[name][there] = left
         result.append(
             Misfits(
                 channel=name,
                 count=int(there.sum()),
                 rms=float(np.sqrt(np.mean(d[there] ** 2))),
                 noise=float(np.std(d[there]) / np.sqrt(2.0)),
-                levelled=_levelled(d[there], [c for c, t in zip(found, there, strict=True) if t], len(lines)),
+                levelled=levelled,
             )
         )
     return result, every
@@ -185,16 +190,20 @@ def _at(values: Array, place: float) -> float:
     return float(values[k] + (place - k) * (values[k + 1] - values[k]))
 
 
-def _levelled(d: Array, found: Sequence[Crossing], count: int) -> float:
-    """Standard deviation over the root of two after a constant for each line; freedoms that these took are counted."""
-    design = np.zeros((len(d), count))
-    for row, c in enumerate(found):
-        design[row, c.first], design[row, c.second] = 1.0, -1.0
-    solution, _, rank, _ = np.linalg.lstsq(design, d, rcond=None)
-    freedom = len(d) - int(rank)
-    return (
-        float(np.sqrt(np.sum((d - design @ solution) ** 2) / freedom / 2.0)) if freedom > 0 else float("nan")
-    )
+def _levelled(d: Array, found: Sequence[Crossing], count: int) -> tuple[Array, float]:
+    """What a constant for each line leaves, and its standard deviation over the root of two.
+
+    The freedoms that the constants took are counted: lines that cross, less one for each group of them.
+    """
+    first, second = np.array([[c.first, c.second] for c in found]).T
+    rows = np.arange(len(d))
+    ones = np.ones(len(d))
+    shape = (len(d), count)
+    design = csr_array((ones, (rows, first)), shape=shape) - csr_array((ones, (rows, second)), shape=shape)
+    left = d - design @ lsqr(design, d, atol=1e-12, btol=1e-12)[0]
+    groups, _ = connected_components(csr_array((ones, (first, second)), shape=(count, count)), directed=False)
+    freedom = len(d) - (count - groups)
+    return left, float(np.sqrt(np.sum(left**2) / freedom / 2.0)) if freedom > 0 else float("nan")
 
 
 def _shared(first: Track, second: Track) -> tuple[float, float] | None:

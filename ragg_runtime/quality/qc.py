@@ -39,7 +39,7 @@ class Quality:
     limits
         Name -> limit, as used.
     crossings, differences, misfits
-        Where lines cross; channel -> (crossings,) differences there; what they amount to.
+        Where lines cross; channel -> (crossings,) differences there, levelled; what they amount to.
     repeats
         Lines that were flown again.
     dependences, days

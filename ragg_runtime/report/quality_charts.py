@@ -22,7 +22,7 @@ from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
-MOST_PIECES = 12_000
+MOST_PIECES = 6_000
 """Coloured pieces of all lines on a map: more would be finer than the page's points."""
 
 DRAWN = 6
@@ -92,7 +92,7 @@ def _crossing_map(
     norm = Normalize(0.0, float(np.quantile(size, 0.98)))
     points = ax.scatter(east, north, c=size, s=7.0, cmap=_COLOURS, norm=norm, linewidths=0.0, zorder=2)
     bar = fig.colorbar(points, ax=ax, orientation="horizontal", shrink=0.8, aspect=40, pad=0.02)
-    bar.set_label(f"difference of {numbers.short(name, 24)} where lines cross, Eo")
+    bar.set_label(f"difference of {numbers.short(name, 24)} where lines cross, levelled, Eo")
 
 
 def local_noise(f: LineFigures, discs: Discs) -> Array:

@@ -100,7 +100,8 @@ def quality_text(q: Quality) -> str:
     marks = ["", *(f"  {', '.join(f.failed)}" if f.failed else "" for f in q.lines)]
     shown = [line + mark for line, mark in zip(lines, marks, strict=True)]
     refused = [f"{n}: {m}" for n, m in q.read.refused]
-    return "\n".join([headline(q), *lead(q), "", *shown, *refused])
+    text = "\n".join([headline(q), *lead(q), "", *shown, *refused])
+    return text.replace(numbers.THIN, " ")  # a terminal shows thin spaces as it likes
 
 
 def _facts(q: Quality) -> list[tuple[str, str]]:
@@ -119,7 +120,7 @@ def _figures(q: Quality) -> list[Mapping[str, str]]:
     drawn = (
         (
             quality_charts.maps(q),
-            "The lines, coloured by the noise along them; and by how much lines differ where they cross, as delivered.",
+            "The lines, coloured by the noise along them; and by how much they differ where they cross, after one constant for each line.",
         ),
         (
             quality_charts.turbulent(q),
@@ -164,10 +165,14 @@ def _row(q: Quality, number: int, f: LineFigures) -> dict[str, Any]:
         "number": number,
         "name": f.line.name,
         "file": f.line.flight,
-        "cells": [numbers.number(c) for c in cells],
+        "cells": [numbers.number(c) if k != 1 else _degrees(c) for k, c in enumerate(cells)],
         "failed": ", ".join(f.failed),
         "missing": f.line.missing,
     }
+
+
+def _degrees(x: float | None) -> str:
+    return numbers.ABSENT if x is None else f"{round(x) % 360:d}"
 
 
 def _limit(q: Quality, number: int) -> dict[str, Any]:

@@ -431,9 +431,9 @@ TABLE: dict[str, tuple[Row, ...]] = {
         ),
         Row(
             "an unknown ending",
-            text(TEXT, "flight.xlsx"),
-            ("flight.xlsx", ".parquet", ".csv"),
-            ("compare", "model", "flight.xlsx"),
+            text(TEXT, "flight.xls"),
+            ("flight.xls", ".parquet", ".csv"),
+            ("compare", "model", "flight.xls"),
         ),
         Row(
             "an Excel file with the ending csv",
@@ -849,8 +849,8 @@ TABLE: dict[str, tuple[Row, ...]] = {
         Row(
             "an output file of no known format",
             lambda: None,
-            ("x.xlsx", ".parquet"),
-            ("simulate", "model", "--duration", "60", "-o", "x.xlsx"),
+            ("x.xls", ".parquet"),
+            ("simulate", "model", "--duration", "60", "-o", "x.xls"),
         ),
         Row("no flight", lambda: None, ("FLIGHTS",), ("compare", "model")),
         Row(
