@@ -109,7 +109,9 @@ def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
             delimiter = max(",;\t", key=header.count)
             names = next(csv.reader([header], delimiter=delimiter))
             first: list[list[str]] = []
-            with contextlib.suppress(csv.Error):  # it is told with its line when the rows are read
+            with contextlib.suppress(
+                csv.Error, *_UNREADABLE
+            ):  # it is told with its line when the rows are read
                 first.extend(itertools.islice(csv.reader(lines, delimiter=delimiter), _SNIFFED))
     except csv.Error as error:
         raise UserError(_NOT_CSV, where=path, found=str(error)) from None

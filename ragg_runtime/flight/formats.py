@@ -103,7 +103,7 @@ def check_content(path: Path, expected: Format) -> None:
     raise UserError(
         "the content does not fit the ending of the file name",
         where=path,
-        found=f"a {' or '.join(names)} file" if names else "text, or a format that is not known",
+        found=f"{' or '.join(names)}, by its first bytes" if names else "text, or a format that is not known",
         expected=expected.NAME,
         remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
     )

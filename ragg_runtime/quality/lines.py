@@ -132,9 +132,9 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
     known = units(STANDARD_G)
     wanted = {c.name: _unit(c, known) for c in source.columns}
     columns = [c for c in source.columns if wanted[c.name]]
-    if not any(is_gradient(c.name) for c in columns):
+    if not any(c.name.split("_")[0] in ("inline", "cross") for c in columns):
         raise UserError(
-            "no gradient is among the columns",
+            "no gradient that a disc measured is among the columns",
             where=source.path,
             found=", ".join(c.name for c in source.columns)[:300],
             expected="inline, cross, inline_A, cross_A, inline_1 ... with a unit such as Eo",

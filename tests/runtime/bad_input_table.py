@@ -873,6 +873,53 @@ TABLE: dict[str, tuple[Row, ...]] = {
         ),
         Row("an unknown option", lambda: None, ("--jsn",), ("compare", "model", "flight.csv", "--jsn", "-")),
     ),
+    "Mappings and the field's files": (
+        Row(
+            "a mapping with a question left",
+            both(
+                flown(same),
+                text('[time]\ncolumn = "time"\n[columns]\na_x = { column = "a_x", unit = "?" }\n', "m.toml"),
+            ),
+            ("m.toml", "a_x", "not answered"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "a mapping of another file",
+            both(flown(same), text('[time]\ncolumn = "UTC"\nformat = "iso"\n', "m.toml")),
+            ("UTC", "not in the file", "ragg map"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "axes that are a mirror image",
+            both(flown(same), text('[time]\ncolumn = "time"\n[axes]\nx = "y"\ny = "x"\n', "m.toml")),
+            ("mirror", "right-handed", "sign = -1"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "a .dat file without its .dfn",
+            text("1 2 3\n", "flight.dat"),
+            ("flight.dfn", "missing"),
+            ("compare", "model", "flight.dat"),
+        ),
+        Row(
+            "an XYZ file without units",
+            text("/ time a_x\nLine 10\n0 1\n1 2\n", "flight.xyz"),
+            ("no unit", "ragg map"),
+            ("compare", "model", "flight.xyz"),
+        ),
+        Row(
+            "converted into an unknown format",
+            flown(same),
+            (".xls", ".xlsx"),
+            ("convert", "flight.csv", "flight.xls"),
+        ),
+        Row(
+            "quality control of a record without gradients",
+            flown(same),
+            ("no gradient", "ragg map"),
+            ("qc", "flight.csv"),
+        ),
+    ),
 }
 
 

@@ -249,7 +249,7 @@ def test_bad_lines_do_not_hinder_the_others(tmp_path: Path) -> None:
     assert {n for n, _ in q.read.refused} == {"2", "3"}
     assert "could not be used" in quality_html(q, title="x", command="c")
     (tmp_path / "y.csv").write_text("time [s],a_x [g]\n" + "".join(f"{k},1\n" for k in range(60)))
-    with pytest.raises(UserError, match="no gradient"):
+    with pytest.raises(UserError, match="no gradient that a disc"):
         qc([tmp_path / "y.csv"])
 
 
