@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
-from ragg_runtime.base.errors import printable
 from ragg_runtime.cli.file_commands import FILE, mapping_option
 
 
@@ -38,27 +36,15 @@ def qc(
     Columns: time, inline and cross of one or more discs (inline_A, cross_A ...), positions (easting, northing
     or latitude, longitude), altitude, temperature, a_z or vertical_velocity; other names by --map.
     """
-    from ragg_runtime.base.files import write_text
+    from ragg_runtime.cli.main import _command, _emit, _write_report  # which name this command in turn
     from ragg_runtime.flight.mapping import read_mapping
-    from ragg_runtime.model_dir.provenance import command, provenance
+    from ragg_runtime.model_dir.provenance import provenance
     from ragg_runtime.quality.qc import qc as _qc
     from ragg_runtime.report.quality_page import quality_html, quality_text
 
     how = None if mapping is None else read_mapping(mapping)
     q = _qc(flights, how, arrangement=arrangement, limits=limits)
-    if report_file is not None:
-        title = ", ".join(p.name for p in flights[:3]) + (" ..." if len(flights) > 3 else "")
-        write_text(Path(report_file), quality_html(q, title=title, command=command()))
-        click.echo(f"report: {report_file}", err=True)
-    text = ""
-    if json_file is not None:
-        made = provenance(
-            command(), files=[(str(p), d) for p, (_, d) in zip(flights, q.read.files, strict=True)]
-        )
-        text = json.dumps(q.as_json() | {"provenance": made}, indent=1, allow_nan=False)
-    if json_file == "-":
-        click.echo(text)
-        return
-    if json_file is not None:
-        write_text(Path(json_file), text + "\n")
-    click.echo(printable(quality_text(q)))
+    title = ", ".join(p.name for p in flights[:3]) + (" ..." if len(flights) > 3 else "")
+    _write_report(report_file, lambda: quality_html(q, title=title, command=_command()))
+    files = [(str(p), digest) for p, (_, digest) in zip(flights, q.read.files, strict=True)]
+    _emit(q.as_json() | {"provenance": provenance(_command(), files=files)}, json_file, quality_text(q))

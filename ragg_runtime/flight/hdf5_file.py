@@ -7,29 +7,34 @@ That is also how geoWhizz files, NetCDF-4 with groups and MATLAB 7.3 look. The u
 from __future__ import annotations
 
 import contextlib
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.hdf5_check import refuse_foreign
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
+
+if TYPE_CHECKING:
+    import h5py
 
 NAME = "hdf5"
 ENDINGS = (".h5", ".hdf5", ".hdf", ".he5")
 MAGIC = (b"\x89HDF\r\n\x1a\n",)
 
+MOST_NUMBERS = 1 << 33
+"""Numbers of one dataset that are read at most: 64 GB in float64. A few bytes of a file may claim any number."""
+
 _BATCH = 1 << 18
 _UNITS = ("units", "Units", "UNITS", "unit", "Unit")
 _DIMENSION = b"This is a netCDF dimension but not a netCDF variable"
 
-UnitOf = Callable[[h5py.Dataset], str]
+UnitOf = Callable[["h5py.Dataset"], str]
 
 
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
@@ -39,6 +44,8 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
 
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as float64 datasets with their units: at the root, or in a group for each line."""
+    import h5py  # slow to import, and only files built on HDF5 need it
+
     with h5py.File(path, "w", track_order=True) as file:
         for number, table in enumerate(tables):
             group = file
@@ -84,10 +91,14 @@ def unit_of(data: h5py.Dataset) -> str:
 @contextlib.contextmanager
 def opened(path: Path, *, checked: bool = False) -> Iterator[h5py.File]:
     """The file for reading, with nothing in it that reaches out; UserError if it is damaged, here or later."""
+    import h5py  # slow to import, and only files built on HDF5 need it
+
+    from ragg_runtime.flight.hdf5_self_contained import refuse_elsewhere
+
     try:
+        if not checked:
+            refuse_elsewhere(path)
         with h5py.File(path, "r") as file:
-            if not checked:
-                refuse_foreign(file, path)
             yield file
     except (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeError) as error:
         # What h5py raises for files that were damaged on purpose is not documented.
@@ -105,9 +116,16 @@ def damaged(path: Path, error: Exception) -> UserError:
 
 
 def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[Group]:
+    import h5py  # slow to import, and only files built on HDF5 need it
+
     waiting: list[tuple[str, h5py.Group]] = [("", file)]
+    seen = set()  # groups may stand in each other, round in a circle
     while waiting:
         place, group = waiting.pop(0)
+        address = h5py.h5o.get_info(group.id).addr
+        if address in seen:
+            continue
+        seen.add(address)
         arrays: dict[str, h5py.Dataset] = {}
         for name in group:
             if name.startswith("#") or isinstance(group.get(name, getlink=True), h5py.SoftLink):
@@ -126,6 +144,14 @@ def _group(
     if look.only is not None:
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
         arrays = {n: d for n, d in arrays.items() if n in wanted or _text(d.attrs.get("name")) in wanted}
+    for name, data in arrays.items():
+        if math.prod(data.shape) > MOST_NUMBERS:
+            raise UserError(
+                "the dataset is out of all proportion",
+                where=f"{path}: {place}/{name}",
+                found=f"{math.prod(data.shape)} numbers",
+                expected=f"at most {MOST_NUMBERS}",
+            )
     length, found = places({n: d.shape for n, d in arrays.items()}, f"{path}: {place or '/'}")
     columns = []
     for number, p in enumerate(found, 1):
@@ -141,6 +167,8 @@ def _group(
 
 
 def _is_column(data: h5py.Dataset, look: Look) -> bool:
+    import h5py  # slow to import, and only files built on HDF5 need it
+
     kind = data.dtype.kind
     if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences

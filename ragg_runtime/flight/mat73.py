@@ -5,16 +5,20 @@ from __future__ import annotations
 import struct
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import h5py
 import numpy as np
+
+if TYPE_CHECKING:
+    import h5py
 
 _BLOCK = 512
 
 
 def write_73(path: Path, variables: Mapping[str, Any]) -> None:
     """Write (N, 1) arrays, texts, and structures (mappings) of these."""
+    import h5py  # slow to import, and only files built on HDF5 need it
+
     with h5py.File(path, "w", userblock_size=_BLOCK, track_order=True) as file:
         _write(file, variables)
     text = b"MATLAB 7.3 MAT-file, written by ragg HDF5 schema 1.00 ."

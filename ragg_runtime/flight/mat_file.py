@@ -11,9 +11,8 @@ import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
-import h5py
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +21,9 @@ from ragg_runtime.flight import hdf5_file
 from ragg_runtime.flight.mat73 import write_73
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
+
+if TYPE_CHECKING:
+    import h5py
 
 NAME = "MATLAB"
 ENDINGS = (".mat",)
@@ -217,6 +219,8 @@ def _check_size(stream: BinaryIO, path: Path) -> None:
 
 def _unit_73(data: h5py.Dataset) -> str:
     """The unit of a dataset in a MATLAB 7.3 file: in the structure ``units`` beside it."""
+    import h5py  # slow to import, and only files built on HDF5 need it
+
     units = data.parent.get("units")
     name = data.name.rsplit("/", 1)[-1]
     text = units.get(name) if isinstance(units, h5py.Group) else None

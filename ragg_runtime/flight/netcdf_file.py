@@ -98,22 +98,20 @@ def _lines(data: Any) -> list[str]:
     return str(data.variables["line"].attrs.get("flag_meanings", "")).split()
 
 
-def _dataset(path: Path, *, checked: bool = False) -> Any:
+def _dataset(path: Path) -> Any:
     import xarray  # slow to import, and only this format needs it
 
-    try:
-        with hdf5_file.opened(path, checked=checked):
-            pass  # it was looked through for what reaches out of it
-    except UserError as error:
-        if error.what != "the HDF5 file is damaged":
-            raise
-        raise _damaged(path, str(error.found)) from None
+    from ragg_runtime.flight.hdf5_self_contained import refuse_elsewhere
+
     # What h5netcdf leaves of a file that it failed to open complains on stderr when it is finalised.
     hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
     try:
         try:
+            refuse_elsewhere(path)
             # CF decoding would turn a time "in seconds" into durations.
             return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
+        except UserError:
+            raise
         except Exception as error:  # h5py, h5netcdf and xarray each raise their own
             fault = str(error).split("\n", 1)[0][:200]
         gc.collect()
@@ -135,7 +133,7 @@ def _damaged(path: Path, fault: str) -> UserError:
 def _batches(
     path: Path, names: list[Any], headings: Sequence[Heading], dimension: str, length: int, lines: list[str]
 ) -> Iterator[RawBatch]:
-    with _dataset(path, checked=True) as data:
+    with _dataset(path) as data:
         for start in range(0, length, _BATCH):
             part = data.isel({dimension: slice(start, start + _BATCH)})
             try:

@@ -49,6 +49,7 @@ from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
 
 
@@ -158,7 +159,7 @@ def _loaded(directory: ModelDir) -> Loaded:
     note = (
         derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
     )
-    return Loaded(directory, model, () if note is None else (note,))
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
@@ -225,6 +226,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
     mapping: Path | None = None,
@@ -241,6 +243,7 @@ def survey(
         flights,
         jobs=jobs,
         scheduler=scheduler,
+        tls=tls,
         resume=resume,
         progress=progress,
         mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
