@@ -118,6 +118,7 @@ AUXILIARY: tuple[str, ...] = ("temperature", "pressure", "roll", "pitch", "B_x",
 
 RATES: tuple[str, ...] = (
     *(f"{d}_{c.name}" for d in ("d", "d2") for c in MOTION),
+    *(f"d_{name}" for name in AUXILIARY),
     "d_spin_angle",
     "d2_spin_angle",
 )

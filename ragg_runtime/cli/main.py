@@ -18,6 +18,8 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.cli.file_commands import convert, map_command, mapping_option
+from ragg_runtime.cli.quality_command import qc
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
@@ -131,11 +133,12 @@ def derive(out: Path | None, check: bool) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
-def new(model_dir: Path, source: Path | None) -> None:
+@mapping_option
+def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
     from ragg_runtime.workflow import loop
 
-    m = loop.new(model_dir, source)
+    m = loop.new(model_dir, source, mapping)
     for note in m.notes:
         click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
@@ -160,11 +163,17 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@mapping_option
 @click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
 @_json
 @_report
 def compare(
-    model_dir: Path, flights: Sequence[Path], ladder: bool, json_file: str | None, report_file: str | None
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    ladder: bool,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
@@ -172,7 +181,7 @@ def compare(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
         c = loop.compare(m, read, ladder=ladder)
@@ -199,11 +208,13 @@ def compare(
     metavar="WHAT=SIZE",
     help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
 )
+@mapping_option
 @_json
 @_report
 def diagnose(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     limits: Sequence[str],
     json_file: str | None,
     report_file: str | None,
@@ -214,7 +225,7 @@ def diagnose(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating, then testing every effect of the catalogue")
     allowed = loop.motion_limits(m, limits)
     with progress.shown("diagnose", sum(map(len, read))):
@@ -253,11 +264,13 @@ def diagnose(
     metavar="FILE",
     help="Results file: continue what stands in it, add what is done.",
 )
+@mapping_option
 @_json
 @_report
 def survey(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     jobs: int | None,
     scheduler: str | None,
     tls_ca: Path | None,
@@ -281,7 +294,16 @@ def survey(
     if warning is not None:
         click.echo(printable(f"note: {warning}"), err=True)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = loop.survey(m, flights, jobs=jobs, scheduler=scheduler, tls=tls, resume=file, progress=show)
+        s = loop.survey(
+            m,
+            flights,
+            jobs=jobs,
+            scheduler=scheduler,
+            tls=tls,
+            resume=file,
+            progress=show,
+            mapping=mapping,
+        )
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*loop.sources(m, []), *read]
@@ -302,10 +324,16 @@ def survey(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("effect")
 @click.argument("flights", type=DIRECTORY, nargs=-1)
+@mapping_option
 @_json
 @_report
 def add(
-    model_dir: Path, effect: str, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    model_dir: Path,
+    effect: str,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime.cli import terminal
@@ -315,7 +343,7 @@ def add(
     if report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress(f"deriving the model with {effect}, calibrating")
     with progress.shown("add", sum(map(len, read))):
         result = loop.add(m, effect, read)
@@ -494,6 +522,11 @@ def demo(output: Path) -> None:
     from ragg_runtime.cli import demo as _demo
 
     _demo.main(output, command=_command())
+
+
+cli.add_command(convert)
+cli.add_command(map_command)
+cli.add_command(qc)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

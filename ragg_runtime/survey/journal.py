@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.survey.task import Job, Record
+from ragg_runtime.survey.task import Job, Record, divided
 
 KIND = "ragg survey"
 
@@ -23,11 +23,15 @@ KIND = "ragg survey"
 def head(job: Job) -> Record:
     """The first line: figures under the same head may stand in one table."""
     text = hashlib.sha256(job.text.encode()).hexdigest()
-    return {"kind": KIND, "model": text, "program": dict(job.program)}
+    found: Record = {"kind": KIND, "model": text, "program": dict(job.program)}
+    if job.mapping is not None:
+        found["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
+    return found
 
 
 def sha256(path: Path) -> str | None:
-    """Digest of a file, as a flight's; ``None`` if it cannot be read."""
+    """Digest of a file, as a flight's (also of ``file::line``); ``None`` if it cannot be read."""
+    path, _ = divided(str(path))
     try:
         with path.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
@@ -91,13 +95,17 @@ class Journal:
         found, asked = self._parsed(line, 1), head(job)
         if found.get("kind") != KIND:
             raise self._foreign(line[:80].decode(errors="replace"))
-        for key, what in (("model", "model.toml"), ("program", "version of the program")):
-            if found.get(key) != asked[key]:
+        for key, what in (
+            ("model", "model.toml"),
+            ("program", "version of the program"),
+            ("mapping", "mapping of the flights' columns"),
+        ):
+            if found.get(key) != asked.get(key):
                 raise UserError(
                     f"these results are of another {what}",
                     where=self.path,
                     found=found.get(key),
-                    expected=asked[key],
+                    expected=asked.get(key, "none"),
                     remedy="name another results file: the figures of both would not fit together",
                 )
 

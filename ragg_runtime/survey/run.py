@@ -10,7 +10,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import Job, Record, job
+from ragg_runtime.survey.task import Job, Record, expanded, job
 from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
@@ -27,8 +27,9 @@ def survey(
     tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: tuple[str, str, bool] | None = None,
 ) -> Survey:
-    """Diagnose flights one by one.
+    """Diagnose flights one by one; each line of a file that has several is a flight.
 
     Parameters
     ----------
@@ -45,6 +46,8 @@ def survey(
         Certificates for a scheduler at ``tls://host:port``; by default those of Dask's own configuration.
     resume
         Results file: what stands in it is not done again (flights in error are), what is done is added.
+    mapping
+        Text and place of the mapping by which flights are read, and whether it is the model's own.
 
     Raises
     ------
@@ -57,8 +60,8 @@ def survey(
         raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
     if jobs is not None and jobs < 1:
         raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
-    given = job(text, path, cluster=scheduler is not None)
-    files = ordered(flights)
+    given = job(text, path, cluster=scheduler is not None, mapping=mapping)
+    files = expanded(given, ordered(flights))
     records: dict[str, Record] = {}
     with _kept(resume) as kept:
         if kept is not None:

@@ -21,6 +21,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
@@ -28,7 +29,9 @@ from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -36,7 +39,13 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir.directory import (
+    MAPPING,
+    ModelDir,
+    create_model_dir,
+    load_model_dir,
+    replace_model_dir,
+)
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
@@ -121,8 +130,15 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
     }
 
 
-def new(path: Path | str, source: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
+
+    ``mapping`` is kept with the model: what the columns of its flight files are.
+    """
+    kept = None
+    if mapping is not None:
+        kept = read_text(Path(mapping))
+        parse_mapping(kept, Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -136,8 +152,9 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    made = _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
-    return made if tomllib.loads(text).get("model") else replace(made, notes=(*made.notes, NO_FORM))
+    made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
+    m = _loaded(made)
+    return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -152,9 +169,26 @@ def _loaded(directory: ModelDir) -> Loaded:
     return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+
+    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
+    default the model's own ``mapping.toml``, if it has one.
+    """
+    how = mapping_of(m, mapping)
+    found = []
+    for path in paths:
+        for x in _read_flights(path, m.instrument.g0, mapping=how):
+            found.append(settled(examined(m.model, m.instrument, x)))
+    return found
+
+
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.path / MAPPING
+    return replace(read_mapping(own), kept=True) if own.exists() else None
 
 
 def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
@@ -210,12 +244,14 @@ def survey(
     tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
     """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
 
     The arguments are those of :func:`ragg_runtime.survey.run.survey`.
     """
     place = m.directory.path / "model.toml"
+    how = mapping_of(m, mapping)
     return _survey(
         m.directory.text,
         place,
@@ -225,6 +261,7 @@ def survey(
         tls=tls,
         resume=resume,
         progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
     )
 
 

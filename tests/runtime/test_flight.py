@@ -327,7 +327,7 @@ def test_files_that_are_something_else(tmp_path: Path) -> None:
         ("x.nc", b"\x89HDF\r\n\x1a\n" + b"0" * 40, "damaged"),
         ("x.csv", b"", "empty"),
         ("x.csv", TEXT.replace("g]", "µ]", 1).encode("latin-1"), "utf-8"),
-        ("x.xlsx", b"PK", ".parquet"),
+        ("x.xls", b"PK", ".parquet"),
         ("flight", b"PK", "no ending"),
         ("x.csv.gz", gzip.compress(TEXT.encode())[:150], "x.csv.gz"),
     ):
