@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -190,11 +190,17 @@ def survey(
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed.
     """
     instrument = m.instrument
     known = extend.known(instrument)
@@ -247,17 +253,29 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
     )
+    made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
+    if tell is not None:
+        tell(made)
     directory = replace_model_dir(
         m.directory, text, generated=extend.files_of(extended), history=(*m.directory.history, step)
     )
-    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+    return replace(made, loaded=_loaded(directory))
 
 
-def remove(m: Loaded, effect: str) -> Loaded:
-    """Take an effect out of the model again."""
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     step = Step("remove", _now(), effect)
+    if tell is not None:
+        tell(_planned(m, text, extend.model_of(instrument), step))
     directory = replace_model_dir(
         m.directory, text, generated=extend.files_of(instrument), history=(*m.directory.history, step)
     )
