@@ -10,14 +10,14 @@ import numpy as np
 
 from ragg_runtime.atomic import replacing
 from ragg_runtime.errors import UserError
-from ragg_runtime.flight.assemble import layout
+from ragg_runtime.flight.angular_acceleration import REACH
+from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
 from ragg_runtime.flight.csv_file import open_csv, write_csv
 from ragg_runtime.flight.netcdf_file import open_netcdf, write_netcdf
 from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
 from ragg_runtime.flight.spool import spooled
-from ragg_runtime.timeseries import WINDOW
 from ragg_runtime.units import Units, units
 
 IN_MEMORY = 48 << 20
@@ -29,7 +29,7 @@ MOST_BYTES = 32 << 30
 PART = 32768
 """Rows of such a flight that are read at a time."""
 
-_HALO = WINDOW
+_HALO = 2 * REACH
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
 
 
@@ -63,11 +63,12 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
         held += sum(v.nbytes for v in batch.values())
         if held > IN_MEMORY:
             batches.clear()
-            parts = iter_flight_chunks(path, g0, PART, need_output=need_output)
-            return spooled(parts, path, MOST_BYTES)
+            whole = plan.whole(source.batches())
+            return enough(spooled(_chunks(source, plan, whole, PART), path, MOST_BYTES), whole.rows)
         batches.append(batch)
     rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
-    return plan.flight(rows, name=flight_name(path), digest=file_digest(path))
+    whole = plan.whole([rows])
+    return enough(plan.flight(rows, whole, name=flight_name(path), digest=file_digest(path)), whole.rows)
 
 
 def iter_flight_chunks(
@@ -83,6 +84,11 @@ def iter_flight_chunks(
         raise UserError("a part of a flight needs at least two rows", found=rows)
     source = open_source(path)
     plan = layout(path, source.columns, g0, need_output=need_output)
+    yield from _chunks(source, plan, plan.whole(source.batches()), rows)
+
+
+def _chunks(source: Source, plan: Layout, whole: Whole, rows: int) -> Iterator[Flight]:
+    path = source.path
     name, digest = flight_name(path), file_digest(path)
     step: float | None = None
     before: Batch | None = None
@@ -102,7 +108,7 @@ def iter_flight_chunks(
         if after is not None:
             pieces.append({n: v[:_HALO] for n, v in after.items()})
         joined = {n: np.concatenate([p[n] for p in pieces]) for n in part}
-        flight = plan.flight(joined, name=name, digest=digest, first_row=done - lead + 1, step=step)
+        flight = plan.flight(joined, whole, name=name, digest=digest, first_row=done - lead + 1, step=step)
         edges = plan.known.to_si(
             joined["time"][[max(lead - 1, 0), lead + size - 1]], _unit(source, "time"), "s", str(path)
         )
