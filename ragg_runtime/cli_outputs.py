@@ -15,8 +15,8 @@ from typing import Any
 
 import click
 
-from ragg_runtime.atomic import Target
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import Target
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout where JSON is asked for: it is then all that stands there."""

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage, signal
 
-from ragg_runtime.timeseries import WINDOW, _weights, differentiate, runs
+from ragg_runtime.signals.derivative import WINDOW, _weights, differentiate, runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

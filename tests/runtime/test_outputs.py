@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
 
@@ -23,9 +23,9 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links 
 def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """A model directory with an effect, and a flight of 150 s."""
     place = tmp_path_factory.mktemp("outputs")
-    m = workflow.new(place / "model")
+    m = loop.new(place / "model")
     write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet")
-    workflow.add(m, "lag")
+    loop.add(m, "lag")
     return place / "model", place / "flight.parquet"
 
 
@@ -156,12 +156,12 @@ def test_what_is_no_results_file_of_a_survey_is_not_touched(given: tuple[Path, P
     torn = b'{"kind": "another"}\nand a line that has no end'
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    m = workflow.load(model)
+    m = loop.load(model)
     for k, content in enumerate((flight.read_bytes(), torn, b"ragg survey", b"\n\n", b"{")):
         kept = tmp_path / f"kept-{k}"
         kept.write_bytes(content)
         with pytest.raises(UserError, match="not a results file"):
-            workflow.survey(m, [flight], jobs=1, resume=kept)
+            loop.survey(m, [flight], jobs=1, resume=kept)
         assert kept.read_bytes() == content
     with pytest.raises(UserError, match="not a regular file"):
-        workflow.survey(m, [flight], jobs=1, resume=pipe)
+        loop.survey(m, [flight], jobs=1, resume=pipe)

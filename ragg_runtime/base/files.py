@@ -1,0 +1,237 @@
+"""Files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import hashlib
+import os
+import platform
+import re
+import secrets
+import shutil
+import stat
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from ragg_runtime.base.errors import UserError
+
+
+@contextlib.contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """A temporary file that takes the place of ``path`` on success and vanishes on failure.
+
+    A device or a pipe at ``path`` is written to instead, never replaced. Raises UserError where the folder is
+    missing or cannot be written.
+    """
+    with contextlib.closing(Target(path)) as target:
+        try:
+            yield target.temporary
+        except OSError as error:
+            raise _unwritten(path, error) from None
+        target.prepare()
+        target.place()
+
+
+class Target:
+    """A file to be written: made and checked at once, prepared, put in its place, or given up by ``close``.
+
+    Attributes
+    ----------
+    path
+        Where it is to stand; a link to a file leads there.
+    temporary
+        Where it is written meanwhile: beside its place, so that a rename brings it there.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._mode = path.stat().st_mode if path.exists() else None
+            if self._mode is not None and stat.S_ISDIR(self._mode):
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+            self.is_stream = _descriptor(path) is not None or (
+                self._mode is not None and not stat.S_ISREG(self._mode)
+            )
+            if self.is_stream:
+                if not os.access(path, os.W_OK):
+                    raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+                handle, name = tempfile.mkstemp(prefix="ragg-", suffix=path.suffix)
+                self.temporary = Path(name)
+                os.close(handle)
+                return
+            self._place = Path(os.path.realpath(path))
+            clear_stale(self._place)
+            self.temporary = temporary_name(self._place)
+            os.close(os.open(self.temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
+        except FileNotFoundError:
+            raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
+        except OSError as error:
+            raise _unwritten(path, error) from None
+
+    def write(self, content: bytes) -> None:
+        """Write all that is to be written; see :meth:`prepare`."""
+        try:
+            self.temporary.write_bytes(content)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+        self.prepare()
+
+    def prepare(self) -> None:
+        """Do all that may fail: a file is forced to the disc, a device or a pipe gets its content now."""
+        try:
+            if self.is_stream:
+                _pour(self.temporary, self.path)
+                return
+            # It is private so far; the file that is asked for has the rights of any new file, or its own.
+            os.chmod(self.temporary, 0o666 & ~_umask() if self._mode is None else self._mode & 0o7777)
+            sync(self.temporary)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+
+    def place(self) -> None:
+        """Bring what was prepared to its place."""
+        if self.is_stream:
+            return
+        try:
+            os.replace(self.temporary, self._place)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+        sync(self._place.parent)
+
+    def close(self) -> None:
+        """Clear the temporary file away, if it is still there."""
+        self.temporary.unlink(missing_ok=True)
+
+
+def _unwritten(path: Path, error: OSError) -> UserError:
+    return UserError("the file cannot be written", where=path, found=error.strerror or error)
+
+
+READER = 4.0
+"""How long a pipe is waited for that nobody reads, s."""
+
+
+def _descriptor(path: Path) -> int | None:
+    """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` stands for."""
+    named = {"/dev/stdout": 1, "/dev/stderr": 2}
+    if str(path) in named:
+        return named[str(path)]
+    match = re.fullmatch(r"/(?:dev|proc/self)/fd/(\d{1,4})", str(path))
+    return None if match is None else int(match[1])
+
+
+def _pour(source: Path, path: Path) -> None:
+    """Write a file's content to a device, a pipe or an open file."""
+    own = _descriptor(path)
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    handle = os.dup(own) if own is not None else _opened(path)
+    with os.fdopen(handle, "wb") as target, source.open("rb") as content:
+        shutil.copyfileobj(content, target)
+
+
+def _opened(path: Path) -> int:
+    """A device or pipe, for writing."""
+    deadline = time.monotonic() + READER
+    while True:
+        try:
+            handle = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
+            os.set_blocking(handle, True)
+            return handle
+        except OSError as error:
+            if error.errno != errno.ENXIO:
+                raise
+            if time.monotonic() > deadline:
+                raise OSError(error.errno, "nobody reads from it") from None
+        time.sleep(0.05)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write UTF-8 text whole or not at all."""
+    with contextlib.closing(Target(path)) as target:
+        target.write(text.encode())
+        target.place()
+
+
+def temporary_name(path: Path) -> Path:
+    """A free name beside ``path`` that tells who uses it, and on which machine."""
+    return path.with_name(f"{_prefix(path)}{os.getpid()}-{secrets.token_hex(4)}{path.suffix}")
+
+
+def clear_stale(path: Path) -> None:
+    """Remove what processes that were killed on this machine left of :func:`temporary_name` for this path."""
+    if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
+        return
+    prefix = _prefix(path)
+    with contextlib.suppress(OSError):
+        for name in os.listdir(path.parent):
+            process = name.removeprefix(prefix).split("-")[0]
+            if name.startswith(prefix) and process.isdecimal() and not _lives(int(process)):
+                place = path.with_name(name)
+                if place.is_dir() and not place.is_symlink():
+                    shutil.rmtree(place, ignore_errors=True)
+                else:
+                    place.unlink(missing_ok=True)
+
+
+def _prefix(path: Path) -> str:
+    machine = hashlib.sha256(platform.node().encode()).hexdigest()[:6]
+    return f".{path.name[:60]}.{machine}-"
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
+def sync(path: Path) -> None:
+    """Force a file or folder to the disc; folders cannot be synced on every system."""
+    flags = os.O_RDONLY | getattr(os, "O_DIRECTORY", 0) if path.is_dir() else os.O_RDONLY
+    with contextlib.suppress(OSError):
+        handle = os.open(path, flags)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def read_text(path: Path, longest: int = 1 << 20) -> str:
+    """The text of a user's file, UTF-8 with or without a byte-order mark, of at most ``longest`` bytes."""
+    try:
+        # A pipe or a device would be waited for, or never end.
+        if path.exists() and not path.is_file() and not path.is_dir():
+            raise UserError("a file is needed here, not a pipe or a device", where=path)
+        with path.open("rb") as stream:
+            data = stream.read(longest + 1)
+        if len(data) > longest:
+            raise UserError("the file is too long", where=path, expected=f"at most {longest} bytes")
+        return data.decode("utf-8-sig")
+    except FileNotFoundError:
+        raise UserError(
+            "the file does not exist", where=path, remedy="check the name and the folder"
+        ) from None
+    except IsADirectoryError:
+        raise UserError("a file is needed here, not a directory", where=path) from None
+    except UnicodeDecodeError as error:
+        raise UserError(
+            "the file is not UTF-8 text",
+            where=path,
+            found=f"byte {error.object[error.start]:#04x} at {error.start}",
+        ) from None
+    except OSError as error:
+        raise UserError("the file cannot be read", where=path, found=error.strerror) from None
