@@ -19,7 +19,7 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.memory import reuse_memory
-from ragg_runtime.cli_outputs import STDOUT, Command, OutputFile, asked
+from ragg_runtime.cli.outputs import STDOUT, Command, OutputFile, asked
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
