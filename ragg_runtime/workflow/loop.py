@@ -27,6 +27,7 @@ from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -151,11 +152,13 @@ def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
 
 def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
     """How far the model is from the flights, and where it fails."""
+    distinct(flights)
     return _compare.compare(m.model, m.instrument, flights)
 
 
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
     """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+    distinct(flights)
 
     def extended(model: Model, ids: Sequence[str]) -> Model:
         return derive.with_effects(m.instrument, model, ids)
@@ -216,6 +219,7 @@ def add(
     The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
     nothing is changed.
     """
+    distinct(flights)
     instrument = m.instrument
     known = derive.known(instrument)
     symbolic = known.get(effect, at(m.directory.path))
