@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -31,6 +31,7 @@ from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, 
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
@@ -196,6 +197,7 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
 
     With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
     """
+    distinct(flights)
     c = _compare.compare(m.model, m.instrument, flights)
     if not ladder:
         return c
@@ -206,6 +208,7 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
 
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
     """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+    distinct(flights)
 
     def extended(model: Model, ids: Sequence[str]) -> Model:
         return derive.with_effects(m.instrument, model, ids)
@@ -265,12 +268,19 @@ def survey(
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed.
     """
+    distinct(flights)
     instrument = m.instrument
     symbolic = derive.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
@@ -321,17 +331,29 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
     )
+    made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
+    if tell is not None:
+        tell(made)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
-    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+    return replace(made, loaded=_loaded(directory))
 
 
-def remove(m: Loaded, effect: str) -> Loaded:
-    """Take an effect out of the model again."""
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     step = Step("remove", _now(), effect)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
     )
