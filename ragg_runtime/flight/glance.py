@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import netcdf_file, parquet_file
 from ragg_runtime.flight.files import flight_name
+from ragg_runtime.flight.formats import check_content, format_of
 from ragg_runtime.flight.record import Array
-from ragg_runtime.flight.source import check_content, format_of
 from ragg_runtime.instrument.units import units
 
 
@@ -34,12 +35,11 @@ def glance(path: Path, g0: float) -> Glance | None:
     Whatever is wrong with a file is told by :func:`~ragg_runtime.flight.files.read_flight`, not here.
     """
     try:
-        check_content(path, format_of(path))
-        found = _parquet(path) if format_of(path) == "parquet" else None
-        if format_of(path) == "netcdf":
-            found = _netcdf(path)
-        if found is None:
+        kind = format_of(path)
+        check_content(path, kind)
+        if kind not in (parquet_file, netcdf_file):
             return None
+        found = _parquet(path) if kind is parquet_file else _netcdf(path)
         (time, time_unit), (output, unit) = found
         known = units(g0)
         ends = known.to_si(time, time_unit, "s", str(path))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.source import FORMATS
+from ragg_runtime.flight.formats import ENDINGS, ending_of
 
 LISTED = 500
 """Most entries of a folder that are shown."""
@@ -71,9 +71,10 @@ def safe_name(name: str) -> str:
     """A name for an uploaded flight: one part, no control characters, of a known ending; or UserError."""
     plain = unicodedata.normalize("NFC", name).replace("\\", "/").split("/")[-1]
     plain = re.sub(r"[^\w.+ ()-]", "_", plain).strip(" .")
-    if not any(plain.lower().endswith(ending) and len(plain) > len(ending) for ending in FORMATS):
+    ending = ending_of(plain)
+    if ending is None or len(plain) == len(ending):
         raise UserError(
-            "this is no flight file", where=name[:200], expected="a name that ends in " + ", ".join(FORMATS)
+            "this is no flight file", where=name[:200], expected="a name that ends in " + ", ".join(ENDINGS)
         )
     if len(plain) > LONGEST_NAME:
         raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")
@@ -87,7 +88,7 @@ def _kind(e: os.DirEntry[str]) -> str | None:
         return "model" if Path(e.path, "model.toml").is_file() else "folder"
     if e.name.lower().endswith(".toml"):
         return "sheet"
-    return "flight" if any(e.name.lower().endswith(x) for x in FORMATS) else None
+    return "flight" if ending_of(e.name) else None
 
 
 def _size(e: os.DirEntry[str]) -> int:

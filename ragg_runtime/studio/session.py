@@ -25,7 +25,7 @@ from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.tracks import Tracks
-from ragg_runtime.workflow import loop
+from ragg_runtime.workflow import loop, versions
 from ragg_runtime.workflow.loop import Added, Loaded
 
 Part = Callable[[str, float], None]
@@ -119,7 +119,8 @@ class Session:
             self._put(**_nothing(), paths=flights, flights=(), glances=looks)
             part("reading and examining the flights", 1.0)
             read = tuple(loop.read_flights(self.state.model, flights))
-            self._put(**_nothing(), paths=flights, flights=read, read=read, cuts=((),) * len(read))
+            places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
+            self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)
 
     def leave_out(self, flight: int, stretch: tuple[float, float] | None) -> None:
@@ -198,7 +199,7 @@ class Session:
         self._idle()
         m = self.state.model
         text = set_parameters(m.directory.text, values)
-        self._changed(loop.change(m, text, "edit", ", ".join(values)))
+        self._changed(versions.change(m, text, "edit", ", ".join(values)))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -213,7 +214,7 @@ class Session:
             to = step
         else:
             raise UserError(f"there is nothing to {action}")
-        self._changed(loop.change(m, _text(m.directory.history, to), action, str(to)))
+        self._changed(versions.change(m, _text(m.directory.history, to), action, str(to)))
 
     def beside(self, step: int | None) -> None:
         """Compare the model as it was after a step with the same flights; ``None``: no longer."""
@@ -228,12 +229,12 @@ class Session:
     def _beside(self, step: int, text: str, part: Part) -> None:
         s = self.state
         part("comparing an earlier model", PASSES["compare"] * s.samples)
-        old = loop.as_of(s.model, text)
+        old = versions.as_of(s.model, text)
         self._put(beside=(step, loop.compare(old, s.flights)))
 
     def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
         """Try an effect of the user's own: derived and calibrated, but not kept."""
-        listed = loop.with_own(self.state.model, effect, add, units)
+        listed = versions.with_own(self.state.model, effect, add, units)
         if not self.state.flights:
             raise UserError("no flight is open", remedy="choose one first")
         self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
@@ -253,7 +254,7 @@ class Session:
     def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         s = self.state
         part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        result = loop.add(loop.with_own(s.model, effect, add, units), effect, s.flights)
+        result = loop.add(versions.with_own(s.model, effect, add, units), effect, s.flights)
         self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
         self._look(part)
 

@@ -364,7 +364,7 @@ def commands(s: State) -> list[str]:
     if s.loaded is None:
         return []
     model = shlex.quote(str(s.loaded.directory.path))
-    flights = " ".join(shlex.quote(str(p)) for p in s.paths)
+    flights = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
     found = [f"ragg history {model}"]
     if s.paths:
         found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found

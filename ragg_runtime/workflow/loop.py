@@ -10,7 +10,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -19,14 +20,19 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.landmarks import distinct
+from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -34,7 +40,13 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir.directory import (
+    MAPPING,
+    ModelDir,
+    create_model_dir,
+    load_model_dir,
+    replace_model_dir,
+)
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
@@ -42,6 +54,12 @@ from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
+
+NO_FORM = (
+    'model.toml has no [model], which means kinematics = "platform" and order = "paper": as in Eq. 9 of the paper '
+    "the accelerometers do not feel that they turn with the disc. Real ones do: with "
+    '[model] kinematics = "full" the model knows it'
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -113,8 +131,15 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
     }
 
 
-def new(path: Path | str, source: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
+
+    ``mapping`` is kept with the model: what the columns of its flight files are.
+    """
+    kept = None
+    if mapping is not None:
+        kept = read_text(Path(mapping))
+        parse_mapping(kept, Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -128,7 +153,9 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now(), text=text),)
-    return _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
+    made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
+    m = _loaded(made)
+    return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -139,20 +166,44 @@ def load(path: Path | str) -> Loaded:
 def _loaded(directory: ModelDir) -> Loaded:
     model = derive.model_of(directory.instrument, directory.generated)
     check_settings(model, directory.instrument)
-    note = (
-        derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
-    )
+    note = derive.departure(directory.instrument, directory.generated)
     return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+
+    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
+    default the model's own ``mapping.toml``, if it has one.
+    """
+    how = mapping_of(m, mapping)
+    found = []
+    for path in paths:
+        for x in _read_flights(path, m.instrument.g0, mapping=how):
+            found.append(settled(examined(m.model, m.instrument, x)))
+    return found
 
 
-def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
-    """How far the model is from the flights, and where it fails."""
-    return _compare.compare(m.model, m.instrument, flights)
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.path / MAPPING
+    return replace(read_mapping(own), kept=True) if own.exists() else None
+
+
+def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
+    """How far the model is from the flights, and where it fails.
+
+    With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
+    """
+    distinct(flights)
+    c = _compare.compare(m.model, m.instrument, flights)
+    if not ladder:
+        return c
+    return replace(
+        c, ladder=climb(m.instrument, flights, lambda form: derive.without_signatures(m.instrument, form))
+    )
 
 
 def diagnose(
@@ -165,6 +216,7 @@ def diagnose(
 
     ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
     """
+    distinct(flights)
 
     def extended(model: Model, ids: Sequence[str]) -> Model:
         return derive.with_effects(m.instrument, model, ids)
@@ -205,12 +257,14 @@ def survey(
     tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
     """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
 
     The arguments are those of :func:`ragg_runtime.survey.run.survey`.
     """
     place = m.directory.path / "model.toml"
+    how = mapping_of(m, mapping)
     return _survey(
         m.directory.text,
         place,
@@ -220,18 +274,27 @@ def survey(
         tls=tls,
         resume=resume,
         progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = (), *, save: bool = True) -> Added:
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
+) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all; without ``save`` it stays, and the result says what would be.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed. Without ``save`` the directory stays, and the result says what would be.
     """
+    distinct(flights)
     instrument = m.instrument
-    known = derive.known(instrument)
-    symbolic = known.get(effect, at(m.directory.path))
+    symbolic = derive.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
     if present is not None and present.values:
         raise UserError(
@@ -281,51 +344,35 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = (), *, save: bool = 
         MappingProxyType({x.name: x.digest for x in flights}),
         text,
     )
+    made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
+    if tell is not None:
+        tell(made)
     if not save:
-        return Added(m, effect, before, after, parameters, combinations)
+        return replace(made, loaded=m)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
-    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+    return replace(made, loaded=_loaded(directory))
 
 
-def remove(m: Loaded, effect: str) -> Loaded:
-    """Take an effect out of the model again."""
-    text = remove_effect(m.directory.text, effect)
-    return change(m, text, "remove", effect)
-
-
-def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
-    """Put another text in the place of model.toml, derive its model, and note the step in the history."""
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    check_settings(derive.model_of(instrument), instrument)
-    step = Step(action, _now(), effect, text=text)
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", _now(), effect, text=text)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
     )
     return _loaded(directory)
-
-
-def as_of(m: Loaded, text: str) -> Loaded:
-    """The model with another text of model.toml, in memory alone: the directory stays as it is."""
-    instrument = parse_instrument(text, m.directory.path / "model.toml")
-    model = derive.model_of(instrument)
-    check_settings(model, instrument)
-    return Loaded(replace(m.directory, text=text, instrument=instrument, generated=None), model, m.notes)
-
-
-def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
-    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone.
-
-    :func:`add` then calibrates it, and keeps it if that is wanted.
-    """
-    parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
-    expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
-    if effect in {e.id for e in derive.known(m.instrument).effects}:
-        raise UserError(
-            "an effect of this id exists already", found=repr(effect[:80]), remedy="choose another name"
-        )
-    return as_of(m, add_effect(m.directory.text, EffectSetting(effect, expression=expression)))
 
 
 def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
