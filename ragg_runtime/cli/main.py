@@ -5,7 +5,6 @@ Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ou
 
 from __future__ import annotations
 
-import errno
 import json
 import sys
 import traceback
@@ -18,17 +17,12 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.cli.boundary import hold_streams, refusal
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
 
 F = TypeVar("F", bound=Callable[..., Any])
-
-# A full disc, a quota, a folder that may not be read: of the system, not of the program.
-_REFUSALS = {
-    getattr(errno, name, None)
-    for name in ("ENOSPC", "EFBIG", "EDQUOT", "EACCES", "EPERM", "EROFS", "EMFILE", "ENFILE", "EIO")
-}
 
 DIRECTORY = click.Path(path_type=Path)
 _json = click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
@@ -60,7 +54,7 @@ def _load(model_dir: Path) -> Loaded:
 
 def _notes(model_dir: Path, notes: Sequence[str]) -> None:
     for note in notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -85,7 +79,7 @@ def _write_report(file: str | None, make: Callable[[], str]) -> None:
 
         _progress("writing the report")
         write_text(Path(file), make())
-        click.echo(f"report: {file}", err=True)
+        click.echo(one_line(f"report: {file}"), err=True)
 
 
 def _command() -> str:
@@ -124,7 +118,7 @@ def derive(out: Path | None, check: bool) -> None:
         return
     changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
     for name in changed:
-        click.echo(f"written: {root / name}")
+        click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
 
 
@@ -136,8 +130,9 @@ def new(model_dir: Path, source: Path | None) -> None:
     from ragg_runtime.workflow import loop
 
     m = loop.new(model_dir, source)
-    click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
-    click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
+    place, effects = one_line(str(m.directory.path)), ", ".join(e.id for e in m.model.effects)
+    click.echo(f"{place}: made, effects: {effects or 'none'}")
+    click.echo(f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT")
 
 
 @cli.command()
@@ -477,7 +472,7 @@ def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: An
     _progress("flying")
     flight = simulated(m.instrument, hidden, **options)
     write_flight(flight, output)
-    click.echo(f"{output}: {len(flight.time)} samples at {flight.rate:g} Hz")
+    click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
 
 
 @cli.command()
@@ -493,6 +488,7 @@ def demo(output: Path) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
+    hold_streams()
     try:
         from ragg_runtime.experiments.command import experiment
 
@@ -518,11 +514,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except KeyboardInterrupt:
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno in _REFUSALS:
-            place = f"{error.filename}: " if error.filename else ""
-            click.echo(printable(f"ragg: {place}{error.strerror}"), err=True)
-            sys.exit(2)
+    except OSError as error:
+        click.echo(f"ragg: {refusal(error)}", err=True)
+        sys.exit(2)
+    except Exception:
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)

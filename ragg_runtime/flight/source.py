@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.flight.record import Array
 
 Batch = Mapping[str, Array]
@@ -123,7 +123,7 @@ def columns_of(path: Path, headers: Sequence[tuple[str, str | None]]) -> tuple[C
                 found=repr(header),
                 expected="name [unit], such as a_x [g]",
             )
-        name, given = match["name"], (match["unit"] if unit is None else unit)
+        name, given = one_line(match["name"]), (match["unit"] if unit is None else unit)
         if given is None or not given.strip():
             raise UserError(
                 "the column has no unit",
