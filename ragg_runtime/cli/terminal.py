@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base.errors import one_line
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
@@ -15,6 +16,7 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.form import Form
+from ragg_runtime.model_dir.history import calibrated_rms
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loop import Added
@@ -152,7 +154,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
-        lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+        lines += ["", f"next: ragg add {one_line(str(model_dir))} {d.found[0]} FLIGHT"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
@@ -182,8 +184,7 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
     for s in steps:
         values = []
         for key in ("before", "after"):
-            e = s[key]
-            calibrated = e.get("calibrated", e) if e else None
-            values.append(f"{calibrated['rms_Eo']:10.4g}" if calibrated else f"{'-':>10}")
+            rms = calibrated_rms(s[key])
+            values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
         lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
     return "\n".join(lines)

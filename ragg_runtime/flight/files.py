@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import replacing
 from ragg_runtime.flight.angular_acceleration import REACH
 from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
@@ -224,7 +224,8 @@ def flight_name(path: Path) -> str:
     ending = ending_of(path.name)
     stem = path.name[: -len(ending)] if ending is not None else path.name
     folder = path.resolve().parent.name
-    return f"{folder}/{stem}" if stem == "flight" and folder else stem
+    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
 def file_digest(path: Path) -> str:

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.model.model import Model, from_files, packaged
@@ -148,7 +148,7 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
         what = "it holds things that are no source files"
     else:
         names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
-        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+        what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
         f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
         "adding or removing an effect writes it again"

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
@@ -76,7 +76,7 @@ class Loaded:
 
     @property
     def name(self) -> str:
-        return self.directory.path.resolve().name
+        return one_line(self.directory.path.resolve().name)
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
