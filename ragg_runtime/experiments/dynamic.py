@@ -126,7 +126,7 @@ def _rows(run: Simulation, errors: Mapping[str, Array], reach: Reach) -> tuple[R
                     ours,
                     reach=bounds,
                     open_input="the analytical model's error is the product of second-order coefficients and "
-                    "misalignment angles alone, vartheta_x among them, of which Table V says nothing; four "
+                    "angles (misalignments and mounting errors) alone, vartheta_x among them, of which Table V says nothing; four "
                     f"vartheta_x within {LARGEST:g} arcsec, the largest misalignment of Table V, reach it",
                     unexplained="analytical minus simplified follows from Eq. 17-19 and 42-47 with Tables V "
                     "and VI alone, whatever the numerical model; no variant of the motion tried gives the "
