@@ -13,6 +13,8 @@ import sympy as sp
 
 from derive import stages
 from derive.effect import Effect
+from derive.layout import AXES, HEIGHT, TURN, Layout
+from derive.layout import PAPER as FOUR
 from derive.stages import PAPER, Force, Geometry, Motion, Order, SensedForce
 from derive.symbols import (
     ACCELEROMETER,
@@ -52,6 +54,22 @@ class Context:
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
+    axes: sp.Matrix | None = None
+
+    def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
+
+        These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
+        """
+        if self.axes is None:
+            return v
+        return self.axes.T * v if v.shape[1] == 1 else self.axes.T * v * self.axes
+
+    def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """The other way round."""
+        if self.axes is None:
+            return v
+        return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
@@ -110,9 +128,15 @@ class Accelerometer:
 
 
 def accelerometer(
-    effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None
+    effects: Sequence[Effect] = (),
+    order: Order = PAPER,
+    tape: Tape | None = None,
+    layout: Layout = FOUR,
 ) -> Accelerometer:
-    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
+    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
+
+    From the end of the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    """
     tape = Tape() if tape is None else tape
     let = tape.let
     hooked = [(e, e.values) for e in effects]
@@ -122,6 +146,9 @@ def accelerometer(
     for e, p in hooked:
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
+    if layout.has(AXES[0, 0]):
+        c.axes = AXES
+        c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
     M = stages.gradient(c.motion).applyfunc(sp.sympify)
     M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
 
@@ -135,12 +162,14 @@ def accelerometer(
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
+    height = HEIGHT if layout.has(HEIGHT) else sp.Integer(0)
+    turn = TURN if layout.has(TURN[0, 0]) else None
 
     def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
-        g = stages.mounting(symbol("radius") + k["dR"], order=order, **angles)
+        g = stages.mounting(symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles)
         g = _named_geometry(let, f"{label}_disc", g)
         g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
         for e, p in hooked:

@@ -17,6 +17,8 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import render
 from derive.folded import Folded, folded
+from derive.layout import PAPER as FOUR
+from derive.layout import Layout
 from derive.propagation import collect, ideal
 from derive.transduction import starred
 
@@ -40,12 +42,14 @@ def derive_base() -> Files:
     )
 
 
-def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Files:
+def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], layout: Layout = FOUR) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
-    return _derive(effects, candidates)
+    return _derive(effects, candidates, layout=layout)
 
 
-def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics: ir.Harmonic) -> Files:
+def _derive(
+    effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics: ir.Harmonic, layout: Layout = FOUR
+) -> Files:
     files: dict[str, str] = {}
     for m in harmonics:
         files[f"{m.name}.py"] = render.harmonic_numpy(m)
@@ -62,12 +66,12 @@ def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics:
         files[f"{f.name}.py"] = render.folded_numpy(f)
         files[f"c/{f.name}.h"], files[f"c/{f.name}.c"] = render.folded_c(f)
     active = [e for e in effects if e.kind in ("deterministic", "step")]
-    chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
+    chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).", layout=layout)]
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
-        chains.append(ir.chain(active, "signatures", title, candidates=open_))
+        chains.append(ir.chain(active, "signatures", title, candidates=open_, layout=layout))
     for c in chains:
         files[f"{c.name}.py"] = render.chain_numpy(c)
         # The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere.

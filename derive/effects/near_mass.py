@@ -26,7 +26,8 @@ def component(p: Values, *axes: str) -> sp.Expr:
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
     # Gravity that grows with r is felt as specific force of the other sign.
     second = [sp.Matrix(3, 3, [component(p, k, a, b) for a in "xyz" for b in "xyz"]) for k in "xyz"]
-    return sp.Matrix([-r.dot(T * r) / 2 for T in second])
+    r = c.in_measurement_frame(r)
+    return c.in_disc_frame(sp.Matrix([-r.dot(T * r) / 2 for T in second]))
 
 
 EFFECT = Effect(
