@@ -169,7 +169,9 @@ def accelerometer(
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
-        g = stages.mounting(symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles)
+        g = stages.mounting(
+            symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles
+        )
         g = _named_geometry(let, f"{label}_disc", g)
         g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
         for e, p in hooked:

@@ -66,7 +66,9 @@ def _derive(
         files[f"{f.name}.py"] = render.folded_numpy(f)
         files[f"c/{f.name}.h"], files[f"c/{f.name}.c"] = render.folded_c(f)
     active = [e for e in effects if e.kind in ("deterministic", "step")]
-    chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).", layout=layout)]
+    chains = [
+        ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).", layout=layout)
+    ]
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
     if open_:

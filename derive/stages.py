@@ -111,7 +111,7 @@ def mounting(
     beta_x: sp.Expr,
     beta_z: sp.Expr,
     order: Order = PAPER,
-    height: sp.Expr = sp.Integer(0),
+    height: sp.Expr | int = 0,
     turn_of_triad: sp.Matrix | None = None,
 ) -> Geometry:
     """Position and triad in the disc frame (radial, tangential, axial) of the nominal position.

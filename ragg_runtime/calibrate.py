@@ -183,18 +183,18 @@ def fit(
     away = np.clip((begun[index] - nominal[index]) / scale, -REACH, REACH)
     p[index] = nominal[index] + away * scale
     known = list(noise) if noise is not None else None
-    eotvos = scale_factor(model.chain, nominal)
-    white = [_white(o, eotvos) for o in observations]
+    white = [_white(o, scale_factor(model, nominal, o.place)) for o in observations]
     for iteration in range(iterations):
         at = Point(model, instrument, p.copy(), with_candidates=False)
-        triangles, rows, sums = [], 0, np.zeros(len(columns) + 1)
+        triangles, rows = [], 0
+        sums = {o.place: np.zeros(len(columns) + 1) for o in observations}
         for k, o in enumerate(observations):
             noise_k, chosen = (
                 (white[k], spread(flight_segments(o), WHITE_SEGMENTS)) if known is None else (known[k], None)
             )
             for T, count, part in passed(at, o, noise_k, _triangle, chosen=chosen):
                 rows += count
-                sums += part
+                sums[o.place] += part
                 triangles.append(T)
         normal = with_prior(design.join(triangles), -away)
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
@@ -209,7 +209,10 @@ def fit(
         elif known is not None and settled:
             break
     assert known is not None
-    p[index] += (design.levelled(step, sums, design.null_biases(columns)) - step) * scale
+    levelled = step
+    for own in sums.values():
+        levelled = design.levelled(levelled, own, design.null_biases(columns))
+    p[index] += (levelled - step) * scale
     return Calibration(p, columns, index, normal.covariance, tuple(known), rows)
 
 

@@ -15,7 +15,7 @@ from ragg_runtime.calibrate import Calibration
 from ragg_runtime.demodulate import low_pass
 from ragg_runtime.design import Observation
 from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import record, scale_factor, vector, voltages
+from ragg_runtime.evaluate import record, recorded, scale_factor, vector, voltages
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.omnibus import Omnibus
 from ragg_runtime.evidence.search import Field
@@ -24,6 +24,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
+from ragg_runtime.layout import scale
 from ragg_runtime.load import Model
 from ragg_runtime.metrics import Error, Stretch, Tally, channels, pooled
 from ragg_runtime.passes import Noise, Piece, as_output
@@ -84,7 +85,11 @@ def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -
         squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
         samples[b] = np.sum(v)
     selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
-    return _Counted(Tally.of(Stretch(e, r.phi, selected, r.valid), r.rate), squares, samples)
+    return _Counted(
+        Tally.of(Stretch(e, r.demodulation_angle, selected, r.valid), r.rate, turning=r.turning),
+        squares,
+        samples,
+    )
 
 
 @dataclass(frozen=True)
@@ -103,7 +108,18 @@ class Fitted:
     triangles: tuple[tuple[Array, ...], ...]
     sums: tuple[Array, ...]
     to_nominal: Array
-    k_ggi: float
+    scales: tuple[float, ...]
+    """k_ggi of every observation's output, V/Eo."""
+
+    @property
+    def k_ggi(self) -> float:
+        """That of the first."""
+        return self.scales[0]
+
+    @property
+    def flights(self) -> list[Observation]:
+        """One observation of each flight, of however many outputs."""
+        return [o for o in self.observations if o.place == 0]
 
     @property
     def n_base(self) -> int:
@@ -148,9 +164,13 @@ class Fitted:
         k = len(picked)
         inverse = np.linalg.inv(R[:k, :k])
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
-        sums = np.sum([x[blocks] for x in self.sums], axis=(0, 1))[[*picked, -1]]
         biases = design.null_biases(self.calibration.columns)
-        return design.levelled(inverse @ R[:k, k], sums, biases), inverse @ inverse.T
+        coefficients = inverse @ R[:k, k]
+        for place in dict.fromkeys(o.place for o in self.observations):
+            own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
+            sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
+            coefficients = design.levelled(coefficients, sums, biases)
+        return coefficients, inverse @ inverse.T
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
         """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
@@ -183,7 +203,8 @@ class Fitted:
         k = len(V) + count
         tallies, blocks = [], np.full((len(self.flown), BLOCKS, k), np.nan)
         for n, x in enumerate(self.flown):
-            tally = Tally(k, 2, x.observation.record.rate)
+            r = x.observation.record
+            tally = Tally(k, 2, r.rate, turning=r.turning)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
             lean, W = x.for_residuals(V, self.n_base)
 
@@ -208,7 +229,7 @@ class Fitted:
         ]
 
     def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
-        errors = [t.error(series, self.k_ggi, group) for t in tallies]
+        errors = [t.error(series, k, group) for t, k in zip(tallies, self.scales, strict=True)]
         if len(errors) == 1:
             return errors[0]
         return pooled(errors, [float(t.samples[group]) for t in tallies])
@@ -218,19 +239,31 @@ class Fitted:
         return replace(self, flown=tuple(x.released() for x in self.flown))
 
 
-def observe(flight: Flight, instrument: Instrument) -> Observation:
-    """The most telling output of a flight: the four voltages if recorded, else G_out, else the channels."""
-    r = record(flight, instrument)
-    volts = [f"V_{j}" for j in (1, 2, 3, 4)]
-    if all(v in flight.outputs for v in volts):
-        series, kind = tuple(flight.outputs[v] for v in volts), "voltages"
-    elif "G_out" in flight.outputs:
-        series, kind = (flight.outputs["G_out"],), "G_out"
+def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
+    """Every output of every flight: several where the layout has several, those that were recorded."""
+    found = []
+    for x in flights:
+        kinds = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        found += [observe(x, instrument, k) for k, kind in enumerate(kinds) if kind]
+    return found
+
+
+def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
+    """The most telling form of an output of a flight: its voltages if recorded, else G_out, else the channels."""
+    layout = instrument.layout
+    o = layout.outputs[place]
+    r = record(flight, instrument, place)
+    kind = recorded(flight, layout, place)
+    if kind is None:
+        raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
+    if kind == "voltages":
+        series = tuple(flight.outputs[v] for v in layout.voltages(o, flight.outputs) or ())
+    elif kind == "G_out":
+        series = (flight.outputs[o.name],)
     else:
         a = instrument.accelerometers
-        k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (instrument.radius + a["dR"])))
+        k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
         series = (design.carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
-        kind = "channels"
         edge = len(low_pass(r.rate)) // 2  # there our demodulator has not seen enough
         inside = np.zeros(len(r.time), dtype=bool)
         inside[edge : len(r.time) - edge] = True
@@ -238,14 +271,15 @@ def observe(flight: Flight, instrument: Instrument) -> Observation:
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    clipped = special.saturation(flight.outputs["G_out"], valid) if "G_out" in flight.outputs else None
+    clipped = special.saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
     if clipped is not None:
         valid &= ~clipped[1]
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
-    return Observation(kind, replace(r, valid=valid, wide=wide), series, flight.name)
+    name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
+    return Observation(kind, replace(r, valid=valid, wide=wide), series, name, o, place)
 
 
 @one_thread
@@ -262,7 +296,7 @@ def fit(
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
-    if not scale_factor(model.chain, c.p) > 0.0:
+    if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",
             where=", ".join(o.name for o in observations),
@@ -281,7 +315,7 @@ def fit(
         triangles,
         sums,
         work.to_nominal(model, instrument, c),
-        scale_factor(model.chain, c.p),
+        tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 
 
@@ -355,8 +389,8 @@ class Comparison:
         records = [o.record for o in f.observations]
         return {
             "effects": [e.id for e in f.model.effects],
-            "samples": int(sum(len(r.time) for r in records)),
-            "duration_s": float(sum(r.time[-1] + 1 / r.rate for r in records)),
+            "samples": int(sum(len(o.record.time) for o in f.flights)),
+            "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
             "error": {
                 "nominal": self.nominal.as_json(),
@@ -384,11 +418,11 @@ class Comparison:
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
         rows: list[dict[str, object]] = []
-        for x, blocks in zip(self.fitted.flown, self.scored.blocks, strict=True):
+        for x, blocks, k_ggi in zip(self.fitted.flown, self.scored.blocks, self.fitted.scales, strict=True):
             time = x.observation.record.time
             for b, volts in enumerate(blocks):
                 if np.isfinite(volts):
-                    rms = float(volts) / self.fitted.k_ggi
+                    rms = float(volts) / k_ggi
                     rows.append(
                         {
                             "flight": x.observation.name,
@@ -405,7 +439,7 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
     total = dict.fromkeys(harmonics(), 0.0)
     counted = 0
-    for x in f.flown:
+    for x, k_ggi in zip(f.flown, f.scales, strict=True):
         rate = x.observation.record.rate
         taps = low_pass(rate)
         if len(x.observation.record.time) < 2 * len(taps):
@@ -415,9 +449,9 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
         lean, v = x.for_residuals(coefficients[None], f.n_base)
         tail = np.empty((len(total), 0))
 
-        def mix(piece: Piece, v: Array = v) -> Array:
+        def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:
             r = piece.observation.record
-            e = np.where(r.valid, piece.left(v)[0], 0.0) / f.k_ggi
+            e = np.where(r.valid, piece.left(v)[0], 0.0) / k_ggi
             return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
 
         for mixed in lean.each(mix, whitened=False):
@@ -491,7 +525,7 @@ def channel_unit(name: str) -> str:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    f = fit(model, instrument, [observe(x, instrument) for x in flights])
+    f = fit(model, instrument, observations_of(flights, instrument))
     p = vector(model, instrument)
     half, _ = f.coefficients((), held_out=True)
     calibrated, held_out, nominal = f.score(
@@ -507,16 +541,16 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values."""
     o = piece.observation
-    predicted = design.observe(o, voltages(f.model.chain, o.record, p), None)
+    predicted = design.observe(o, voltages(f.model.chain, o.record, p, o.output), None)
     return as_output(o, np.where(o.record.valid, o.data - predicted, 0.0))
 
 
 def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
-    for x in f.flown:
+    for x, k_ggi in zip(f.flown, f.scales, strict=True):
         share = design.noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
-        variances.append(share * sum(m.rms**2 for m in x.noise.models))
+        variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi
 
 
@@ -533,6 +567,6 @@ def testable_effects(f: Fitted) -> list[str]:
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
     return [
-        channels(e, x.observation.record, f.k_ggi, x.observation.record.valid)
-        for x, e in zip(f.flown, residuals, strict=True)
+        channels(e, x.observation.record, k, x.observation.record.valid)
+        for x, e, k in zip(f.flown, residuals, f.scales, strict=True)
     ]

@@ -20,6 +20,7 @@ from ragg_runtime.demodulate import low_pass
 from ragg_runtime.evaluate import Record, unit_factor
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import PARAMETERS, Instrument
+from ragg_runtime.layout import PAPER, Output
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.units import Units, units
 
@@ -41,7 +42,7 @@ class Column:
     name
         As shown: ``K2``, ``cubic-input.K_iii``.
     accelerometer
-        1 ... 4, or ``None`` if shared.
+        1 ... n, or ``None`` if shared.
     scale
         Width of the prior, SI: columns are derivatives times it.
     unit, unit_factor
@@ -66,15 +67,20 @@ class Column:
 class Observation:
     """What of a flight, or of a part of one, is fitted: m output series over N samples.
 
-    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4) or ``channels``: inline and cross are all that was
-    recorded; then the data are the channels put back on their carriers (m = 1, see :func:`narrow`), and
-    every column passes through the same demodulator. All in V.
+    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4 in the paper's instrument, those of the output's accelerometers)
+    or ``channels``: inline and cross are all that was recorded; then the data are the channels put back on their
+    carriers (m = 1, see :func:`narrow`), and every column passes through the same demodulator. All in V.
+
+    ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
+    ``place`` counts them.
     """
 
     kind: str
     record: Record
     series: tuple[Array, ...]
     name: str
+    output: Output = PAPER.outputs[0]
+    place: int = 0
     memo: list[tuple[Sequence[Array], list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.gradient` has found for some filters."""
 
@@ -86,7 +92,8 @@ class Observation:
     @property
     def weights(self) -> Array:
         """(m,): how much of a common term of G_out each output sees (for voltages each is searched as one)."""
-        return np.array([0.25, 0.25, -0.25, -0.25]) if self.kind == "voltages" else np.ones(1)
+        signs = np.array(self.output.signs, dtype=np.float64)
+        return signs / len(signs) if self.kind == "voltages" else np.ones(1)
 
     def part(self, rows: slice) -> Observation:
         """Some of the samples."""
@@ -94,7 +101,7 @@ class Observation:
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        return Observation(self.kind, self.record.part(rows), series, self.name)
+        return Observation(self.kind, self.record.part(rows), series, self.name, self.output, self.place)
 
 
 def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
@@ -111,39 +118,39 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
             continue
         factor = unit_factor(q.display_unit, known)
         scales = q.plausible_si(instrument.accelerometers[q.name], instrument.g0)
-        for j in range(4):
+        for j in range(instrument.layout.size):
             column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known)]
+            found += [
+                (c, start[s] + (c.accelerometer or 1) - 1)
+                for c, s in _of_effect(e, known, instrument.layout.size)
+            ]
     return found
 
 
 def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
-    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known)]
+    return [
+        c
+        for e in model.candidates
+        if e.kind != "output"
+        for c, _ in _of_effect(e, known, instrument.layout.size)
+    ]
 
 
-def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
+def _of_effect(e: Effect, known: Units, count: int) -> list[tuple[Column, str]]:
     columns = []
     for q in e.parameters:
         if not q.fitted:
             continue
         factor = unit_factor(q.unit, known)
-        for j in (None,) if q.shared else (1, 2, 3, 4):
+        for j in (None,) if q.shared else range(1, count + 1):
             column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
             columns.append((column, q.symbol))
     return columns
-
-
-_COMBINATION = np.array([1.0, 1.0, -1.0, -1.0])
-
-
-def combined(v: Array, accelerometer: int | None = None) -> Array:
-    """G_out (N,) of voltages (4, N), or of one accelerometer's (N,) (Eq. 15)."""
-    return np.asarray(_COMBINATION @ v if accelerometer is None else _COMBINATION[accelerometer - 1] * v)
 
 
 def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
@@ -152,6 +159,9 @@ def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
     ``k_ggi`` in V per unit of the channels.
     """
     cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+    if r.phase != 0.0:
+        c, s = float(np.cos(r.phase)), float(np.sin(r.phase))
+        cosine, sine = c * cosine - s * sine, c * sine + s * cosine
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
 
 
@@ -170,14 +180,16 @@ def noise_gain(rate: float) -> float:
 
 
 def observe(o: Observation, v: Array, accelerometer: int | None) -> Array:
-    """What an observation sees of voltages: (4, N), or (N,) of one accelerometer -> (m, N)."""
+    """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
+    members, signs = o.output.members, np.array(o.output.signs, dtype=np.float64)
+    at = None if accelerometer is None else members.index(accelerometer - 1)
     if o.kind == "voltages":
-        if accelerometer is None:
+        if at is None:
             return v
-        full = np.zeros((4, v.shape[-1]))
-        full[accelerometer - 1] = v
+        full = np.zeros((len(members), v.shape[-1]))
+        full[at] = v
         return full
-    G = combined(v, accelerometer)
+    G = np.asarray(signs @ v if at is None else signs[at] * v)
     return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
 
 

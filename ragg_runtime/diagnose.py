@@ -31,6 +31,7 @@ from ragg_runtime.evidence.special import Variance
 from ragg_runtime.evidence.work import Flown
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
+from ragg_runtime.layout import PAPER, Layout
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error, finite
 from ragg_runtime.next_motion import Proposal
@@ -216,7 +217,7 @@ def diagnose(
     limits
         Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = [compare.observe(x, instrument) for x in flights]
+    observations = compare.observations_of(flights, instrument)
     f = compare.fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 
@@ -432,9 +433,10 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Saturation and quantisation of a recorded output, recognised in its values."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
-    for x, w in zip(flights, f.flown, strict=True):
+    first = (w for w in f.flown if w.observation.place == f.flown[0].observation.place)
+    for x, w in zip(flights, first, strict=True):
         for name, series in x.outputs.items():
-            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+            if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
             if "saturation" in known and special.saturation(series, valid):
@@ -481,7 +483,7 @@ def _ranking(
                 scored[2 * n].whole,
                 scored[2 * n + 1].held_out,
                 tuple(parameters),
-                tuple(visible_combinations(mine, values, spread)),
+                tuple(visible_combinations(mine, values, spread, f.instrument.layout)),
                 twins,
             )
         )
@@ -524,22 +526,47 @@ PATTERNS: tuple[tuple[str, tuple[float, ...]], ...] = (
 """The paper's D^12, D^34, D^1234 and Sigma of a parameter: what the output may see of it."""
 
 
-def visible_combinations(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
-    """The combinations of four values that the record determines, where it does not determine each of them.
+def patterns_of(layout: Layout) -> list[tuple[str, tuple[float, ...]]]:
+    """Combinations of a parameter's values, one for each accelerometer, that an output may see, and how they are written.
+
+    Of the paper's four D^12, D^34, D^1234 and Sigma. Of others what Eq. 15 makes of cos and sin of n psi_j, n = 0 ... 4:
+    the sums over an output's accelerometers of their signs times cos and sin of n times their angles on the disc.
+    """
+    if layout.like_paper:
+        return list(PATTERNS)
+    found: list[tuple[str, tuple[float, ...]]] = []
+    for o in layout.outputs:
+        for weights in o.patterns:
+            w = np.zeros(layout.size)
+            w[list(o.members)] = weights
+            terms = [
+                f"{'-' if x < 0 else '+'} {'' if abs(abs(x) - 1) < 1e-12 else f'{abs(x):.4g} '}{{0}}[{j + 1}]"
+                for j, x in enumerate(w)
+                if x
+            ]
+            found.append((" ".join(terms).removeprefix("+ "), tuple(w)))
+    return found
+
+
+def visible_combinations(
+    columns: Sequence[Column], values: Array, covariance: Array, layout: Layout = PAPER
+) -> list[ParameterValue]:
+    """The combinations of accelerometers' values that the record determines, where it does not determine each of them.
 
     A combination counts as seen where its standard deviation is below a tenth of the prior's.
     """
     found = []
+    patterns = patterns_of(layout)
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
-        if len(at) != 4:
+        if len(at) != layout.size:
             continue
         c = columns[at[0]]
         factor = c.scale / c.unit_factor
         block = covariance[np.ix_(at, at)]
         if np.all(np.diag(block) < 0.01):
             continue  # each value is seen by itself
-        for pattern, weights in PATTERNS:
+        for pattern, weights in patterns:
             w = np.array(weights)
             variance = float(w @ block @ w)
             if variance < 0.01 * float(w @ w):

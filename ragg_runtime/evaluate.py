@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument import Instrument
+from ragg_runtime.layout import Layout, Output, Vector3, gain, scale
 from ragg_runtime.load import Chain, Effect, Model
 from ragg_runtime.timeseries import differentiate
 from ragg_runtime.units import Units, units
@@ -44,7 +46,15 @@ class Record:
     valid
         (N,) bool: False where a sample must not be used.
     spin_frequency
-        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``spin_angle``).
+        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``angle_column``).
+    angle_column
+        Channel with the angle of the disc that the output belongs to.
+    phase
+        rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase); 0 of the paper's layout.
+    turning
+        Whether the disc turns at all.
+    axes
+        First two axes of the disc at rest in the measurement frame; ``None``: x and y.
     """
 
     time: Array
@@ -53,6 +63,10 @@ class Record:
     valid: NDArray[np.bool_]
     spin_frequency: float
     halo: tuple[int, int] = (0, 0)
+    angle_column: str = "spin_angle"
+    phase: float = 0.0
+    turning: bool = True
+    axes: tuple[Vector3, Vector3] | None = None
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -62,9 +76,14 @@ class Record:
     @cached_property
     def phi(self) -> Array:
         """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency time)."""
-        if "spin_angle" in self.wide:
-            return self._inner(self.wide["spin_angle"])
+        if self.angle_column in self.wide:
+            return self._inner(self.wide[self.angle_column])
         return disc_angle(self.time, self.spin_frequency)
+
+    @cached_property
+    def demodulation_angle(self) -> Array:
+        """(N,) rad: half the angle of the gradient's carriers."""
+        return self.phi if self.phase == 0.0 else self.phi + self.phase / 2
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -100,15 +119,14 @@ class Record:
             x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
         let_go(*self.wide.values(), self.valid, self.time)
-        return Record(
-            np.array(self.time[rows]), wide, self.rate, valid, self.spin_frequency, (a - first, last - b)
-        )
+        time = np.array(self.time[rows])
+        return replace(self, time=time, wide=wide, valid=valid, halo=(a - first, last - b))
 
     def angle(self, rows: slice) -> tuple[Array, Array]:
         """Time, s, and disc angle, rad, of some samples alone."""
         time = np.array(self.time[rows])
-        if "spin_angle" in self.wide:
-            return time, np.array(self.wide["spin_angle"][rows])
+        if self.angle_column in self.wide:
+            return time, np.array(self.wide[self.angle_column][rows])
         return time, disc_angle(time, self.spin_frequency)
 
     def _inner(self, x: Array) -> Array:
@@ -135,32 +153,71 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
 
 
-def record(flight: Flight, instrument: Instrument) -> Record:
-    """What of this flight enters a model of this instrument."""
+Kind = Literal["voltages", "G_out", "channels"]
+"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
+
+
+def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
+    """What of an output was recorded, the most telling; ``None``: nothing."""
+    o = layout.outputs[place]
+    if layout.voltages(o, flight.outputs) is not None:
+        return "voltages"
+    if o.name in flight.outputs:
+        return "G_out"
+    return "channels" if len(layout.outputs) == 1 else None
+
+
+STANDING = 1e-3
+"""Range of a recorded disc angle, rad, below which the disc stands still."""
+
+
+def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
+    """What of this flight enters a model of this output of the instrument."""
     # a long flight's columns stay on disk, unless they have to be shifted
     time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
-    return Record(time, flight.channels, flight.rate, flight.valid, instrument.spin_frequency)
-
-
-def voltages(chain: Chain, r: Record, p: Array) -> Array:
-    """V_1 ... V_4, (4, N), V."""
-    x = r.inputs(chain)
-    return np.stack(
-        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in range(4)]
+    layout, k = instrument.layout, instrument.accelerometers
+    o = layout.outputs[output]
+    disc = layout.discs[o.disc]
+    turning = disc.spin_frequency != 0.0
+    if disc.angle_column in flight.channels:
+        turning = bool(np.ptp(flight.channels[disc.angle_column]) > STANDING)
+        let_go(flight.channels[disc.angle_column])
+    return Record(
+        time=time,
+        wide=flight.channels,
+        rate=flight.rate,
+        valid=flight.valid,
+        spin_frequency=disc.spin_frequency,
+        angle_column=disc.angle_column,
+        phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
+        turning=turning,
+        axes=None if disc.level else disc.across,
     )
 
 
-def output(chain: Chain, r: Record, p: Array) -> Array:
-    """G_out, (N,), V (Eq. 15)."""
-    v = voltages(chain, r, p)
-    return np.asarray((v[0] + v[1]) - (v[2] + v[3]))
+def phase(g: complex) -> float:
+    """rad, between -pi and pi; 0 of a real number, whatever its sign: that is the sign of the scale factor."""
+    return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
 
 
-def scale_factor(chain: Chain, p: Array) -> float:
-    """k_ggi = sum of k_VI K1 R_j, V/Eo (Eq. 30)."""
-    values = named(chain, p)
+def voltages(chain: Chain, r: Record, p: Array, o: Output) -> Array:
+    """V_j of the accelerometers of an output, (members, N), V."""
+    x = r.inputs(chain)
+    return np.stack(
+        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in o.members]
+    )
+
+
+def output(chain: Chain, r: Record, p: Array, o: Output) -> Array:
+    """An output, (N,), V (Eq. 15)."""
+    return o.combined(voltages(chain, r, p, o))
+
+
+def scale_factor(model: Model, p: Array, output: int = 0) -> float:
+    """k_ggi of an output, V/Eo (Eq. 30)."""
+    values = named(model.chain, p)
     k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
-    return float(np.sum(k1 * R)) * EOTVOS
+    return scale(model.layout.outputs[output], k1, R) * EOTVOS
 
 
 def named(chain: Chain, p: Array) -> dict[str, Array]:
@@ -175,16 +232,20 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 def vector(model: Model, instrument: Instrument) -> Array:
     """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
     known = units(instrument.g0)
+    layout = instrument.layout
+    discs = [layout.discs[q.disc] for q in layout.places]
     values: dict[str, Array] = {
-        "radius": np.array([instrument.radius]),
-        "spin_frequency": np.array([instrument.spin_frequency]),
+        "radius": instrument.radii,
+        "spin_frequency": np.array([d.spin_frequency for d in discs]),
     }
+    if layout.like_paper:  # one value each
+        values = {name: v[:1] for name, v in values.items()}
     values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
     settings = {s.id: s for s in instrument.effects}
     for e in model.effects:
         setting = settings.get(e.id)
         for q in e.parameters:
-            size = 1 if q.shared else 4
+            size = 1 if q.shared else layout.size
             given = setting.values.get(q.name) if setting else None
             if given is None:
                 values[q.symbol] = np.full(size, (q.neutral or 0.0) * unit_factor(q.unit, known))

@@ -13,14 +13,16 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ragg_runtime import verified
+from ragg_runtime import stations, verified
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import EffectSetting, Instrument
+from ragg_runtime.layout import PAPER, Layout
 from ragg_runtime.load import Model, from_files, packaged
 from ragg_runtime.trust import trusted_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
+    from derive.layout import Layout as SymbolicLayout
 
 
 @dataclass(frozen=True)
@@ -92,24 +94,29 @@ def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
 
     ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
     """
-    if not instrument.effects and instrument.effects_folder is None:
+    own_layout = not instrument.layout.like_paper
+    if not instrument.effects and instrument.effects_folder is None and not own_layout:
         return packaged()
     asked = verified.request(instrument)
     files = verified.matching(generated, asked)
     if files is not None:
-        return _executed(asked, tuple(files.items()))
+        return _executed(asked, tuple(files.items()), instrument.layout)
     k = known(instrument)
-    if not instrument.effects and not k.own:
+    if not instrument.effects and not k.own and not own_layout:
         return packaged()
-    model, files = derived(tuple(_chosen(instrument, k)), k.effects)
-    if instrument.effects:
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.layout)
+    if instrument.effects or own_layout:
         verified.remember(asked, files)
     return model
 
 
 @cache
-def _executed(asked: str, files: tuple[tuple[str, str], ...]) -> Model:
-    return from_files(dict(files))
+def _executed(asked: str, files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
+    return from_files(dict(files), layout=_sized(layout))
+
+
+def _sized(layout: Layout) -> Layout:
+    return PAPER if layout.like_paper else layout
 
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
@@ -137,25 +144,37 @@ def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
 
 @cache
 def derived(
-    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]
+    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...], layout: Layout = PAPER
 ) -> tuple[Model, Mapping[str, str]]:
     """A model with these effects, and the files that its derivation yields."""
     from derive import pipeline
 
-    files = pipeline.derive_model(effects, candidates)
-    return from_files(files), files
+    files = pipeline.derive_model(effects, candidates, _symbolic(layout))
+    return from_files(files, layout=_sized(layout)), files
+
+
+def _symbolic(layout: Layout) -> SymbolicLayout:
+    """The layout as the derivation takes it."""
+    from derive.layout import PAPER as FOUR
+    from derive.layout import Layout as SymbolicLayout
+    from derive.layout import Output
+
+    if layout.like_paper:
+        return FOUR
+    outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
+    return SymbolicLayout(names=layout.names, constants=stations.constants(layout), outputs=outputs)
 
 
 def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
     """``model`` with further effects derived into it; without signatures of any more."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, ())[0]
+    return derived(chosen, (), instrument.layout)[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
-    """What ``generated/`` of a model directory must hold for its list of effects; empty for no effects."""
-    if not instrument.effects:
+    """What ``generated/`` of a model directory must hold for its effects and layout; empty for the paper's model."""
+    if not instrument.effects and instrument.layout.like_paper:
         return {}
     k = known(instrument)
-    return derived(tuple(_chosen(instrument, k)), k.effects)[1]
+    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.layout)[1]

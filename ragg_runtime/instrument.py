@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.layout import PAPER, Layout, paper, scale
+from ragg_runtime.layout_toml import read_layout
 from ragg_runtime.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Parameter, Vector
 from ragg_runtime.units import RawQuantity, Units, read_quantity, units
 
@@ -44,9 +46,16 @@ class EffectSetting:
     expression: Mapping[str, Any] | None = None
 
     def si(
-        self, name: str, si_unit: str, g0: float, *, shared: bool = False, where: str | None = None
+        self,
+        name: str,
+        si_unit: str,
+        g0: float,
+        *,
+        shared: bool = False,
+        where: str | None = None,
+        count: int = PAPER.size,
     ) -> Vector | None:
-        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (4,); None if not given."""
+        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (count,); None if not given."""
         if name not in self.values:
             return None
         raw = self.values[name]
@@ -57,14 +66,15 @@ class EffectSetting:
             )
         value = np.atleast_1d(np.asarray(raw.value, dtype=np.float64))
         converted = np.asarray(units(g0).to_si(value, raw.unit, si_unit, place), dtype=np.float64)
-        return _finite(converted if shared else np.broadcast_to(converted, (4,)).copy(), place)
+        return _finite(converted if shared else np.broadcast_to(converted, (count,)).copy(), place)
 
 
 @dataclass(frozen=True, eq=False)
 class Instrument:
-    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (4,) for A1 ... A4, effects.
+    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
 
-    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`.
+    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`. ``radius`` and
+    ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
     """
 
     radius: float
@@ -74,6 +84,11 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    layout: Layout = PAPER
+
+    def __post_init__(self) -> None:
+        if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
+            object.__setattr__(self, "layout", paper(self.radius, self.spin_frequency))
 
     @classmethod
     def build(
@@ -85,8 +100,13 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
+        layout: Layout | None = None,
     ) -> Instrument:
-        """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
+        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
+
+        Without a ``layout`` it is the paper's.
+        """
+        layout = paper(radius, spin_frequency) if layout is None else layout
         _check_names(accelerometers, PARAMETER, "accelerometers")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
@@ -95,17 +115,26 @@ class Instrument:
                     where=at(path, "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
-        vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
+        vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
         made = cls(
-            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
+            radius=radius,
+            spin_frequency=spin_frequency,
+            g0=g0,
+            accelerometers=MappingProxyType(vectors),
+            effects=tuple(effects),
+            path=path,
+            effects_folder=effects_folder,
+            layout=layout,
         )
         _check_physical(made)
         return made
 
     def replace(self, **changes: ArrayLike) -> Instrument:
-        """The same instrument with some accelerometer parameters changed (SI, scalar or (4,))."""
+        """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
         _check_names(changes, PARAMETER, "accelerometers")
-        vectors = dict(self.accelerometers) | {name: _vector(v) for name, v in changes.items()}
+        vectors = dict(self.accelerometers) | {
+            name: _vector(v, self.layout.size) for name, v in changes.items()
+        }
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
 
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
@@ -118,9 +147,14 @@ class Instrument:
 
     @property
     def scale_factor(self) -> float:
-        """k_ggi = sum of k_VI K1 R_j, in V s^2: volts of G_out per s^-2 of gradient (Eq. 15)."""
+        """k_ggi of the first output, in V s^2: volts per s^-2 of gradient (Eq. 15 and 30)."""
         k = self.accelerometers
-        return float(np.sum(k["k_VI"] * k["K1"] * (self.radius + k["dR"])))
+        return scale(self.layout.outputs[0], k["k_VI"] * k["K1"], self.radii + k["dR"])
+
+    @property
+    def radii(self) -> Vector:
+        """(n,) m: nominal distance of each accelerometer from the axis of its disc."""
+        return np.array([p.radius for p in self.layout.places])
 
     @property
     def units(self) -> Units:
@@ -170,17 +204,42 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
-    disc = _disc(_table(table, "disc", path), path)
+    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder", "g0"), None, path)
+    layout, g0 = _discs(table, path)
     return Instrument.build(
-        radius=disc["radius"],
-        spin_frequency=disc["spin_frequency"],
-        g0=disc["g0"],
-        accelerometers=_accelerometers(_table(table, "accelerometers", path), disc["g0"], path),
-        effects=_effects(table.get("effects", []), disc["g0"], path),
+        radius=layout.places[0].radius,
+        spin_frequency=layout.discs[layout.places[0].disc].spin_frequency,
+        g0=g0,
+        accelerometers=_accelerometers(_table(table, "accelerometers", path), g0, path, layout.size),
+        effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
+        layout=layout,
     )
+
+
+STANDARD_G0 = 9.8
+"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
+
+
+def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
+    """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
+    if not isinstance(table.get("disc"), list):
+        if "g0" in table:
+            raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
+        disc = _disc(_table(table, "disc", path), path)
+        return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
+    given = [("g0", table["g0"])] if "g0" in table else []
+    for number, entry in enumerate(table["disc"], 1):
+        if isinstance(entry, dict) and "g0" in entry:
+            given.append((f"[[disc]] {number}: g0", entry["g0"]))
+    found = {
+        float(_si(read_quantity(raw, at(path, key), count=1), DISC_UNITS["g0"], None, at(path, key))[0])
+        for key, raw in given
+    }
+    if len(found) > 1:
+        raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
+    return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
 
 
 def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
@@ -213,12 +272,12 @@ def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
     }
 
 
-def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
+def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None, count: int) -> dict[str, Vector]:
     _check_names(table, PARAMETER, "accelerometers", path)
     found = {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
-        found[name] = _si(read_quantity(raw, place), PARAMETER[name].si_unit, g0, place)
+        found[name] = _si(read_quantity(raw, place, count=count), PARAMETER[name].si_unit, g0, place)
     return found
 
 
@@ -232,14 +291,16 @@ def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Ve
     return _finite(np.asarray(known.to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
 
 
-def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetting, ...]:
+def _effects(
+    entries: object, g0: float, path: Path | None, count: int = PAPER.size
+) -> tuple[EffectSetting, ...]:
     if not isinstance(entries, list):
         raise UserError(
             "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
         )
     found: list[EffectSetting] = []
     for number, entry in enumerate(entries, 1):
-        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0))
+        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0), count)
         if any(e.id == setting.id for e in found):
             raise UserError(
                 f"the effect {setting.id!r} is listed twice",
@@ -250,7 +311,7 @@ def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetti
     return tuple(found)
 
 
-def _effect(entry: object, where: str, known: Units) -> EffectSetting:
+def _effect(entry: object, where: str, known: Units, count: int) -> EffectSetting:
     if isinstance(entry, str):
         entry = {"id": entry}
     if not isinstance(entry, dict) or not isinstance(entry.get("id"), str) or not entry["id"].strip():
@@ -267,14 +328,14 @@ def _effect(entry: object, where: str, known: Units) -> EffectSetting:
         # An effect in one line: its parameters stand beside stage and add, with or without a value.
         entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
         own = {}
-    values = {name: known.quantity(raw, f"{where}: {name}") for name, raw in own.items()}
+    values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
         _check_names(values, expression["params"], None, where)
         for name, parameter in expression["params"].items():
             if "value" in parameter:
                 values[name] = known.quantity(
-                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}"
+                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}", count=count
                 )
     return EffectSetting(effect_id, MappingProxyType(values), expression)
 
@@ -330,8 +391,8 @@ def _check_names(names: Any, known: Any, table: str | None, where: object = None
             )
 
 
-def _vector(value: ArrayLike) -> Vector:
-    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (4,)).copy()
+def _vector(value: ArrayLike, count: int) -> Vector:
+    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,)).copy()
     vector.flags.writeable = False
     return vector
 
@@ -344,7 +405,8 @@ def _finite(value: Vector, where: str) -> Vector:
 
 def _check_physical(instrument: Instrument) -> None:
     path, k = instrument.path, instrument.accelerometers
-    for name in DISC_UNITS:
+    own_discs = not instrument.layout.of_paper  # which may stand still, with accelerometers at their centres
+    for name in ("g0",) if own_discs else DISC_UNITS:
         value = getattr(instrument, name)
         if not (np.isfinite(value) and value > 0):
             raise UserError(
@@ -360,9 +422,10 @@ def _check_physical(instrument: Instrument) -> None:
             raise UserError(
                 f"{name} must not be zero", where=at(path, f"[accelerometers] {name}"), found=k[name].tolist()
             )
-    if np.any(instrument.radius + k["dR"] <= 0):
+    R = instrument.radii + k["dR"]
+    if np.any(R < 0) or (np.any(R == 0) and not own_discs):
         raise UserError(
             "the distance from the disc centre, radius + dR, must be positive",
             where=at(path, "[accelerometers] dR"),
-            found=f"{(instrument.radius + k['dR']).tolist()} m",
+            found=f"{R.tolist()} m",
         )

@@ -12,10 +12,15 @@ e_t there (from e_t to -e_t: half a turn about e_a).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Vector3 = tuple[float, float, float]
 
 X_AXIS: Vector3 = (1.0, 0.0, 0.0)
@@ -24,6 +29,9 @@ TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)
 """Direction of an input axis along the turn, in (e_r, e_t, e_a)."""
 
 QUARTER = math.pi / 2
+
+HIGHEST_HARMONIC = 4
+"""Highest multiple of the spin rate that second-order terms of a rotating force reach (Eq. 17)."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +60,12 @@ class Disc:
     def level(self) -> bool:
         """Whether its frame is the measurement frame: angle 0 along x, axis along z."""
         return self.axis == Z_AXIS and self.zero == X_AXIS
+
+    @property
+    def across(self) -> tuple[Vector3, Vector3]:
+        """Where its angle 0 and a quarter turn point, in the measurement frame."""
+        (a, b, c), (x, y, z) = self.axis, self.zero
+        return self.zero, (b * z - c * y, c * x - a * z, a * y - b * x)
 
 
 @dataclass(frozen=True)
@@ -92,6 +106,12 @@ class Place:
             return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[whole % 4]
         return math.cos(self.angle), math.sin(self.angle)
 
+    @property
+    def carrier(self) -> complex:
+        """How the gradient across the spin axis shows in its voltage, over k1 R: 1 and -1 in the paper's (Eq. 30)."""
+        (c, s), (radial, tangential, _) = self.cosine_sine, self.direction
+        return complex(tangential, -radial) * complex(c * c - s * s, 2 * c * s)
+
 
 @dataclass(frozen=True)
 class Output:
@@ -104,6 +124,37 @@ class Output:
     disc: int
     members: tuple[int, ...]
     signs: tuple[int, ...]
+    carriers: tuple[complex, ...]
+    """How the gradient across the spin axis shows in each voltage, over k1 R: see :func:`gain`."""
+    radii: tuple[float, ...]
+    angles: tuple[tuple[float, float], ...]
+    """Cosine and sine of each member's angle on the disc."""
+
+    @property
+    def patterns(self) -> tuple[tuple[float, ...], ...]:
+        """Weights (members,) with which its harmonics see a parameter: sign times cos and sin of n times the angle.
+
+        For n = 0 ... 4, the largest weight 1; those that vanish or repeat others are left out.
+        """
+        angles = np.array([math.atan2(s, c) for c, s in self.angles])
+        found: list[Array] = []
+        for n in range(HIGHEST_HARMONIC + 1):
+            for wave in (np.cos, np.sin):
+                w = np.array(self.signs) * wave(n * angles)
+                w[np.abs(w) < 1e-12] = 0.0
+                if not np.any(w):
+                    continue
+                w = w / w[int(np.argmax(np.abs(w)))]
+                if not any(np.allclose(w, v, atol=1e-9) for v in found):
+                    found.append(w)
+        return tuple(tuple(float(x) for x in w) for w in found)
+
+    def combined(self, v: Array) -> Array:
+        """(N,): its members' voltages (members, N) with their signs; equal signs are added first (Eq. 15)."""
+        added = [v[k] for k, sign in enumerate(self.signs) if sign > 0]
+        taken = [v[k] for k, sign in enumerate(self.signs) if sign < 0]
+        total = np.sum(added, axis=0) if added else np.zeros(v.shape[1])
+        return np.asarray(total - np.sum(taken, axis=0) if taken else total)
 
 
 @dataclass(frozen=True)
@@ -119,8 +170,18 @@ class Layout:
         found = []
         for k, name in enumerate(self.output_names):
             members = tuple(j for j, p in enumerate(self.places) if p.output == k)
-            signs = tuple(self.places[j].sign for j in members)
-            found.append(Output(name, self.places[members[0]].disc, members, signs))
+            own = [self.places[j] for j in members]
+            found.append(
+                Output(
+                    name=name,
+                    disc=own[0].disc,
+                    members=members,
+                    signs=tuple(p.sign for p in own),
+                    carriers=tuple(p.carrier for p in own),
+                    radii=tuple(p.radius for p in own),
+                    angles=tuple(p.cosine_sine for p in own),
+                )
+            )
         return tuple(found)
 
     @property
@@ -149,10 +210,30 @@ class Layout:
 
     def voltage_columns(self, j: int) -> tuple[str, ...]:
         """Names under which a flight may hold the voltage of an accelerometer: V_<name>, or V_1 ... by its number."""
+        if self.of_paper:
+            return (f"V_{j + 1}",)
         return tuple(dict.fromkeys((f"V_{self.places[j].name}", f"V_{j + 1}")))
 
-    def spinning(self, disc: int) -> bool:
-        return self.discs[disc].spin_frequency != 0.0
+    def voltages(self, o: Output, columns: Container[str]) -> tuple[str, ...] | None:
+        """The columns of an output's voltages among those that a flight has; ``None`` if not all are there."""
+        found = [next((c for c in self.voltage_columns(j) if c in columns), None) for j in o.members]
+        return None if None in found else tuple(c for c in found if c is not None)
+
+    def formula(self, o: Output, voltages: Sequence[str]) -> str:
+        """An output in words: V_1 + V_2 - V_3 - V_4."""
+        text = " ".join(f"{'+' if s > 0 else '-'} {v}" for s, v in zip(o.signs, voltages, strict=True))
+        return text.removeprefix("+ ")
+
+    @cached_property
+    def columns(self) -> tuple[str, ...]:
+        """Every column of a flight that may hold something of this instrument's output before demodulation."""
+        volts = (c for j in range(self.size) for c in self.voltage_columns(j))
+        return tuple(dict.fromkeys((*self.output_names, *volts)))
+
+    @property
+    def of_paper(self) -> bool:
+        """Whether model.toml describes it as the paper's, by [disc]."""
+        return self.discs[0].name == ""
 
 
 _FOUR = tuple(
@@ -164,14 +245,45 @@ _FOUR = tuple(
 
 def paper(radius: float, spin_frequency: float) -> Layout:
     """The paper's instrument: A1 ... A4 at 0, 180, 90 and 270 degrees, G_out = V_1 + V_2 - V_3 - V_4."""
-    places = tuple(
-        Place(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR
-    )
+    places = tuple(Place(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR)
     return Layout(discs=(Disc(name="", spin_frequency=spin_frequency),), places=places)
 
 
 PAPER = paper(1.0, 1.0)
 """The paper's layout, where only names, signs and number matter."""
+
+
+CANCELLED = 1e-3
+"""Share of its accelerometers' gains below which an output is not made to see the gradient across the spin axis."""
+
+
+def gain(o: Output, k1: Array, R: Array) -> complex:
+    """g, V s^2: an output is T_1 Im(g e^{2 i phi}) + T_2 Re(g e^{2 i phi}), with T_1 = (Gamma_xx - Gamma_yy)/2 and
+    T_2 = -Gamma_xy by the axes of the disc at rest (Eq. 30).
+
+    ``k1`` = k_VI K1 and radii ``R``, (n,), of all accelerometers of the layout.
+    """
+    members = list(o.members)
+    return complex(np.sum(k1[members] * R[members] * _seen(o)))
+
+
+def scale(o: Output, k1: Array, R: Array) -> float:
+    """k_ggi of an output, V s^2: volts per s^-2 of gradient (Eq. 30), the measure in which its errors are told in eotvos.
+
+    Of an output that cancels that gradient, as a sum of opposite accelerometers does, what one gradient would make
+    of all its accelerometers together.
+    """
+    members, seen = list(o.members), _seen(o)
+    if not np.any(seen.imag):
+        total = float(np.sum(k1[members] * R[members] * seen.real))
+    else:
+        total = abs(gain(o, k1, R))
+    single = float(np.sum(np.abs(k1[members] * R[members])))
+    return total if abs(total) > CANCELLED * single else single
+
+
+def _seen(o: Output) -> Complex:
+    return np.array([s * c for s, c in zip(o.signs, o.carriers, strict=True)])
 
 
 def unit(v: Sequence[float]) -> Vector3:

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.layout import TANGENTIAL, Disc, Layout, Place, Vector3
-
-if TYPE_CHECKING:
-    from derive.layout import Layout as Derived
+from ragg_runtime.layout import TANGENTIAL, Disc, Layout, Vector3
 
 Array = NDArray[np.float64]
 
 
 def axes(disc: Disc) -> Array:
     """(3, 3): its columns are the axes of a disc at rest (angle 0, a quarter turn on, spin) in the measurement frame."""
-    return np.column_stack([disc.zero, np.cross(disc.axis, disc.zero), disc.axis])
+    return np.column_stack([*disc.across, disc.axis])
 
 
 def turn(direction: Vector3) -> Array:
@@ -29,11 +25,6 @@ def turn(direction: Vector3) -> Array:
     x, y, z = np.cross(TANGENTIAL, direction)
     K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(np.eye(3) + K + K @ K / (1.0 + c))
-
-
-def input_axis(p: Place) -> Array:
-    """(3,): nominal input axis in (e_r, e_t, e_a)."""
-    return np.array(p.direction)
 
 
 def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
@@ -57,14 +48,3 @@ def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:
     return {
         f"{name}_{i}{k}_j": tuple(float(m[i, k]) + 0.0 for m in matrices) for i in range(3) for k in range(3)
     }
-
-
-def derived(layout: Layout) -> Derived:
-    """The layout as the derivation takes it."""
-    from derive.layout import PAPER, Output
-    from derive.layout import Layout as Derived
-
-    if layout.like_paper:
-        return PAPER
-    outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
-    return Derived(names=layout.names, constants=constants(layout), outputs=outputs)

@@ -19,6 +19,7 @@ from pathlib import Path
 
 import platformdirs
 
+from ragg_runtime import stations
 from ragg_runtime.atomic import write_text
 from ragg_runtime.errors import UserError
 from ragg_runtime.instrument import Instrument
@@ -37,7 +38,15 @@ def request(instrument: Instrument) -> str:
     if instrument.effects_folder is not None:
         found = trusted_sources(instrument.effects_folder, instrument.path)
         own = {path.name: hashlib.sha256(text).hexdigest() for path, text in found.items()}
-    return _sha256(json.dumps([_derivation(), effects, own], sort_keys=True))
+    asked: list[object] = [_derivation(), effects, own]
+    if not instrument.layout.like_paper:
+        layout = instrument.layout
+        asked += [
+            layout.names,
+            dict(stations.constants(layout)),
+            [[o.name, o.members, o.signs] for o in layout.outputs],
+        ]
+    return _sha256(json.dumps(asked, sort_keys=True))
 
 
 def matching(generated: Path | None, asked: str) -> Mapping[str, str] | None:

@@ -28,6 +28,7 @@ from ragg_runtime.errors import UserError, at
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
+from ragg_runtime.layout import PAPER
 from ragg_runtime.load import Model
 from ragg_runtime.model_dir import ModelDir, Step, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_toml import add_effect, remove_effect, set_effects_folder
@@ -132,7 +133,9 @@ def _loaded(directory: ModelDir) -> Loaded:
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
     """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+    i = m.instrument
+    read = (read_flight(p, i.g0, accelerometers=i.layout) for p in paths)
+    return [settled(examined(m.model, i, x)) for x in read]
 
 
 def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
@@ -232,7 +235,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     if flights:
         after = _compare.compare(model, extended, flights)
         parameters, combinations = calibrated(after, effect)
-        values |= settings(parameters)
+        values |= settings(parameters, instrument.layout.size)
         with_values = replace(
             extended,
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
@@ -273,21 +276,21 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     covariance = cal.covariance[np.ix_(mine, mine)]
     return (
         tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(columns, values, covariance)),
+        tuple(visible_combinations(columns, values, covariance, c.fitted.instrument.layout)),
     )
 
 
-def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
-    """Calibrated parameters as they are written to model.toml."""
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for p in parameters:
         if p.accelerometer is None:
             values[p.name] = RawQuantity(p.value, p.unit)
         else:
             old = values.get(p.name)
-            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
-            four[p.accelerometer - 1] = p.value
-            values[p.name] = RawQuantity(tuple(four), p.unit)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
     return values
 
 

@@ -17,6 +17,7 @@ from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
 from ragg_runtime.flight.spool import spooled
+from ragg_runtime.layout import PAPER, Layout
 from ragg_runtime.timeseries import WINDOW
 from ragg_runtime.units import Units, units
 
@@ -33,7 +34,9 @@ _HALO = WINDOW
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
 
 
-def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Flight:
+def read_flight(
+    path: Path | str, g0: float, *, need_output: bool = True, accelerometers: Layout = PAPER
+) -> Flight:
     """The flight in a CSV (``.csv``, ``.csv.gz``), Parquet or NetCDF-4 file, in SI.
 
     Columns are described in :class:`~ragg_runtime.flight.record.Flight`; the header of a CSV column is
@@ -48,6 +51,8 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
         The g of the file's units, m/s^2.
     need_output
         False lets a file of motion alone pass.
+    accelerometers
+        Those of the instrument: which columns are its outputs.
 
     Raises
     ------
@@ -56,14 +61,14 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
     """
     path = Path(path)
     source = open_source(path)
-    plan = layout(path, source.columns, g0, need_output=need_output)
+    plan = layout(path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
     batches: list[Batch] = []
     held = 0
     for batch in source.batches():
         held += sum(v.nbytes for v in batch.values())
         if held > IN_MEMORY:
             batches.clear()
-            parts = iter_flight_chunks(path, g0, PART, need_output=need_output)
+            parts = iter_flight_chunks(path, g0, PART, need_output=need_output, accelerometers=accelerometers)
             return spooled(parts, path, MOST_BYTES)
         batches.append(batch)
     rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
@@ -71,7 +76,12 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
 
 
 def iter_flight_chunks(
-    path: Path | str, g0: float, rows: int, *, need_output: bool = True
+    path: Path | str,
+    g0: float,
+    rows: int,
+    *,
+    need_output: bool = True,
+    accelerometers: Layout = PAPER,
 ) -> Iterator[Flight]:
     """The same flight in consecutive parts of ``rows`` (>= 2) file rows, in memory for a few parts only.
 
@@ -82,7 +92,7 @@ def iter_flight_chunks(
     if rows < 2:
         raise UserError("a part of a flight needs at least two rows", found=rows)
     source = open_source(path)
-    plan = layout(path, source.columns, g0, need_output=need_output)
+    plan = layout(path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
     name, digest = flight_name(path), file_digest(path)
     step: float | None = None
     before: Batch | None = None

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.errors import UserError
+from ragg_runtime.layout import Layout
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
@@ -83,6 +84,17 @@ class Base:
     """What both backends share: arguments are checked, series cut, parts put together."""
 
     chain: Module
+    layout: Layout
+
+    @property
+    def size(self) -> int:
+        """Number of accelerometers."""
+        return self.layout.size
+
+    @property
+    def several(self) -> bool:
+        """Whether the generated code is that of a layout other than the paper's, function by accelerometer."""
+        return not self.layout.like_paper
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -115,7 +115,7 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
     for positions in places.values():
         column = own[positions[0]][1]
         rows: list[tuple[str, Array, float]] = []
-        if len(positions) == 4:
+        if len(positions) == 4 and f.instrument.layout.like_paper:
             for name, pattern in PATTERNS:
                 w = np.zeros(len(own))
                 w[positions] = np.array(pattern) * gains(f, column)
@@ -142,7 +142,7 @@ def _instead(
         return likelihood.explained(field.P, [n for n, _ in block], field.floor)[0]
 
     found = []
-    for a in (1, 2, 3, 4):
+    for a in range(1, f.instrument.layout.size + 1):
         other = [(n, c) for n, c in columns if c.accelerometer == a and _name(c) in names]
         if a not in mine and other and chi2(own) - chi2(other) < search.INDISTINGUISHABLE:
             found += _single(f, other)

@@ -117,7 +117,9 @@ def examine(given: Job, file: str) -> Record:
             )
         with _one_thread(), alone():
             instrument, model = _model(given.text, given.path)
-            flight = examined(model, instrument, read_flight(path, instrument.g0))
+            flight = examined(
+                model, instrument, read_flight(path, instrument.g0, accelerometers=instrument.layout)
+            )
             return record | _figures(model, instrument, flight)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
@@ -191,7 +193,7 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         with _deriving:
             return extend.with_effects(instrument, m, ids)
 
-    f = compare.fit(model, instrument, [compare.observe(flight, instrument)])
+    f = compare.fit(model, instrument, compare.observations_of([flight], instrument))
     p = vector(model, instrument)
     held_out, nominal = f.score([_held_out(f)], lambda x: compare.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)
@@ -261,7 +263,7 @@ def _parameters(d: Diagnosis) -> list[ParameterValue]:
     for e in dict.fromkeys(q.effect for q in c.columns):
         own = [k for k, q in enumerate(c.columns) if q.effect == e]
         combined = visible_combinations(
-            [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)]
+            [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)], f.instrument.layout
         )
         found += [_named(p, e) for p in combined]
     if d.final is None:
