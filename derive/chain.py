@@ -15,7 +15,7 @@ from derive import stages
 from derive.effect import Effect
 from derive.layout import AXES, HEIGHT, TURN, Layout
 from derive.layout import PAPER as FOUR
-from derive.stages import PAPER, Force, Geometry, Motion, Order, SensedForce
+from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
     COS_J,
@@ -23,6 +23,8 @@ from derive.symbols import (
     MOTION,
     SIN_J,
     SIN_PHI,
+    SPIN_ACCELERATION,
+    SPIN_RATE,
     TIME,
     Channel,
     symbol,
@@ -30,7 +32,10 @@ from derive.symbols import (
 from derive.tape import Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
-"""Angular rate of the disc, rad/s."""
+"""Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
+
+RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
+"""The spin by the recorded disc angle."""
 
 DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
 _STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
@@ -41,7 +46,8 @@ class Context:
     """What a hook may ask for, beyond its stage's own values.
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
-    the stage ``instrument`` sees the force of the unchanged instrument.
+    the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
+    angle, ``case`` the motion of what stands on the disc.
     """
 
     tape: Tape
@@ -54,6 +60,7 @@ class Context:
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
+    spin: Spin = RECORDED_SPIN
     axes: sp.Matrix | None = None
 
     def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
@@ -71,6 +78,11 @@ class Context:
             return v
         return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
 
+    @property
+    def case(self) -> Motion:
+        """The motion of the accelerometers' cases, which turn with the disc."""
+        return stages.of_disc(self.motion, self.spin)
+
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
         return symbol(name)
@@ -82,7 +94,16 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), _symbol_rate)
+        return self.tape.rate(sp.sympify(e), self._symbol_rate)
+
+    def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
+        if s == COS_PHI:
+            return -self.Omega * SIN_PHI
+        if s == SIN_PHI:
+            return self.Omega * COS_PHI
+        if s == SPIN_RATE:
+            return SPIN_ACCELERATION  # whose own rate is left out: no disc jerks so that it would show
+        return _rate_of_channel(s)
 
     def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
         """``e`` at the instant t + delta, to second order in delta."""
@@ -90,14 +111,12 @@ class Context:
         return e + delta * first + delta**2 / 2 * self.rate(first)
 
 
-def _symbol_rate(s: sp.Symbol) -> sp.Expr:
-    if s == COS_PHI:
-        return -OMEGA * SIN_PHI
-    if s == SIN_PHI:
-        return OMEGA * COS_PHI
+def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
+    name = s.name
     if s == TIME:
         return sp.Integer(1)
-    name = s.name
+    if s == SPIN_ACCELERATION:
+        return sp.Integer(0)
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
     if name.startswith("d_"):
@@ -131,6 +150,7 @@ def accelerometer(
     effects: Sequence[Effect] = (),
     order: Order = PAPER,
     tape: Tape | None = None,
+    kinematics: Kinematics = "platform",
     layout: Layout = FOUR,
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
@@ -142,15 +162,13 @@ def accelerometer(
     hooked = [(e, e.values) for e in effects]
 
     # 1 sensing
-    c = Context(tape, recorded_motion())
+    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
     for e, p in hooked:
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
     if layout.has(AXES[0, 0]):
         c.axes = AXES
         c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
-    M = stages.gradient(c.motion).applyfunc(sp.sympify)
-    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
 
     # 2 geometry
     increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
@@ -159,11 +177,19 @@ def accelerometer(
         cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
         c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
         c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
+        swing = let("rate_delta_phi", c.rate(d))
+        c.spin = Spin(
+            let("spin_rate_true", SPIN_RATE + swing),
+            let("spin_acceleration_true", SPIN_ACCELERATION + c.rate(swing)),
+        )
+    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
+    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
     height = HEIGHT if layout.has(HEIGHT) else sp.Integer(0)
     turn = TURN if layout.has(TURN[0, 0]) else None
+    rigid, lifted = symbol("dR"), (0, 0, height)
 
     def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
@@ -182,6 +208,15 @@ def accelerometer(
         for e, p in hooked:
             if e.field:
                 f = f + e.field(g.r, p, c)
+        if k["dR"] != rigid:
+            arm = sp.Matrix(
+                [
+                    let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / (symbol("radius") + k["dR"]))
+                    for n in range(3)
+                ]
+            )
+            growth = c.rate(k["dR"])
+            f = f + stages.of_growing_arm(c.case, arm, growth, c.rate(growth))
         f = sp.Matrix([let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
         resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
         if label == "q":

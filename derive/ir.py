@@ -25,7 +25,7 @@ from derive.propagation import (
     Collected,
     motion_numbers,
 )
-from derive.stages import PAPER, Order
+from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
 from derive.tape import Program, simplify
 
@@ -179,6 +179,7 @@ def chain(
     title: str,
     order: Order = PAPER,
     candidates: Sequence[Effect] = (),
+    kinematics: Kinematics = "platform",
     layout: Layout = FOUR,
 ) -> Chain:
     """V_j of the instrument with ``effects``, and its derivatives.
@@ -186,7 +187,7 @@ def chain(
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
     their neutral values, that is, the signature that each would leave in this instrument.
     """
-    a = accelerometer([*effects, *candidates], order, layout=layout)
+    a = accelerometer([*effects, *candidates], order, kinematics=kinematics, layout=layout)
     neutral = dict(layout.common) | {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)

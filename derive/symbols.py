@@ -108,3 +108,6 @@ SIGNS: tuple[int, ...] = (1, 1, -1, -1)
 COS_PHI, SIN_PHI = symbol("cos_phi"), symbol("sin_phi")
 COS_J, SIN_J = symbol("cos_j"), symbol("sin_j")
 TIME = symbol("time")
+
+# Rate and acceleration of the disc angle: of the encoder, or 2 pi spin_frequency and zero where there is none.
+SPIN_RATE, SPIN_ACCELERATION = symbol("d_spin_angle"), symbol("d2_spin_angle")

@@ -132,6 +132,8 @@ def new(model_dir: Path, source: Path | None) -> None:
     from ragg_runtime import workflow
 
     m = workflow.new(model_dir, source)
+    for note in m.notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
     click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
 

@@ -11,18 +11,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ragg_runtime import stations, verified
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import EffectSetting, Instrument
-from ragg_runtime.layout import PAPER, Layout
+from ragg_runtime.layout import PAPER as FOUR
+from ragg_runtime.layout import Layout
 from ragg_runtime.load import Model, from_files, packaged
+from ragg_runtime.model_form import PAPER, Form
 from ragg_runtime.trust import trusted_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
     from derive.layout import Layout as SymbolicLayout
+    from derive.pipeline import Form as SymbolicForm
 
 
 @dataclass(frozen=True)
@@ -94,18 +97,17 @@ def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
 
     ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
     """
-    own_layout = not instrument.layout.like_paper
-    if not instrument.effects and instrument.effects_folder is None and not own_layout:
-        return packaged()
+    if not instrument.effects and instrument.effects_folder is None and _is_packaged(instrument):
+        return packaged(instrument.form.kinematics)
     asked = verified.request(instrument)
     files = verified.matching(generated, asked)
     if files is not None:
         return _executed(asked, tuple(files.items()), instrument.layout)
     k = known(instrument)
-    if not instrument.effects and not k.own and not own_layout:
-        return packaged()
-    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.layout)
-    if instrument.effects or own_layout:
+    if not instrument.effects and not k.own and _is_packaged(instrument):
+        return packaged(instrument.form.kinematics)
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)
+    if _has_files(instrument):
         verified.remember(asked, files)
     return model
 
@@ -116,12 +118,14 @@ def _executed(asked: str, files: tuple[tuple[str, str], ...], layout: Layout) ->
 
 
 def _sized(layout: Layout) -> Layout:
-    return PAPER if layout.like_paper else layout
+    return FOUR if layout.like_paper else layout
 
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
     """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
-    if generated is None or verified.matching(generated, verified.request(instrument)) is not None:
+    if generated is None or not _has_files(instrument):
+        return None
+    if verified.matching(generated, verified.request(instrument)) is not None:
         return None
     expected = files_of(instrument)
     found = verified.read(generated)
@@ -138,29 +142,76 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
     )
 
 
+def _is_packaged(instrument: Instrument) -> bool:
+    """Whether such models come derived with the program: those of the paper's order and layout."""
+    return instrument.form.preset == "paper" and instrument.layout.like_paper
+
+
+def _has_files(instrument: Instrument) -> bool:
+    """Whether a model directory of this instrument keeps derived code of its own."""
+    return bool(instrument.effects) or not _is_packaged(instrument)
+
+
+def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
+    from derive.pipeline import Form as SymbolicForm
+    from derive.stages import Order
+
+    order = Order(
+        rotation=None if form.mounting == "exact" else int(form.mounting),
+        misalignment=None if form.misalignment == "exact" else int(form.misalignment),
+        second_order_angles=form.second_order_angles,
+    )
+    kinematics: Literal["full", "platform"] = "full" if form.kinematics == "full" else "platform"
+    return SymbolicForm(order=order, kinematics=kinematics, layout=_placed(layout))
+
+
 def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
-    return [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+    form = _symbolic(instrument.form, instrument.layout)
+    found = [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+    for e in found:
+        _check_needed(e, form, instrument)
+    return found
+
+
+def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
+    """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
+    e = known(instrument).get(identifier, at(instrument.path))
+    _check_needed(e, _symbolic(instrument.form, instrument.layout), instrument)
+    return e
+
+
+def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument) -> None:
+    if e.moot(form.order, form.kinematics):
+        raise UserError(
+            f"the model holds the effect {e.id} already",
+            where=at(instrument.path, "effects"),
+            found=f"[model] with {instrument.form.words()}",
+            remedy="leave the effect out, or change [model]",
+        )
 
 
 @cache
 def derived(
-    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...], layout: Layout = PAPER
+    effects: tuple[SymbolicEffect, ...],
+    candidates: tuple[SymbolicEffect, ...],
+    form: Form = PAPER,
+    layout: Layout = FOUR,
 ) -> tuple[Model, Mapping[str, str]]:
-    """A model with these effects, and the files that its derivation yields."""
+    """A model of this form with these effects, and the files that its derivation yields."""
     from derive import pipeline
 
-    files = pipeline.derive_model(effects, candidates, _symbolic(layout))
+    files = pipeline.derive_model(effects, candidates, _symbolic(form, layout))
     return from_files(files, layout=_sized(layout)), files
 
 
-def _symbolic(layout: Layout) -> SymbolicLayout:
+def _placed(layout: Layout) -> SymbolicLayout:
     """The layout as the derivation takes it."""
-    from derive.layout import PAPER as FOUR
+    from derive.layout import PAPER as QUARTERS
     from derive.layout import Layout as SymbolicLayout
     from derive.layout import Output
 
     if layout.like_paper:
-        return FOUR
+        return QUARTERS
     outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
     return SymbolicLayout(names=layout.names, constants=stations.constants(layout), outputs=outputs)
 
@@ -169,12 +220,21 @@ def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -
     """``model`` with further effects derived into it; without signatures of any more."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, (), instrument.layout)[0]
+    return derived(chosen, (), instrument.form, instrument.layout)[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
-    """What ``generated/`` of a model directory must hold for its effects and layout; empty for the paper's model."""
-    if not instrument.effects and instrument.layout.like_paper:
+    """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
+    if not _has_files(instrument):
         return {}
     k = known(instrument)
-    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.layout)[1]
+    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)[1]
+
+
+def without_signatures(instrument: Instrument, form: Form) -> Model:
+    """The instrument's model in another form, with those of its effects that this form does not hold already."""
+    k = known(instrument)
+    symbolic = _symbolic(form, instrument.layout)
+    chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
+    kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
+    return derived(kept, (), form, instrument.layout)[0]

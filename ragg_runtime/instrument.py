@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ragg_runtime import model_form
 from ragg_runtime.errors import UserError, at, did_you_mean
 from ragg_runtime.layout import PAPER, Layout, paper, scale
 from ragg_runtime.layout_toml import read_layout
+from ragg_runtime.model_form import Form, read_form
 from ragg_runtime.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Parameter, Vector
 from ragg_runtime.units import RawQuantity, Units, read_quantity, units
 
@@ -84,6 +86,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    form: Form = model_form.PAPER
     layout: Layout = PAPER
 
     def __post_init__(self) -> None:
@@ -100,6 +103,7 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
+        form: Form = model_form.PAPER,
         layout: Layout | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
@@ -125,6 +129,7 @@ class Instrument:
             path=path,
             effects_folder=effects_folder,
             layout=layout,
+            form=form,
         )
         _check_physical(made)
         return made
@@ -204,7 +209,8 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder", "g0"), None, path)
+    known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0")
+    _check_names(table, known, None, path)
     layout, g0 = _discs(table, path)
     return Instrument.build(
         radius=layout.places[0].radius,
@@ -215,6 +221,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
         layout=layout,
+        form=read_form(table.get("model"), path),
     )
 
 

@@ -38,7 +38,7 @@ def request(instrument: Instrument) -> str:
     if instrument.effects_folder is not None:
         found = trusted_sources(instrument.effects_folder, instrument.path)
         own = {path.name: hashlib.sha256(text).hexdigest() for path, text in found.items()}
-    asked: list[object] = [_derivation(), effects, own]
+    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json()]
     if not instrument.layout.like_paper:
         layout = instrument.layout
         asked += [

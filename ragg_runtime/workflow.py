@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import hashlib
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -24,7 +25,7 @@ from ragg_runtime import diagnose as _diagnose
 from ragg_runtime import display, extend
 from ragg_runtime.compare import Comparison
 from ragg_runtime.diagnose import Diagnosis, ParameterValue, parameter_values, visible_combinations
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.errors import UserError
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument import EffectSetting, Instrument, parse_instrument
@@ -38,6 +39,12 @@ from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.units import RawQuantity, read_quantity
+
+NO_FORM = (
+    'model.toml has no [model], which means kinematics = "platform" and order = "paper": as in Eq. 9 of the paper '
+    "the accelerometers do not feel that they turn with the disc. Real ones do: with "
+    '[model] kinematics = "full" the model knows it'
+)
 
 
 @dataclass(frozen=True)
@@ -114,7 +121,8 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    return _loaded(create_model_dir(path, text, generated=extend.files_of(instrument), history=history))
+    made = _loaded(create_model_dir(path, text, generated=extend.files_of(instrument), history=history))
+    return made if tomllib.loads(text).get("model") else replace(made, notes=(*made.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -125,9 +133,7 @@ def load(path: Path | str) -> Loaded:
 def _loaded(directory: ModelDir) -> Loaded:
     model = extend.model_of(directory.instrument, directory.generated)
     check_settings(model, directory.instrument)
-    note = (
-        extend.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
-    )
+    note = extend.departure(directory.instrument, directory.generated)
     return Loaded(directory, model, () if note is None else (note,))
 
 
@@ -200,8 +206,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     The directory is changed whole or not at all.
     """
     instrument = m.instrument
-    known = extend.known(instrument)
-    symbolic = known.get(effect, at(m.directory.path))
+    symbolic = extend.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
     if present is not None and present.values:
         raise UserError(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.demodulate import low_pass
-from ragg_runtime.evaluate import GRADIENTS, Kind, disc_angle, recorded
+from ragg_runtime.evaluate import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
 from ragg_runtime.evidence.special import saturation
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import DEMODULATED
@@ -176,11 +176,14 @@ class Picker:
             phi = _picked(x.channels[self.disc.angle_column], rows)
         else:
             phi = disc_angle(time, f)
-        if backwards:
-            phi = -phi
         moved = rows + shift
         channels = {name: _picked(v, moved) for name, v in x.channels.items()}
         channels |= {name: _picked(v, moved) for name, v in self.derived.items()}
+        if spin_frequency is not None:
+            channels |= {name: spin(name, None, len(rows), x.rate, f) for name in SPIN}
+        if backwards:
+            phi = -phi
+            channels |= {name: -channels[name] for name in SPIN if name in channels}
         data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
         return Rows(
             self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps, self.output, self.columns
@@ -248,6 +251,11 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             usable &= ~clipped[1]
     derived = {}
     for name in inputs:
+        if name in SPIN:
+            disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
+            encoder = flight.channels.get(disc.angle_column)
+            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency)
+            continue
         order = 2 if name.startswith("d2_") else 1
         base = name.removeprefix("d2_").removeprefix("d_")
         if base != name and base in flight.channels:
