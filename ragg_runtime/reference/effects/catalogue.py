@@ -88,12 +88,12 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
 """Every effect and its parameters."""
 
 
-def resolve(effects: EffectValues | None) -> Injected:
-    """Check what a user asked for and fill in the neutral values.
+def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
+    """Check what a user asked for and fill in the neutral values, for ``count`` accelerometers.
 
     Returns
     -------
-    For each effect, all of its parameters: (4,) arrays per accelerometer, () arrays shared.
+    For each effect, all of its parameters: (count,) arrays per accelerometer, () arrays shared.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def resolve(effects: EffectValues | None) -> Injected:
                     remedy=did_you_mean(name, known),
                 )
         resolved[effect] = {
-            name: _values(effect, name, parameter, given.get(name, parameter.neutral))
+            name: _values(effect, name, parameter, given.get(name, parameter.neutral), count)
             for name, parameter in known.items()
         }
     return resolved
@@ -136,15 +136,17 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     }.get(effect, ())
 
 
-def _values(effect: str, name: str, parameter: Parameter, given: ArrayLike) -> NDArray[np.float64]:
+def _values(
+    effect: str, name: str, parameter: Parameter, given: ArrayLike, count: int
+) -> NDArray[np.float64]:
     expected = (
-        f"four numbers, or one for all, in {parameter.unit}"
+        f"{'four' if count == 4 else count} numbers, or one for all, in {parameter.unit}"
         if parameter.per_accelerometer
         else (f"one number in {parameter.unit}")
     )
     try:
         value = np.asarray(given, dtype=np.float64)
-        value = np.broadcast_to(value, (4,)) if parameter.per_accelerometer else value.reshape(())
+        value = np.broadcast_to(value, (count,)) if parameter.per_accelerometer else value.reshape(())
     except (TypeError, ValueError):
         raise UserError(
             f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected
