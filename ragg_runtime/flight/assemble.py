@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,7 +63,7 @@ class Layout:
         placed = {c: _placed(v, grid) for c, v in si.items()}
         named = (*self.accelerometers.columns, *DEMODULATED)
         outputs = {c: placed.pop(c) for c in named if c in placed}
-        valid = _valid(placed | outputs, grid, notes)
+        valid = _valid(placed | outputs, outputs, grid, notes)
         _derive_outputs(outputs, notes, self.accelerometers)
         channels = {c: _filled(v, c) for c, v in placed.items()}
         _derive_acceleration(channels, placed, grid, valid, notes)
@@ -185,7 +185,7 @@ def _placed(values: Array, grid: Grid) -> Array:
     return whole
 
 
-def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
+def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
     """Samples at which everything stands that has to; counts the others in ``notes``."""
     present = np.zeros(len(grid.time), dtype=np.bool_)
     present[grid.index] = True
@@ -196,7 +196,7 @@ def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
             continue
         count = int(np.sum(missing & present))
         bridged = np.zeros_like(missing)
-        if name not in SI_UNITS or name in AUXILIARY:
+        if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
             for run in runs(missing & present):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
