@@ -7,11 +7,12 @@ place (cos_j, sin_j); the four of them and G_out follow from it (Eq. 15).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import sympy as sp
 
 from derive import stages
+from derive.context import _MOVING, DERIVATIVE_OF, OMEGA, Context
 from derive.effect import Effect
 from derive.layout import AXES, HEIGHT, TURN, Layout
 from derive.layout import PAPER as FOUR
@@ -31,84 +32,8 @@ from derive.symbols import (
 )
 from derive.tape import Tape
 
-OMEGA = 2 * sp.pi * symbol("spin_frequency")
-"""Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
-
 RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
 """The spin by the recorded disc angle."""
-
-DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
-_STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
-
-
-@dataclass
-class Context:
-    """What a hook may ask for, beyond its stage's own values.
-
-    ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
-    the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
-    angle, ``case`` the motion of what stands on the disc.
-    """
-
-    tape: Tape
-    motion: Motion
-    cos_phi: sp.Expr = COS_PHI
-    sin_phi: sp.Expr = SIN_PHI
-    geometry: Geometry | None = None
-    force: Force | None = None
-    sensed: SensedForce | None = None
-    parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
-    time: sp.Symbol = TIME
-    Omega: sp.Expr = OMEGA
-    spin: Spin = RECORDED_SPIN
-    axes: sp.Matrix | None = None
-
-    def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
-        """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
-
-        These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
-        """
-        if self.axes is None:
-            return v
-        return self.axes.T * v if v.shape[1] == 1 else self.axes.T * v * self.axes
-
-    def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
-        """The other way round."""
-        if self.axes is None:
-            return v
-        return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
-
-    @property
-    def case(self) -> Motion:
-        """The motion of the accelerometers' cases, which turn with the disc."""
-        return stages.of_disc(self.motion, self.spin)
-
-    def channel(self, name: str) -> sp.Symbol:
-        """A recorded channel by its column name."""
-        return symbol(name)
-
-    def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
-        """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
-        z = sp.expand((COS_PHI + sp.I * SIN_PHI) ** n)
-        return sp.re(z), sp.im(z)
-
-    def rate(self, e: sp.Expr) -> sp.Expr:
-        """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), self._symbol_rate)
-
-    def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
-        if s == COS_PHI:
-            return -self.Omega * SIN_PHI
-        if s == SIN_PHI:
-            return self.Omega * COS_PHI
-        if s == SPIN_RATE:
-            return SPIN_ACCELERATION  # whose own rate is left out: no disc jerks so that it would show
-        return _rate_of_channel(s)
-
-    def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
-        """``e`` at the instant t + delta, to second order in delta."""
-        first = self.rate(e)
-        return e + delta * first + delta**2 / 2 * self.rate(first)
 
 
 def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
@@ -124,9 +49,6 @@ def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
     if name in _MOVING:
         return symbol(f"d_{name}")
     return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
-
-
-_MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)
 
 
 def recorded_motion() -> Motion:

@@ -19,12 +19,7 @@ from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
 from derive.layout import Layout
-from derive.propagation import (
-    COEFFICIENT_PARAMETERS,
-    MOTION_NUMBERS,
-    Collected,
-    motion_numbers,
-)
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
 from derive.tape import Program, simplify

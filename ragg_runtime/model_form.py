@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean
 
 KINEMATICS = ("platform", "full")
 MOUNTING: tuple[int | str, ...] = (1, 2, "exact")

@@ -10,7 +10,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import spin_gradient
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:

@@ -14,8 +14,8 @@ from itertools import combinations, permutations, product
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.plausibility.rows import Rows
-from ragg_runtime.units import Units
+from ragg_runtime.instrument.units import Units
+from ragg_runtime.plausibility.subsample import Rows
 
 Array = NDArray[np.float64]
 

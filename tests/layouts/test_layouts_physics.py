@@ -7,10 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from ragg_runtime import extend
-from ragg_runtime.evaluate import EOTVOS, output, record, scale_factor, vector
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument import Instrument, parse_instrument
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.evaluate import EOTVOS, output, scale_factor, vector
+from ragg_runtime.model.record import record
+from ragg_runtime.model_dir import derive
 from ragg_runtime.reference import simulate
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.reference.turning import Turning
@@ -50,7 +52,7 @@ def flown(
 
 def worst(i: Instrument, flight: Flight) -> float:
     """Largest difference of any output, Eo."""
-    model, _ = extend.derived((), (), i.form, i.layout)
+    model, _ = derive.derived((), (), i.form, i.layout)
     p = vector(model, i)
     found = []
     for k, o in enumerate(i.layout.outputs):

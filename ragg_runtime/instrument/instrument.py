@@ -1,0 +1,231 @@
+"""The instrument: nominal parameters and effects of one gradiometer, read from ``model.toml``."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ragg_runtime import model_form
+from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
+from ragg_runtime.instrument.read_toml import _disc, _si, _table
+from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
+from ragg_runtime.layout import PAPER, Layout, paper, scale
+from ragg_runtime.layout_toml import read_layout
+from ragg_runtime.model_form import Form
+
+
+@dataclass(frozen=True)
+class EffectSetting:
+    """An entry of ``effects`` in model.toml.
+
+    ``values`` holds the parameters as the user wrote them (value and unit): the effect's own definition
+    knows their SI unit, see :meth:`si`. ``expression`` is ``None`` for an effect of the catalogue, else the
+    keys ``stage``, ``add`` and ``params`` of an effect that the user wrote as one line; ``params`` maps the
+    name of a parameter to at least ``{"unit": ...}``.
+    """
+
+    id: str
+    values: Mapping[str, RawQuantity] = field(default_factory=lambda: MappingProxyType({}))
+    expression: Mapping[str, Any] | None = None
+
+    def si(
+        self,
+        name: str,
+        si_unit: str,
+        g0: float,
+        *,
+        shared: bool = False,
+        where: str | None = None,
+        count: int = PAPER.size,
+    ) -> Vector | None:
+        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (count,); None if not given."""
+        if name not in self.values:
+            return None
+        raw = self.values[name]
+        place = at(where, f"effect {self.id}", name)
+        if shared and isinstance(raw.value, tuple):
+            raise UserError(
+                "the parameter is shared by the accelerometers", where=place, found=raw, expected="one number"
+            )
+        value = np.atleast_1d(np.asarray(raw.value, dtype=np.float64))
+        converted = np.asarray(units(g0).to_si(value, raw.unit, si_unit, place), dtype=np.float64)
+        return _finite(converted if shared else np.broadcast_to(converted, (count,)).copy(), place)
+
+
+@dataclass(frozen=True, eq=False)
+class Instrument:
+    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
+
+    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`. ``radius`` and
+    ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
+    """
+
+    radius: float
+    spin_frequency: float
+    g0: float
+    accelerometers: Mapping[str, Vector]
+    effects: tuple[EffectSetting, ...] = ()
+    path: Path | None = None
+    effects_folder: Path | None = None
+    form: Form = model_form.PAPER
+    layout: Layout = PAPER
+
+    def __post_init__(self) -> None:
+        if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
+            object.__setattr__(self, "layout", paper(self.radius, self.spin_frequency))
+
+    @classmethod
+    def build(
+        cls,
+        radius: float,
+        spin_frequency: float,
+        g0: float,
+        accelerometers: Mapping[str, ArrayLike],
+        effects: tuple[EffectSetting, ...] = (),
+        path: Path | None = None,
+        effects_folder: Path | None = None,
+        form: Form = model_form.PAPER,
+        layout: Layout | None = None,
+    ) -> Instrument:
+        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
+
+        Without a ``layout`` it is the paper's.
+        """
+        layout = paper(radius, spin_frequency) if layout is None else layout
+        _check_names(accelerometers, PARAMETER, "accelerometers")
+        for p in PARAMETERS:
+            if p.required and p.name not in accelerometers:
+                raise UserError(
+                    f"{p.name} ({p.description}) is missing",
+                    where=at(path, "[accelerometers]"),
+                    expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
+                )
+        vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
+        made = cls(
+            radius=radius,
+            spin_frequency=spin_frequency,
+            g0=g0,
+            accelerometers=MappingProxyType(vectors),
+            effects=tuple(effects),
+            path=path,
+            effects_folder=effects_folder,
+            layout=layout,
+            form=form,
+        )
+        _check_physical(made)
+        return made
+
+    def replace(self, **changes: ArrayLike) -> Instrument:
+        """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
+        _check_names(changes, PARAMETER, "accelerometers")
+        vectors = dict(self.accelerometers) | {
+            name: _vector(v, self.layout.size) for name, v in changes.items()
+        }
+        return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+
+    def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
+        """The same instrument with another list of effects."""
+        return dataclasses.replace(self, effects=tuple(effects))
+
+    def effect(self, effect_id: str) -> EffectSetting | None:
+        """The entry of this effect, or None."""
+        return next((e for e in self.effects if e.id == effect_id), None)
+
+    @property
+    def scale_factor(self) -> float:
+        """k_ggi of the first output, in V s^2: volts per s^-2 of gradient (Eq. 15 and 30)."""
+        k = self.accelerometers
+        return scale(self.layout.outputs[0], k["k_VI"] * k["K1"], self.radii + k["dR"])
+
+    @property
+    def radii(self) -> Vector:
+        """(n,) m: nominal distance of each accelerometer from the axis of its disc."""
+        return np.array([p.radius for p in self.layout.places])
+
+    @property
+    def units(self) -> Units:
+        """Units with this instrument's g0."""
+        return units(self.g0)
+
+
+STANDARD_G0 = 9.8
+"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
+
+
+def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
+    """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
+    if not isinstance(table.get("disc"), list):
+        if "g0" in table:
+            raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
+        disc = _disc(_table(table, "disc", path), path)
+        return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
+    given = [("g0", table["g0"])] if "g0" in table else []
+    for number, entry in enumerate(table["disc"], 1):
+        if isinstance(entry, dict) and "g0" in entry:
+            given.append((f"[[disc]] {number}: g0", entry["g0"]))
+    found = {
+        float(_si(read_quantity(raw, at(path, key), count=1), DISC_UNITS["g0"], None, at(path, key))[0])
+        for key, raw in given
+    }
+    if len(found) > 1:
+        raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
+    return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
+
+
+def _check_names(names: Any, known: Any, table: str | None, where: object = None) -> None:
+    for name in names:
+        if name not in known:
+            raise UserError(
+                f"unknown key {name!r}",
+                where=at(where, None if table is None else f"[{table}]"),
+                expected="one of " + ", ".join(known),
+                remedy=did_you_mean(str(name), known),
+            )
+
+
+def _vector(value: ArrayLike, count: int) -> Vector:
+    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,)).copy()
+    vector.flags.writeable = False
+    return vector
+
+
+def _finite(value: Vector, where: str) -> Vector:
+    if not np.all(np.isfinite(value)):
+        raise UserError("the value is not finite in SI", where=where, found=value, expected="finite numbers")
+    return value
+
+
+def _check_physical(instrument: Instrument) -> None:
+    path, k = instrument.path, instrument.accelerometers
+    own_discs = not instrument.layout.of_paper  # which may stand still, with accelerometers at their centres
+    for name in ("g0",) if own_discs else DISC_UNITS:
+        value = getattr(instrument, name)
+        if not (np.isfinite(value) and value > 0):
+            raise UserError(
+                f"{name} must be positive",
+                where=at(path, f"[disc] {name}"),
+                found=f"{value:g} {DISC_UNITS[name]}",
+                expected="a positive number",
+            )
+    for name, vector in k.items():
+        _finite(vector, at(path, f"[accelerometers] {name}"))
+    for name in ("K1", "k_VI"):
+        if np.any(k[name] == 0):
+            raise UserError(
+                f"{name} must not be zero", where=at(path, f"[accelerometers] {name}"), found=k[name].tolist()
+            )
+    R = instrument.radii + k["dR"]
+    if np.any(R < 0) or (np.any(R == 0) and not own_discs):
+        raise UserError(
+            "the distance from the disc centre, radius + dR, must be positive",
+            where=at(path, "[accelerometers] dR"),
+            found=f"{R.tolist()} m",
+        )

@@ -1,0 +1,273 @@
+"""Some rows of a flight as what a model needs of them, so that a fit costs milliseconds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.output_values import saturation
+from ragg_runtime.flight.record import DEMODULATED
+from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.layout import PAPER, Disc, Output
+from ragg_runtime.model.evaluate import SPIN, Kind, recorded, spin
+from ragg_runtime.model.model import Chain
+from ragg_runtime.model.record import GRADIENTS, disc_angle
+from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.derivative import differentiate
+
+Array = NDArray[np.float64]
+Index = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+MOST = 1500
+"""Rows that a fit takes: many times the number of parameters."""
+
+
+@dataclass(frozen=True)
+class Rows:
+    """n rows of a flight, not necessarily neighbours (neighbours where only the channels are recorded).
+
+    Attributes
+    ----------
+    kind
+        ``voltages``, ``G_out`` or ``channels`` (inline and cross alone): which output ``data`` is.
+    data
+        (m, n) V: the output; of channels k_ggi (inline/2, -cross).
+    time, phi
+        (n,) s since the flight's first sample; disc angle, rad.
+    channels
+        Name -> (n,) SI; time derivatives (``d_a_x``) that the model asks for among them.
+    taps
+        Low-pass of the demodulator; empty unless ``kind`` is ``channels``.
+    """
+
+    kind: Kind
+    data: Array
+    time: Array
+    phi: Array
+    channels: Mapping[str, Array]
+    taps: Array
+    output: Output = PAPER.outputs[0]
+    names: tuple[str, ...] = ("G_out",)
+    """Columns of ``data``."""
+
+    def inputs(self, chain: Chain) -> Array:
+        """(n_inputs, n) in the order of the chain's INPUTS; what was not recorded is zero."""
+        x = np.zeros((len(chain.INPUTS), len(self.time)))
+        for n, name in enumerate(chain.INPUTS):
+            if name in self.channels:
+                x[n] = self.channels[name]
+        return x
+
+    def before_demodulation(self, volts: Array, accelerometer: int | None) -> Array:
+        """(members, n) or (1, n): the output's voltages, or itself, of these, or of one accelerometer's (n,)."""
+        members, signs = self.output.members, np.array(self.output.signs, dtype=np.float64)
+        at = None if accelerometer is None else members.index(accelerometer - 1)
+        if self.kind == "voltages":
+            if at is None:
+                return volts
+            full = np.zeros((len(members), volts.shape[-1]))
+            full[at] = volts
+            return full
+        G = signs @ volts if at is None else signs[at] * volts
+        return np.asarray(G[None])
+
+    def seen(self, raw: Array) -> Array:
+        """(..., m, n): what the recorded output sees of :meth:`before_demodulation`."""
+        if self.kind != "channels":
+            return raw
+        carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
+        taps = self.taps.reshape((1,) * (raw.ndim - 1) + (-1,))
+        return np.asarray(signal.oaconvolve(raw * carriers, taps, mode="same", axes=-1))
+
+    @property
+    def inner(self) -> Mask:
+        """(n,) where a demodulator has seen enough of the record on either side."""
+        inside = np.ones(len(self.time), dtype=np.bool_)
+        edge = len(self.taps) // 2
+        inside[:edge] = False
+        inside[len(inside) - edge :] = False
+        return inside
+
+    @property
+    def gradient_recorded(self) -> bool:
+        return all(g in self.channels for g in GRADIENTS)
+
+
+@dataclass(frozen=True)
+class Picker:
+    """Picks rows of a flight, as they stand or with a mistake of timing undone."""
+
+    flight: Flight
+    instrument: Instrument
+    kind: Kind
+    usable: Mask
+    derived: Mapping[str, Array]
+    taps: Array
+    place: int = 0
+
+    @property
+    def output(self) -> Output:
+        return self.instrument.layout.outputs[self.place]
+
+    @property
+    def disc(self) -> Disc:
+        return self.instrument.layout.discs[self.output.disc]
+
+    @cached_property
+    def columns(self) -> tuple[str, ...]:
+        """Of the flight, that hold the output."""
+        return _columns(self.flight, self.instrument, self.place, self.kind)
+
+    def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
+        """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
+        there = (
+            self._there if first == 0 and last is None else np.flatnonzero(self.usable[first:last]) + first
+        )
+        if self.kind == "channels":
+            whole = np.arange(first, len(self.usable) if last is None else last)
+            return whole[: max(most, 3 * len(self.taps))]
+        return np.asarray(there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)])
+
+    def pick(
+        self,
+        rows: Index,
+        *,
+        shift: int = 0,
+        output_shift: int = 0,
+        spin_frequency: float | None = None,
+        phase: float = 0.0,
+        even: bool = False,
+        backwards: bool = False,
+    ) -> Rows:
+        """Rows of the flight.
+
+        Parameters
+        ----------
+        rows
+            Which.
+        shift, output_shift
+            Samples by which the motion, or the output, is taken later than it stands there; rows that
+            would lie outside are left out.
+        spin_frequency
+            Hz, in place of the instrument's (or the encoder's angle).
+        phase
+            rad, added to the disc angle.
+        even
+            Take the samples as evenly spaced, whatever the file's instants say.
+        backwards
+            Let the disc turn the other way.
+        """
+        n = len(self.flight)
+        inside = (rows + min(shift, output_shift, 0) >= 0) & (rows + max(shift, output_shift, 0) < n)
+        rows = rows[inside]
+        x = self.flight
+        time = _picked(x.time, rows) - x.time[0]
+        if even:
+            time = rows * self.even[1]
+        f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
+        if self.disc.angle_column in x.channels and spin_frequency is None:
+            phi = _picked(x.channels[self.disc.angle_column], rows)
+        else:
+            phi = disc_angle(time, f)
+        moved = rows + shift
+        channels = {name: _picked(v, moved) for name, v in x.channels.items()}
+        channels |= {name: _picked(v, moved) for name, v in self.derived.items()}
+        if spin_frequency is not None:
+            channels |= {name: spin(name, None, len(rows), x.rate, f) for name in SPIN}
+        if backwards:
+            phi = -phi
+            channels |= {name: -channels[name] for name in SPIN if name in channels}
+        data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
+        return Rows(
+            self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps, self.output, self.columns
+        )
+
+    @cached_property
+    def _there(self) -> Index:
+        return np.flatnonzero(self.usable)
+
+    @cached_property
+    def even(self) -> tuple[float, float]:
+        """First instant, s, and interval, s, of the steady clock that the file's instants follow."""
+        k = np.flatnonzero(self.flight.valid)
+        k = k[:: max(1, len(k) // 65536)]
+        time = self.flight.time[k]
+        step, first = (float(c) for c in np.polyfit(k, time, 1))
+        scatter = float(np.std(time - first - step * k))
+        # A clock is set to a round rate: take it where the instants cannot tell it from the fitted one.
+        error = 4 * scatter * np.sqrt(12 / len(k)) / (k[-1] - k[0])
+        for digits in range(1, 10):
+            rounded = 1 / float(f"{1 / step:.{digits}g}")
+            if abs(rounded - step) < error:
+                step = rounded
+                break
+        return float(np.mean(time - step * k)), step
+
+    def _output(self) -> list[Array]:
+        outputs = self.flight.outputs
+        if self.kind != "channels":
+            return [outputs[v] for v in self.columns]
+        k = self.instrument.scale_factor
+        return [k / 2 * outputs["inline"], -k * outputs["cross"]]
+
+
+CHUNK = 1 << 16
+"""Rows of a whole flight that are looked at at a time."""
+
+
+def _picked(column: Array, rows: Index) -> Array:
+    """Some rows of a column; of one on disk, none of the rest stays in memory."""
+    found = np.asarray(column[rows])
+    let_go(column)
+    return found
+
+
+def _columns(flight: Flight, instrument: Instrument, place: int, kind: Kind) -> tuple[str, ...]:
+    layout = instrument.layout
+    o = layout.outputs[place]
+    volts = layout.voltages(o, flight.outputs) or ()
+    return {"voltages": volts, "G_out": (o.name,), "channels": DEMODULATED}[kind]
+
+
+def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (), place: int = 0) -> Picker:
+    """Prepare a flight for picking rows; ``inputs`` are the names that the model asks for, ``place`` the output."""
+    kind = recorded(flight, instrument.layout, place)
+    if kind is None:
+        raise ValueError("the flight does not hold this output")
+    usable = flight.valid.copy()
+    for name in _columns(flight, instrument, place, kind):
+        usable &= np.isfinite(flight.outputs[name])
+    own = instrument.layout.outputs[place].name
+    if own in flight.outputs and usable.any():
+        clipped = saturation(flight.outputs[own], usable)
+        if clipped is not None:
+            usable &= ~clipped[1]
+    derived = {}
+    for name in inputs:
+        if name in SPIN:
+            disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
+            encoder = flight.channels.get(disc.angle_column)
+            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency)
+            continue
+        order = 2 if name.startswith("d2_") else 1
+        base = name.removeprefix("d2_").removeprefix("d_")
+        if base != name and base in flight.channels:
+            series = flight.channels[base]
+            for _ in range(order):
+                series = differentiate(series, flight.rate)
+            derived[name] = series
+    taps = low_pass(flight.rate) if kind == "channels" else np.zeros(0)
+    return Picker(flight, instrument, kind, usable, derived, taps, place)
+
+
+def with_channels(rows: Rows, changed: Mapping[str, Array]) -> Rows:
+    """The same rows with some channels changed."""
+    return replace(rows, channels={**rows.channels, **changed})
