@@ -143,33 +143,14 @@ def new(model_dir: Path, source: Path | None) -> None:
 @_json
 def effects(identifier: str | None, json_file: str | None) -> None:
     """The catalogue of physical effects; with ID one of them in full."""
-    from derive.effects import catalogue
-    from derive.ir import manifest_of_effect
-    from ragg_runtime.base.errors import did_you_mean
+    from ragg_runtime.model.catalogue import effects as catalogue
+    from ragg_runtime.model.catalogue import in_words
 
-    found = {e.id: manifest_of_effect(e) for e in catalogue()}
+    found = catalogue()
     if identifier is None:
-        lines = [f"{i:28} {e['title']}" for i, e in found.items()]
-        _emit({"effects": list(found.values())}, json_file, "\n".join(lines))
-        return
-    if identifier not in found:
-        raise UserError(
-            "unknown effect",
-            found=repr(identifier),
-            expected="an id listed by `ragg effects`",
-            remedy=did_you_mean(identifier, found),
-        )
-    e: Any = found[identifier]
-    lines = [f"{e['id']}: {e['title']}", "", e["physics"], "", f"  {e['equation']}", ""]
-    for q in e["parameters"]:
-        which = "one value" if q["shared"] else "one value for each accelerometer"
-        lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
-    lines += [
-        "",
-        f"needs: {', '.join(e['channels']) or 'the motion alone'}",
-        f"limits: {e['limits'] or 'none stated'}",
-    ]
-    _emit(e, json_file, "\n".join([*lines, f"source: {e['source']}"]))
+        _emit(found.as_json(), json_file, repr(found))
+    else:
+        _emit(dict(found[identifier]), json_file, in_words(found[identifier]))
 
 
 @cli.command()

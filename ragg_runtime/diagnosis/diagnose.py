@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion
-from ragg_runtime.diagnosis.parameters import PATTERNS
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import _with_steps
@@ -38,7 +37,6 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
-from ragg_runtime.layout import Layout
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
@@ -229,25 +227,3 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
             if "quantisation" in known and quantisation(series, valid, noise):
                 found.append("quantisation")
     return sorted(set(found))
-
-
-def patterns_of(layout: Layout) -> list[tuple[str, tuple[float, ...]]]:
-    """Combinations of a parameter's values, one for each accelerometer, that an output may see, and how they are written.
-
-    Of the paper's four D^12, D^34, D^1234 and Sigma. Of others what Eq. 15 makes of cos and sin of n psi_j, n = 0 ... 4:
-    the sums over an output's accelerometers of their signs times cos and sin of n times their angles on the disc.
-    """
-    if layout.like_paper:
-        return list(PATTERNS)
-    found: list[tuple[str, tuple[float, ...]]] = []
-    for o in layout.outputs:
-        for weights in o.patterns:
-            w = np.zeros(layout.size)
-            w[list(o.members)] = weights
-            terms = [
-                f"{'-' if x < 0 else '+'} {'' if abs(abs(x) - 1) < 1e-12 else f'{abs(x):.4g} '}{{0}}[{j + 1}]"
-                for j, x in enumerate(w)
-                if x
-            ]
-            found.append((" ".join(terms).removeprefix("+ "), tuple(w)))
-    return found

@@ -17,7 +17,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_values import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.layout import PAPER, Output, scale
+from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.evaluate import recorded
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.signals.demodulate import low_pass

@@ -24,9 +24,9 @@ from ragg_runtime.flight.record import (
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.layout import PAPER
-from ragg_runtime.layout import Layout as Accelerometers
 from ragg_runtime.signals.derivative import differentiate, runs
 
 BRIDGED = 2.0

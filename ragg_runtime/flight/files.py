@@ -17,8 +17,8 @@ from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
 from ragg_runtime.flight.spool import spooled
+from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.layout import PAPER, Layout
 from ragg_runtime.signals.derivative import WINDOW
 
 IN_MEMORY = 48 << 20

@@ -109,6 +109,10 @@ class Flight:
         own = "V" if name in self.outputs else "rad" if name.startswith("spin_angle") else "1"
         return SI_UNITS.get(name, own)
 
+    def __repr__(self) -> str:
+        columns = " ".join((*self.channels, *self.outputs))
+        return f"<Flight {self.name}: {self.duration:.6g} s at {self.rate:.6g} Hz; {columns}>"
+
     def __len__(self) -> int:
         return len(self.time)
 

@@ -14,11 +14,9 @@ from numpy.typing import ArrayLike
 
 from ragg_runtime import model_form
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.layout import PAPER, Layout, paper, scale
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
-from ragg_runtime.instrument.read_toml import _disc, _si, _table
-from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
-from ragg_runtime.layout import PAPER, Layout, paper, scale
-from ragg_runtime.layout_toml import read_layout
+from ragg_runtime.instrument.units import RawQuantity, Units, units
 from ragg_runtime.model_form import Form
 
 
@@ -154,30 +152,6 @@ class Instrument:
     def units(self) -> Units:
         """Units with this instrument's g0."""
         return units(self.g0)
-
-
-STANDARD_G0 = 9.8
-"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
-
-
-def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
-    """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
-    if not isinstance(table.get("disc"), list):
-        if "g0" in table:
-            raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
-        disc = _disc(_table(table, "disc", path), path)
-        return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
-    given = [("g0", table["g0"])] if "g0" in table else []
-    for number, entry in enumerate(table["disc"], 1):
-        if isinstance(entry, dict) and "g0" in entry:
-            given.append((f"[[disc]] {number}: g0", entry["g0"]))
-    found = {
-        float(_si(read_quantity(raw, at(path, key), count=1), DISC_UNITS["g0"], None, at(path, key))[0])
-        for key, raw in given
-    }
-    if len(found) > 1:
-        raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
-    return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
 
 
 def _check_names(names: Any, known: Any, table: str | None, where: object = None) -> None:

@@ -11,8 +11,8 @@ from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Layout, Output, scale
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.layout import Layout, Output, scale
 from ragg_runtime.model.model import Chain, Model
 from ragg_runtime.model.record import HALO, Record
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.layout import PAPER, Layout
+from ragg_runtime.instrument.layout import PAPER, Layout
 
 if TYPE_CHECKING:
     from ragg_runtime.model.native import Evaluator

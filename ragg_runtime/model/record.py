@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.layout import Vector3, gain
+from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.model.evaluate import SPIN, STANDING, phase, spin
 from ragg_runtime.model.model import Chain, Effect
 from ragg_runtime.signals.derivative import differentiate

@@ -19,10 +19,10 @@ from pathlib import Path
 
 import platformdirs
 
-from ragg_runtime import stations
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.base.ownership import belongs_to_user
+from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model_dir.trust import trusted_sources
 

@@ -10,7 +10,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.layout import Disc
+from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.derivative import differentiate
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.layout import TANGENTIAL, Disc, Place
+from ragg_runtime.instrument.layout import TANGENTIAL, Disc, Place
 from ragg_runtime.reference.rotation import Rotations, X, Y, Z, about, least_rotation
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.layout import PAPER, Layout, Output
+from ragg_runtime.instrument.layout import PAPER, Layout, Output
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain

@@ -31,9 +31,9 @@ from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
-from ragg_runtime.layout import PAPER
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
@@ -51,7 +51,7 @@ NO_FORM = (
 )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Loaded:
     """A model directory, the model derived for it, and what was odd, in sentences."""
 
@@ -67,12 +67,15 @@ class Loaded:
     def name(self) -> str:
         return self.directory.path.resolve().name
 
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
+
     def _repr_html_(self) -> str:
         steps = [s.as_json() for s in self.directory.history]
         return notebook.model(self.name, [e.id for e in self.model.effects], steps)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Added:
     """The result of ``add``: the errors before and after, and the calibrated parameters."""
 
@@ -82,6 +85,13 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return notebook.in_one_line("Added", self.effect, *errors)
 
     def _repr_html_(self) -> str:
         noise, adequate = (
@@ -285,7 +295,7 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     covariance = cal.covariance[np.ix_(mine, mine)]
     return (
         tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(columns, values, covariance, c.fitted.instrument.layout)),
+        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.layout import Layout
+from ragg_runtime.instrument.layout import Layout
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]

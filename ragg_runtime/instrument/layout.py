@@ -1,7 +1,7 @@
 """Where the accelerometers are: discs, places, signs and outputs. The paper's four are one such layout.
 
 A layout is data and nothing else: positions, directions and signs as they are written in model.toml. The derived
-models take their constants from :mod:`ragg_runtime.stations`, the numerical reference makes its own.
+models take their constants from :mod:`ragg_runtime.instrument.stations`, the numerical reference makes its own.
 
 Conventions, said once. A disc spins about its ``axis`` (measurement frame); its angle 0 lies along ``zero``. At the
 angle of an accelerometer e_r points outward, e_t along the turn, e_a along the axis. The nominal triad of the paper is
@@ -131,23 +131,23 @@ class Output:
     """Cosine and sine of each member's angle on the disc."""
 
     @property
-    def patterns(self) -> tuple[tuple[float, ...], ...]:
-        """Weights (members,) with which its harmonics see a parameter: sign times cos and sin of n times the angle.
+    def patterns(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
+        """Harmonic and weights (members,) with which it sees a parameter: sign times cos and sin of n times the angle.
 
         For n = 0 ... 4, the largest weight 1; those that vanish or repeat others are left out.
         """
         angles = np.array([math.atan2(s, c) for c, s in self.angles])
-        found: list[Array] = []
+        found: list[tuple[str, Array]] = []
         for n in range(HIGHEST_HARMONIC + 1):
-            for wave in (np.cos, np.sin):
+            for name, wave in (("cos", np.cos), ("sin", np.sin)):
                 w = np.array(self.signs) * wave(n * angles)
                 w[np.abs(w) < 1e-12] = 0.0
                 if not np.any(w):
                     continue
                 w = w / w[int(np.argmax(np.abs(w)))]
-                if not any(np.allclose(w, v, atol=1e-9) for v in found):
-                    found.append(w)
-        return tuple(tuple(float(x) for x in w) for w in found)
+                if not any(np.allclose(w, v, atol=1e-9) for _, v in found):
+                    found.append((f"{name} {n}" if n else "const", w))
+        return tuple((name, tuple(float(x) for x in w)) for name, w in found)
 
     def combined(self, v: Array) -> Array:
         """(N,): its members' voltages (members, N) with their signs; equal signs are added first (Eq. 15)."""

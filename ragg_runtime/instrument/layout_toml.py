@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.instrument.units import read_quantity, units
-from ragg_runtime.layout import (
+from ragg_runtime.instrument.layout import (
     TANGENTIAL,
     X_AXIS,
     Z_AXIS,
@@ -23,6 +22,7 @@ from ragg_runtime.layout import (
     turned_with,
     unit,
 )
+from ragg_runtime.instrument.units import read_quantity, units
 
 DISC_KEYS = ("name", "radius", "spin_frequency", "axis", "zero", "g0", "accelerometer")
 PLACE_KEYS = ("name", "angle", "sign", "output", "radius", "height", "direction")

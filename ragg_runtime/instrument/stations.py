@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.layout import TANGENTIAL, Disc, Layout, Vector3
+from ragg_runtime.instrument.layout import TANGENTIAL, Disc, Layout, Vector3
 
 Array = NDArray[np.float64]
 
