@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import stages
-from derive.context import _MOVING, DERIVATIVE_OF, OMEGA, Context
+from derive.context import OMEGA, Context
 from derive.effect import Effect
 from derive.layout import AXES, HEIGHT, TURN, Layout
 from derive.layout import PAPER as FOUR
@@ -26,29 +26,10 @@ from derive.symbols import (
     SIN_PHI,
     SPIN_ACCELERATION,
     SPIN_RATE,
-    TIME,
     Channel,
     symbol,
 )
 from derive.tape import Tape
-
-RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
-"""The spin by the recorded disc angle."""
-
-
-def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
-    name = s.name
-    if s == TIME:
-        return sp.Integer(1)
-    if s == SPIN_ACCELERATION:
-        return sp.Integer(0)
-    if name in DERIVATIVE_OF:
-        return symbol(DERIVATIVE_OF[name])
-    if name.startswith("d_"):
-        return symbol(f"d2_{name[2:]}")
-    if name in _MOVING:
-        return symbol(f"d_{name}")
-    return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
 
 
 def recorded_motion() -> Motion:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from derive import stages
-from derive.chain import RECORDED_SPIN, _rate_of_channel
 from derive.stages import Force, Geometry, Motion, SensedForce, Spin
 from derive.symbols import (
     COS_PHI,
@@ -23,6 +22,9 @@ from derive.tape import Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
 """Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
+
+RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
+"""The spin by the recorded disc angle."""
 
 DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
 _STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
@@ -99,3 +101,18 @@ class Context:
 
 
 _MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)
+
+
+def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
+    name = s.name
+    if s == TIME:
+        return sp.Integer(1)
+    if s == SPIN_ACCELERATION:
+        return sp.Integer(0)
+    if name in DERIVATIVE_OF:
+        return symbol(DERIVATIVE_OF[name])
+    if name.startswith("d_"):
+        return symbol(f"d2_{name[2:]}")
+    if name in _MOVING:
+        return symbol(f"d_{name}")
+    return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)

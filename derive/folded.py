@@ -18,7 +18,8 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
-from derive.chain import RECORDED_SPIN, accelerometer, auxiliary_channel, recorded_motion
+from derive.chain import accelerometer, auxiliary_channel, recorded_motion
+from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
 from derive.stages import PAPER, Kinematics, Order
@@ -49,8 +50,8 @@ TURNED: tuple[str, ...] = (
 """a and M along the directions of the turning disc; a_z and M_zz are those of the measurement frame."""
 
 
-SPIN_CHANNELS = tuple(auxiliary_channel(s.name) for s in (SPIN_RATE, SPIN_ACCELERATION))
-"""Rate and acceleration of the disc angle, which full kinematics need."""
+SPIN_CHANNELS = tuple(auxiliary_channel(n) for n in sorted((SPIN_RATE.name, SPIN_ACCELERATION.name)))
+"""Rate and acceleration of the disc angle, which full kinematics need, in the order in which a chain has them."""
 
 
 @dataclass(frozen=True)
@@ -195,7 +196,8 @@ def _numbers(kinematics: Kinematics) -> Program:
     M = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{'xyz'[k]}", gradient[i, k]))
     spin = _spin()
     half = M * spin  # along x, y, z of what a step along r, t, z changes
-    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
+    label = "M" if kinematics == "platform" else "of_platform"  # M_zr is in full kinematics more than that
+    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"{label}_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
     turned = spin.T * half
     if (
         kinematics == "full"

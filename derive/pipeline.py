@@ -59,10 +59,9 @@ def derive_base() -> Files:
         simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
     )
     full = _derive(Form(kinematics="full"), (), catalogue(), packaged=True)
-    return {
-        **_derive(PAPERS, (), catalogue(), analytical, simple, packaged=True),
-        **{f"{FULL}/{name}": text for name, text in full.items()},
-    }
+    below = {f"{FULL}/{name}": text for name, text in full.items()}
+    own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
+    return dict(sorted({**own, **below}.items()))
 
 
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
@@ -81,6 +80,7 @@ def _derive(
     candidates: Sequence[Effect],
     *harmonics: ir.Harmonic,
     packaged: bool = False,
+    below: Sequence[str] = (),
 ) -> Files:
     candidates = offered(candidates, form)
     files: dict[str, str] = {}
@@ -101,7 +101,7 @@ def _derive(
         if packaged or c.name == "chain":
             files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    return _complete(form, files, effects, every, [*harmonics, *forms, *chains])
+    return _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
 
 
 def _folded(form: Form) -> Folded:
@@ -138,8 +138,9 @@ def _complete(
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
     models: Sequence[ir.Harmonic | ir.Chain | Folded],
+    below: Sequence[str],
 ) -> Files:
-    """Add the package file and the manifest, which names everything that was derived."""
+    """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
     files["__init__.py"] = render.render("init.py.j2", modules=sorted(m.name for m in models))
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
     manifest: dict[str, object] = {
@@ -148,7 +149,7 @@ def _complete(
         "digest": hashlib.sha256(text.encode()).hexdigest(),
         **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],
-        "files": sorted([*files, "manifest.json"]),
+        "files": sorted([*files, *below, "manifest.json"]),
         "models": {m.name: ir.manifest_of_model(m) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }

@@ -19,7 +19,8 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
-from derive.chain import RECORDED_SPIN, accelerometer, recorded_motion
+from derive.chain import accelerometer, recorded_motion
+from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import COS_J, COS_PHI, QUARTER_TURNS, SIGNS, SIN_J, SIN_PHI, symbol

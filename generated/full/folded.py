@@ -31,8 +31,8 @@ INPUTS: tuple[str, ...] = (
     "Gamma_yy",
     "Gamma_yz",
     "Gamma_zz",
-    "d_spin_angle",
     "d2_spin_angle",
+    "d_spin_angle",
 )
 PARAMETERS: tuple[tuple[str, int], ...] = (
     ("radius", 1),
@@ -179,8 +179,8 @@ def _block(cos_phi: Array, sin_phi: Array, inputs: Array, c: list[float]) -> Arr
     Gamma_yy = inputs[12]
     Gamma_yz = inputs[13]
     Gamma_zz = inputs[14]
-    d_spin_angle = inputs[15]
-    d2_spin_angle = inputs[16]
+    d2_spin_angle = inputs[15]
+    d_spin_angle = inputs[16]
     x0 = omega_y**2.0
     x1 = omega_z**2.0
     M_xx = -Gamma_xx - x0 - x1
@@ -193,12 +193,12 @@ def _block(cos_phi: Array, sin_phi: Array, inputs: Array, c: list[float]) -> Arr
     M_zx = -Gamma_xz + omega_x*omega_z - omegadot_y
     M_zy = -Gamma_yz + omega_y*omega_z + omegadot_x
     M_zz = -Gamma_zz - x0 - x2
-    M_xr = M_xx*cos_phi + M_xy*sin_phi
-    M_xt = -M_xx*sin_phi + M_xy*cos_phi
-    M_yr = M_yx*cos_phi + M_yy*sin_phi
-    M_yt = -M_yx*sin_phi + M_yy*cos_phi
-    M_zr = M_zx*cos_phi + M_zy*sin_phi
-    M_zt = -M_zx*sin_phi + M_zy*cos_phi
+    of_platform_xr = M_xx*cos_phi + M_xy*sin_phi
+    of_platform_xt = -M_xx*sin_phi + M_xy*cos_phi
+    of_platform_yr = M_yx*cos_phi + M_yy*sin_phi
+    of_platform_yt = -M_yx*sin_phi + M_yy*cos_phi
+    of_platform_zr = M_zx*cos_phi + M_zy*sin_phi
+    of_platform_zt = -M_zx*sin_phi + M_zy*cos_phi
     x3 = 2.0*d_spin_angle
     x4 = omega_z*x3
     x5 = d_spin_angle**2.0
@@ -206,14 +206,14 @@ def _block(cos_phi: Array, sin_phi: Array, inputs: Array, c: list[float]) -> Arr
     x7 = omega_y*x3
     a_r = a_x*cos_phi + a_y*sin_phi
     a_t = -a_x*sin_phi + a_y*cos_phi
-    M_rr = M_xr*cos_phi + M_yr*sin_phi - x4 - x5
-    M_rt = M_xt*cos_phi + M_yt*sin_phi - d2_spin_angle
+    M_rr = cos_phi*of_platform_xr + of_platform_yr*sin_phi - x4 - x5
+    M_rt = cos_phi*of_platform_xt - d2_spin_angle + of_platform_yt*sin_phi
     M_rz = M_xz*cos_phi + M_yz*sin_phi
-    M_tr = -M_xr*sin_phi + M_yr*cos_phi + d2_spin_angle
-    M_tt = -M_xt*sin_phi + M_yt*cos_phi - x4 - x5
+    M_tr = cos_phi*of_platform_yr + d2_spin_angle - of_platform_xr*sin_phi
+    M_tt = cos_phi*of_platform_yt - of_platform_xt*sin_phi - x4 - x5
     M_tz = -M_xz*sin_phi + M_yz*cos_phi
-    M_zr = M_zr + cos_phi*x6 + sin_phi*x7
-    M_zt = M_zt + cos_phi*x7 - sin_phi*x6
+    M_zr = cos_phi*x6 + of_platform_zr + sin_phi*x7
+    M_zt = cos_phi*x7 + of_platform_zt - sin_phi*x6
     return np.asarray(M_rr*(M_rr*c[37] + M_tr*c[38] + M_zr*c[39] + c[4]) + M_rt*(M_rt*c[40] + M_tt*c[41] + M_zt*c[42] + c[5]) + M_rz*c[6] + M_tr*(M_tr*c[43] + M_zr*c[44] + c[7]) + M_tt*(M_tt*c[45] + M_zt*c[46] + c[8]) + M_tz*c[9] + M_zr*(M_zr*c[47] + c[10]) + M_zt*(M_zt*c[48] + c[11]) + M_zz*c[12] + a_r*(M_rr*c[16] + M_rt*c[17] + M_tr*c[18] + M_tt*c[19] + M_zr*c[20] + M_zt*c[21] + a_r*c[13] + a_t*c[14] + a_z*c[15] + c[1]) + a_t*(M_rr*c[24] + M_rt*c[25] + M_tr*c[26] + M_tt*c[27] + M_zr*c[28] + M_zt*c[29] + a_t*c[22] + a_z*c[23] + c[2]) + a_z*(M_rr*c[31] + M_rt*c[32] + M_tr*c[33] + M_tt*c[34] + M_zr*c[35] + M_zt*c[36] + a_z*c[30] + c[3]) + c[0])
 
 

@@ -156,9 +156,12 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
 @_json
 @_report
-def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def compare(
+    model_dir: Path, flights: Sequence[Path], ladder: bool, json_file: str | None, report_file: str | None
+) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
@@ -168,7 +171,7 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     read = loop.read_flights(m, flights)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
-        c = loop.compare(m, read)
+        c = loop.compare(m, read, ladder=ladder)
 
     def page() -> str:
         from ragg_runtime.report import compare_html

@@ -11,32 +11,24 @@ from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
-from ragg_runtime.fit.observation import Observation, as_output, observe
+from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit.dictionary import carrier, harmonics
 from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
-from ragg_runtime.model.evaluate import recorded, vector, voltages
+from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
-
-
-def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
-    """Every output of every flight: several where the layout has several, those that were recorded."""
-    found = []
-    for x in flights:
-        kinds = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
-        found += [observe(x, instrument, k) for k, kind in enumerate(kinds) if kind]
-    return found
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,6 +43,7 @@ class Comparison:
     adequate: bool
     remainder: Remainder
     nominal_values: Array
+    ladder: tuple[Rung, ...] = ()
 
     @property
     def calibrated(self) -> Error:
@@ -108,6 +101,7 @@ class Comparison:
                 "time": self.by_time(),
                 "motion": self.terms(),
             },
+            **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
         }
 
     @cached_property

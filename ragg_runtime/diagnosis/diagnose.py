@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis import comparison, next_motion
+from ragg_runtime.diagnosis import next_motion
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import _with_steps
@@ -30,6 +30,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit import prepared
 from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_values import quantisation, saturation
@@ -66,7 +67,7 @@ def diagnose(
     limits
         Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = comparison.observations_of(flights, instrument)
+    observations = observations_of(flights, instrument)
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 

@@ -18,11 +18,19 @@ from ragg_runtime.flight.output_values import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
-from ragg_runtime.model.evaluate import recorded
-from ragg_runtime.model.record import Record, record
+from ragg_runtime.model.record import Record, record, recorded
 from ragg_runtime.signals.demodulate import low_pass
 
 Array = NDArray[np.float64]
+
+
+def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
+    """Every output of every flight: several where the layout has several, those that were recorded."""
+    found = []
+    for x in flights:
+        kinds = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        found += [observe(x, instrument, k) for k, kind in enumerate(kinds) if kind]
+    return found
 
 
 def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:

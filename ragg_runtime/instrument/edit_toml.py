@@ -13,10 +13,10 @@ from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.files import write_text
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, units
-from ragg_runtime.model_form import PAPER, Form
 
 
 def set_parameters(text: str, values: Mapping[str, RawQuantity]) -> str:

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ragg_runtime import model_form
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument import form as forms
+from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.layout import PAPER, Layout, paper, scale
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, units
-from ragg_runtime.model_form import Form
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
-    form: Form = model_form.PAPER
+    form: Form = forms.PAPER
     layout: Layout = PAPER
 
     def __post_init__(self) -> None:
@@ -90,7 +90,7 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
-        form: Form = model_form.PAPER,
+        form: Form = forms.PAPER,
         layout: Layout | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.

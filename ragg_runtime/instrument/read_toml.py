@@ -12,12 +12,12 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
+from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
 from ragg_runtime.instrument.layout import PAPER, Layout, paper
 from ragg_runtime.instrument.layout_toml import read_layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
-from ragg_runtime.model_form import read_form
 
 
 def read_instrument(path: Path | str) -> Instrument:

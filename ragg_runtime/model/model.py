@@ -137,9 +137,13 @@ class Model:
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
 
-@cache
 def packaged(kinematics: str = "platform") -> Model:
     """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
+    return _packaged(kinematics)
+
+
+@cache
+def _packaged(kinematics: str) -> Model:
     import generated
     import generated.full
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Vector3, gain
-from ragg_runtime.model.evaluate import SPIN, STANDING, phase, spin
+from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.model.model import Chain, Effect
 from ragg_runtime.signals.derivative import differentiate
 
@@ -24,6 +25,16 @@ GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
+
+
+SPIN = ("d_spin_angle", "d2_spin_angle")
+"""Rate and acceleration of the disc angle: in every record, with an encoder or without."""
+
+SPIN_WINDOW = 0.6
+"""Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
+differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn."""
+
+_SPIN_DEGREE = 5
 
 
 @dataclass(frozen=True)
@@ -142,6 +153,22 @@ class Record:
         return None
 
 
+def spin(name: str, encoder: Array | None, samples: int, rate: float, spin_frequency: float) -> Array:
+    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad) if there is one.
+
+    By least squares a polynomial of the fifth degree is laid through ``SPIN_WINDOW`` on either side of a sample.
+    """
+    order = SPIN.index(name) + 1
+    if encoder is None:
+        return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
+    half = min(max(round(SPIN_WINDOW * rate), _SPIN_DEGREE), HALO, (samples - 1) // 2)
+    if 2 * half < _SPIN_DEGREE:
+        return np.full(samples, np.nan)
+    angle = np.unwrap(encoder)
+    smooth = savgol_filter(angle - angle[0], 2 * half + 1, _SPIN_DEGREE, deriv=order, delta=1 / rate)
+    return np.asarray(smooth, dtype=np.float64)
+
+
 def disc_angle(time: Array, spin_frequency: float) -> Array:
     """2 pi frac(spin_frequency t), rad, with the rounding error of the product kept (Dekker)."""
     turns = spin_frequency * time
@@ -151,6 +178,29 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     f_low, t_low = spin_frequency - f_high, time - t_high
     error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
+
+
+Kind = Literal["voltages", "G_out", "channels"]
+"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
+
+
+def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
+    """What of an output was recorded, the most telling; ``None``: nothing."""
+    o = layout.outputs[place]
+    if layout.voltages(o, flight.outputs) is not None:
+        return "voltages"
+    if o.name in flight.outputs:
+        return "G_out"
+    return "channels" if len(layout.outputs) == 1 else None
+
+
+STANDING = 1e-3
+"""Range of a recorded disc angle, rad, below which the disc stands still."""
+
+
+def phase(g: complex) -> float:
+    """rad, between -pi and pi; 0 of a real number, whatever its sign: that is the sign of the scale factor."""
+    return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
 
 
 def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING, Literal
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import stations
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.model_dir import derived_cache
 from ragg_runtime.model_dir.trust import trusted_sources
-from ragg_runtime.model_form import PAPER, Form
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect

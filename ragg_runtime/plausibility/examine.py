@@ -12,8 +12,9 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import recorded, scale_factor
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.identify import Likely, derived_rates, likely

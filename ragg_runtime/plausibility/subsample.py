@@ -16,9 +16,8 @@ from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
-from ragg_runtime.model.evaluate import SPIN, Kind, recorded, spin
 from ragg_runtime.model.model import Chain
-from ragg_runtime.model.record import GRADIENTS, disc_angle
+from ragg_runtime.model.record import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import differentiate
 

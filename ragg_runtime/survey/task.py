@@ -32,6 +32,7 @@ from ragg_runtime.diagnosis.diagnose import diagnose_fitted
 from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument.instrument import Instrument
@@ -188,7 +189,7 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         with _deriving:
             return derive.with_effects(instrument, m, ids)
 
-    f = fit(model, instrument, comparison.observations_of([flight], instrument))
+    f = fit(model, instrument, observations_of([flight], instrument))
     p = vector(model, instrument)
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)

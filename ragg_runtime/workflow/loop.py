@@ -24,6 +24,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -158,9 +159,17 @@ def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
     return [settled(examined(m.model, i, x)) for x in read]
 
 
-def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
-    """How far the model is from the flights, and where it fails."""
-    return _compare.compare(m.model, m.instrument, flights)
+def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
+    """How far the model is from the flights, and where it fails.
+
+    With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
+    """
+    c = _compare.compare(m.model, m.instrument, flights)
+    if not ladder:
+        return c
+    return replace(
+        c, ladder=climb(m.instrument, flights, lambda form: derive.without_signatures(m.instrument, form))
+    )
 
 
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:

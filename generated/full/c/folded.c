@@ -213,8 +213,8 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
     const double *restrict in_Gamma_yy = in[12] + at;
     const double *restrict in_Gamma_yz = in[13] + at;
     const double *restrict in_Gamma_zz = in[14] + at;
-    const double *restrict in_d_spin_angle = in[15] + at;
-    const double *restrict in_d2_spin_angle = in[16] + at;
+    const double *restrict in_d2_spin_angle = in[15] + at;
+    const double *restrict in_d_spin_angle = in[16] + at;
     for (size_t i = 0; i < n; ++i) {
         const double cos_phi = cosine[i], sin_phi = sine[i];
         const double a_x = in_a_x[i];
@@ -232,8 +232,8 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
         const double Gamma_yy = in_Gamma_yy[i];
         const double Gamma_yz = in_Gamma_yz[i];
         const double Gamma_zz = in_Gamma_zz[i];
-        const double d_spin_angle = in_d_spin_angle[i];
         const double d2_spin_angle = in_d2_spin_angle[i];
+        const double d_spin_angle = in_d_spin_angle[i];
         const double x0 = (omega_y*omega_y);
         const double x1 = (omega_z*omega_z);
         const double M_xx = -Gamma_xx - x0 - x1;
@@ -246,12 +246,12 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
         const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
         const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
         const double M_zz = -Gamma_zz - x0 - x2;
-        const double M_xr = FMA(M_xy, sin_phi, M_xx*cos_phi);
-        const double M_xt = FMA(-M_xx, sin_phi, M_xy*cos_phi);
-        const double M_yr = FMA(M_yy, sin_phi, M_yx*cos_phi);
-        const double M_yt = FMA(-M_yx, sin_phi, M_yy*cos_phi);
-        const double M_zr = FMA(M_zy, sin_phi, M_zx*cos_phi);
-        const double M_zt = FMA(-M_zx, sin_phi, M_zy*cos_phi);
+        const double of_platform_xr = FMA(M_xy, sin_phi, M_xx*cos_phi);
+        const double of_platform_xt = FMA(-M_xx, sin_phi, M_xy*cos_phi);
+        const double of_platform_yr = FMA(M_yy, sin_phi, M_yx*cos_phi);
+        const double of_platform_yt = FMA(-M_yx, sin_phi, M_yy*cos_phi);
+        const double of_platform_zr = FMA(M_zy, sin_phi, M_zx*cos_phi);
+        const double of_platform_zt = FMA(-M_zx, sin_phi, M_zy*cos_phi);
         const double x3 = 2.0*d_spin_angle;
         const double x4 = omega_z*x3;
         const double x5 = (d_spin_angle*d_spin_angle);
@@ -259,14 +259,14 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
         const double x7 = omega_y*x3;
         const double a_r = FMA(a_y, sin_phi, a_x*cos_phi);
         const double a_t = FMA(-a_x, sin_phi, a_y*cos_phi);
-        const double M_rr = FMA(M_yr, sin_phi, FMA(M_xr, cos_phi, -x4 - x5));
-        const double M_rt = FMA(M_yt, sin_phi, FMA(M_xt, cos_phi, -d2_spin_angle));
+        const double M_rr = FMA(of_platform_yr, sin_phi, FMA(cos_phi, of_platform_xr, -x4 - x5));
+        const double M_rt = FMA(of_platform_yt, sin_phi, FMA(cos_phi, of_platform_xt, -d2_spin_angle));
         const double M_rz = FMA(M_yz, sin_phi, M_xz*cos_phi);
-        const double M_tr = FMA(M_yr, cos_phi, FMA(-M_xr, sin_phi, d2_spin_angle));
-        const double M_tt = FMA(M_yt, cos_phi, FMA(-M_xt, sin_phi, -x4 - x5));
+        const double M_tr = FMA(-of_platform_xr, sin_phi, FMA(cos_phi, of_platform_yr, d2_spin_angle));
+        const double M_tt = FMA(-of_platform_xt, sin_phi, FMA(cos_phi, of_platform_yt, -x4 - x5));
         const double M_tz = FMA(-M_xz, sin_phi, M_yz*cos_phi);
-        const double M_zr = FMA(sin_phi, x7, FMA(cos_phi, x6, M_zr));
-        const double M_zt = FMA(-sin_phi, x6, FMA(cos_phi, x7, M_zt));
+        const double M_zr = FMA(sin_phi, x7, FMA(cos_phi, x6, of_platform_zr));
+        const double M_zt = FMA(-sin_phi, x6, FMA(cos_phi, x7, of_platform_zt));
         G[i] = FMA(a_z, FMA(a_z, c[30], FMA(M_zt, c[36], FMA(M_zr, c[35], FMA(M_tt, c[34], FMA(M_tr, c[33], FMA(M_rt, c[32], FMA(M_rr, c[31], c[3]))))))), FMA(a_t, FMA(a_z, c[23], FMA(a_t, c[22], FMA(M_zt, c[29], FMA(M_zr, c[28], FMA(M_tt, c[27], FMA(M_tr, c[26], FMA(M_rt, c[25], FMA(M_rr, c[24], c[2])))))))), FMA(a_r, FMA(a_z, c[15], FMA(a_t, c[14], FMA(a_r, c[13], FMA(M_zt, c[21], FMA(M_zr, c[20], FMA(M_tt, c[19], FMA(M_tr, c[18], FMA(M_rt, c[17], FMA(M_rr, c[16], c[1]))))))))), FMA(M_zz, c[12], FMA(M_zt, FMA(M_zt, c[48], c[11]), FMA(M_zr, FMA(M_zr, c[47], c[10]), FMA(M_tz, c[9], FMA(M_tt, FMA(M_zt, c[46], FMA(M_tt, c[45], c[8])), FMA(M_tr, FMA(M_zr, c[44], FMA(M_tr, c[43], c[7])), FMA(M_rz, c[6], FMA(M_rt, FMA(M_zt, c[42], FMA(M_tt, c[41], FMA(M_rt, c[40], c[5]))), FMA(M_rr, FMA(M_zr, c[39], FMA(M_tr, c[38], FMA(M_rr, c[37], c[4]))), c[0]))))))))))));
     }
 }

@@ -2,7 +2,7 @@
  *
  * Derived; do not edit: change the derivation and run `make derive`. Units are SI, G_out in V.
  * Fast: compile with optimisation for the machine at hand (-O3 -march=native -ffp-contract=off).
- * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz d_spin_angle d2_spin_angle
+ * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz d2_spin_angle d_spin_angle
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
  *   spin_frequency (1): rotation frequency of the disc

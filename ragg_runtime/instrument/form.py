@@ -48,6 +48,10 @@ class Form:
             "second_order_angles": self.second_order_angles,
         }
 
+    def beyond_paper(self) -> tuple[tuple[str, int | str | bool], ...]:
+        """The settings of the order that are not the paper's."""
+        return tuple((k, v) for k, v in self.order.items() if v != PAPER.order[k])
+
     def as_json(self) -> dict[str, object]:
         return {"kinematics": self.kinematics, "order": dict(self.order)}
 
