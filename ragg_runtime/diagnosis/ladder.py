@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import as_output
+from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
