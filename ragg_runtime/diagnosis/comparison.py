@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
@@ -102,6 +103,16 @@ class Comparison:
                 "motion": self.terms(),
             },
             **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
+            **self._of_outputs(),
+        }
+
+    def _of_outputs(self) -> dict[str, object]:
+        """Of an instrument with several outputs each of them, and what they say together."""
+        if len(self.fitted.instrument.layout.outputs) == 1:
+            return {}
+        return {
+            "outputs": several_outputs.errors(self.fitted, self.residual),
+            "together": [t.as_json() for t in several_outputs.together(self.fitted)],
         }
 
     @cached_property
@@ -135,7 +146,8 @@ class Comparison:
 
 def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
-    total = dict.fromkeys(harmonics(), 0.0)
+    turning = any(x.observation.record.turning for x in f.flown)
+    total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
     counted = 0
     for x, k_ggi in zip(f.flown, f.scales, strict=True):
         rate = x.observation.record.rate
