@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Output, scale
+from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.model import Chain, Model
 from ragg_runtime.model.record import Record
@@ -19,7 +19,7 @@ EOTVOS = 1e-9
 """1 Eo in s^-2."""
 
 
-def voltages(chain: Chain, r: Record, p: Array, o: Output) -> Array:
+def voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """V_j of the accelerometers of an output, (members, N), V."""
     x = r.inputs(chain)
     return np.stack(
@@ -27,7 +27,7 @@ def voltages(chain: Chain, r: Record, p: Array, o: Output) -> Array:
     )
 
 
-def output(chain: Chain, r: Record, p: Array, o: Output) -> Array:
+def output(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
     """An output, (N,), V (Eq. 15)."""
     return o.combined(voltages(chain, r, p, o))
 

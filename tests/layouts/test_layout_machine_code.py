@@ -30,7 +30,9 @@ def test_c_agrees_with_numpy(name: str) -> None:
     c, n = model.compiled("c"), model.compiled("numpy")
     for k, o in enumerate(i.layout.outputs):
         gap = c.output(t, x, p, phi, which=k) - n.output(t, x, p, phi, which=k)
-        assert np.max(np.abs(gap)) / scale_factor(model, p, k) < 1e-3  # rounding of volts of single accelerometers
+        assert (
+            np.max(np.abs(gap)) / scale_factor(model, p, k) < 1e-3
+        )  # rounding of volts of single accelerometers
         V, W = (e.voltages(t, x, p, phi, members=o.members) for e in (c, n))
         assert np.max(np.abs(V - W)) < 1e-14 * np.max(np.abs(W))
     for j in range(i.layout.size):
