@@ -16,6 +16,7 @@ from derive.symbols import (
     SPIN_ACCELERATION,
     SPIN_RATE,
     TIME,
+    local,
     symbol,
 )
 from derive.tape import Tape
@@ -74,7 +75,7 @@ class Context:
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
-        return symbol(name)
+        return symbol(local(name))
 
     def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
         """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
@@ -83,7 +84,7 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), self._symbol_rate)
+        return self.tape.rate(sp.sympify(e, strict=True), self._symbol_rate)
 
     def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
         if s == COS_PHI:
@@ -111,8 +112,8 @@ def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
         return sp.Integer(0)
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
-    if name.startswith("d_"):
-        return symbol(f"d2_{name[2:]}")
     if name in _MOVING:
         return symbol(f"d_{name}")
+    if name.startswith("d_") and name[2:] in _MOVING:
+        return symbol(f"d2_{name[2:]}")
     return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)

@@ -21,7 +21,7 @@ from derive.layout import PAPER as FOUR
 from derive.layout import Layout
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
 from derive.tape import Program, simplify
 
 
@@ -208,7 +208,7 @@ def chain(
         value,
         derivatives,
         tuple(Row(n, shared) for _, n, shared in named),
-        (*MOTION, *(auxiliary_channel(n) for n in extra)),
+        (*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
         parameters,
         tuple(candidates) or tuple(effects),
         layout.without_common(),

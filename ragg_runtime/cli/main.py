@@ -5,37 +5,44 @@ Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ou
 
 from __future__ import annotations
 
-import errno
+import contextlib
 import json
+import os
 import sys
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.cli.file_commands import convert, map_command, mapping_option
+from ragg_runtime.cli.outputs import STDOUT, Command, OutputFile, asked
+from ragg_runtime.cli.quality_command import qc
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-# A full disc, a quota, a folder that may not be read: of the system, not of the program.
-_REFUSALS = {
-    getattr(errno, name, None)
-    for name in ("ENOSPC", "EFBIG", "EDQUOT", "EACCES", "EPERM", "EROFS", "EMFILE", "ENFILE", "EIO")
-}
-
 DIRECTORY = click.Path(path_type=Path)
-_json = click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
-_report = click.option("--report", "report_file", metavar="FILE.html", help="Write a self-contained report.")
+OUTPUT = OutputFile()
+_json = click.option(
+    "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+_report = click.option(
+    "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
+)
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class _Group(click.Group):
+    command_class = Command
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(package_name="ragg", prog_name="ragg")
 def cli() -> None:
     """Instrument models of a rotating-accelerometer gravity gradiometer, derived, not typed.
@@ -54,9 +61,15 @@ def _load(model_dir: Path) -> Loaded:
     from ragg_runtime.workflow import loop
 
     m = loop.load(model_dir)
-    for note in m.notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+    if m.instrument.effects_folder is not None:
+        asked().protect(m.instrument.effects_folder.glob("*.py"))
+    _notes(model_dir, m.notes)
     return m
+
+
+def _notes(model_dir: Path, notes: Sequence[str]) -> None:
+    for note in notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -65,23 +78,33 @@ def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
         from ragg_runtime.model_dir.provenance import provenance
 
         result = result | {"provenance": provenance(_command())}
-    if json_file == "-":
+    if json_file in STDOUT:
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
     if json_file is not None:
-        from ragg_runtime.base.files import write_text
-
-        write_text(Path(json_file), json.dumps(result, indent=1, allow_nan=False) + "\n")
+        asked().write(json_file, json.dumps(result, indent=1, allow_nan=False) + "\n")
     click.echo(printable(text))
 
 
 def _write_report(file: str | None, make: Callable[[], str]) -> None:
     if file is not None:
-        from ragg_runtime.base.files import write_text
-
         _progress("writing the report")
-        write_text(Path(file), make())
+        asked().write(file, make())
         click.echo(f"report: {file}", err=True)
+
+
+@contextlib.contextmanager
+def _telling() -> Iterator[None]:
+    """While a result is told on which the change of a model waits: it must not be lost on the way."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(
+            "the result cannot be told, so the model is left as it was",
+            where=error.filename or "stdout",
+            found=error.strerror,
+            remedy="make room, or send the result to another file",
+        ) from None
 
 
 def _command() -> str:
@@ -98,11 +121,11 @@ def _command() -> str:
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
     from derive import everything
-    from ragg_runtime.cli.publish import publish, settle
+    from ragg_runtime.cli.publish import check_settled, publish
 
     root = out if out is not None else Path(str(everything.__file__)).parents[1]
-    settle(root)
     if check:
+        check_settled(root)
         found, versions = everything.difference(root), everything.about_versions(root)
         if found:
             raise UserError(
@@ -127,11 +150,12 @@ def derive(out: Path | None, check: bool) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
-def new(model_dir: Path, source: Path | None) -> None:
+@mapping_option
+def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
     from ragg_runtime.workflow import loop
 
-    m = loop.new(model_dir, source)
+    m = loop.new(model_dir, source, mapping)
     for note in m.notes:
         click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
@@ -156,11 +180,17 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@mapping_option
 @click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
 @_json
 @_report
 def compare(
-    model_dir: Path, flights: Sequence[Path], ladder: bool, json_file: str | None, report_file: str | None
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    ladder: bool,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
@@ -168,7 +198,7 @@ def compare(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
         c = loop.compare(m, read, ladder=ladder)
@@ -195,11 +225,13 @@ def compare(
     metavar="WHAT=SIZE",
     help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
 )
+@mapping_option
 @_json
 @_report
 def diagnose(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     limits: Sequence[str],
     json_file: str | None,
     report_file: str | None,
@@ -210,7 +242,7 @@ def diagnose(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating, then testing every effect of the catalogue")
     allowed = loop.motion_limits(m, limits)
     with progress.shown("diagnose", sum(map(len, read))):
@@ -234,20 +266,33 @@ def diagnose(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Let the workers of a Dask cluster do it.")
+@click.option(
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only, "
+    "tls://HOST:PORT beyond your own walls.",
+)
+@click.option("--tls-ca", type=DIRECTORY, metavar="FILE", help="Of a tls:// scheduler: who signed it (PEM).")
+@click.option("--tls-cert", type=DIRECTORY, metavar="FILE", help="Your certificate for it (PEM).")
+@click.option("--tls-key", type=DIRECTORY, metavar="FILE", help="The key of your certificate (PEM).")
 @click.option(
     "--resume",
     type=DIRECTORY,
     metavar="FILE",
     help="Results file: continue what stands in it, add what is done.",
 )
+@mapping_option
 @_json
 @_report
 def survey(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     jobs: int | None,
     scheduler: str | None,
+    tls_ca: Path | None,
+    tls_cert: Path | None,
+    tls_key: Path | None,
     resume: Path | None,
     json_file: str | None,
     report_file: str | None,
@@ -257,11 +302,25 @@ def survey(
     from ragg_runtime.report import survey_text as text
     from ragg_runtime.survey import progress
     from ragg_runtime.survey.journal import sha256
+    from ragg_runtime.survey.tls import tls_of, unproven
     from ragg_runtime.workflow import loop
 
+    tls = tls_of(tls_ca, tls_cert, tls_key)
     m = _load(model_dir)
+    warning = None if scheduler is None else unproven(scheduler)
+    if warning is not None:
+        click.echo(printable(f"note: {warning}"), err=True)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = loop.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
+        s = loop.survey(
+            m,
+            flights,
+            jobs=jobs,
+            scheduler=scheduler,
+            tls=tls,
+            resume=file,
+            progress=show,
+            mapping=mapping,
+        )
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*loop.sources(m, []), *read]
@@ -282,10 +341,16 @@ def survey(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("effect")
 @click.argument("flights", type=DIRECTORY, nargs=-1)
+@mapping_option
 @_json
 @_report
 def add(
-    model_dir: Path, effect: str, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    model_dir: Path,
+    effect: str,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime.cli import terminal
@@ -295,35 +360,32 @@ def add(
     if report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress(f"deriving the model with {effect}, calibrating")
+
+    def tell(result: loop.Added) -> None:
+        def page() -> str:
+            from ragg_runtime.report import add_html
+
+            assert result.before is not None
+            assert result.after is not None
+            return add_html(
+                [s.as_json() for s in result.loaded.directory.history],
+                result.before,
+                result.after,
+                title=f"{m.name}: {effect} added",
+                command=_command(),
+                sources=loop.sources(result.loaded, read),
+                notes=terminal.notes(result.loaded, read),
+            )
+
+        with _telling():
+            _write_report(report_file, page)
+            origin = terminal.origin(result.loaded, read, _command(), before=m)
+            _emit(result.as_json() | origin, json_file, terminal.added(result, read))
+
     with progress.shown("add", sum(map(len, read))):
-        result = loop.add(m, effect, read)
-
-    def page() -> str:
-        from ragg_runtime.report import add_html
-
-        assert result.before is not None
-        assert result.after is not None
-        history = [s.as_json() for s in result.loaded.directory.history]
-        title = f"{m.name}: {effect} added"
-        origin = loop.sources(result.loaded, read)
-        return add_html(
-            history,
-            result.before,
-            result.after,
-            title=title,
-            command=_command(),
-            sources=origin,
-            notes=terminal.notes(result.loaded, read),
-        )
-
-    _write_report(report_file, page)
-    _emit(
-        result.as_json() | terminal.origin(result.loaded, read, _command(), before=m),
-        json_file,
-        terminal.added(result, read),
-    )
+        loop.add(m, effect, read, tell)
 
 
 @cli.command()
@@ -336,41 +398,64 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     from ragg_runtime.workflow import loop
 
     before = _load(model_dir)
-    m = loop.remove(before, effect)
-    left = [e.id for e in m.model.effects]
-    _emit(
-        {"effect": effect, "effects": left} | terminal.origin(m, (), _command(), before=before),
-        json_file,
-        f"removed {effect}; effects left: {', '.join(left) or 'none'}",
-    )
+
+    def tell(m: Loaded) -> None:
+        left = [e.id for e in m.model.effects]
+        with _telling():
+            _emit(
+                {"effect": effect, "effects": left} | terminal.origin(m, (), _command(), before=before),
+                json_file,
+                f"removed {effect}; effects left: {', '.join(left) or 'none'}",
+            )
+
+    loop.remove(before, effect, tell)
 
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
-@click.option("--forget", is_flag=True, help="Trust them no longer.")
-def trust(model_dir: Path, forget: bool) -> None:
-    """Let the Python files of the model's effects_folder be executed, as they are now.
+@click.option("--list", "only_list", is_flag=True, help="Only say what would be executed.")
+@click.option("--forget", is_flag=True, help="Trust these files no longer.")
+def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
+    """Let the Python files of the model's effects_folder be executed, exactly as they are now.
 
-    Needed only where they are not your own, or do more than describe effects. Read them first.
+    Without this none is: read them first. MODEL_DIR may be a model.toml as well.
     """
+    from ragg_runtime.instrument.read_toml import read_instrument
     from ragg_runtime.model_dir import trust as _trust
     from ragg_runtime.model_dir.directory import load_model_dir
 
-    instrument = load_model_dir(model_dir).instrument
+    is_file = model_dir.is_file()
+    instrument = read_instrument(model_dir) if is_file else load_model_dir(model_dir).instrument
     if instrument.effects_folder is None:
         raise UserError(
             "the model names no effects_folder", where=model_dir, remedy="there is nothing to trust"
         )
-    found = _trust.read_effects(instrument.effects_folder, instrument.path)
-    for path in found.sources:
-        click.echo(str(path))
-    for doubt in found.doubts:
-        click.echo(f"note: {doubt}")
+    found = _trust.read_effects(instrument.effects_folder)
+    for line in found.lines():
+        click.echo(line)
     if forget:
         was = _trust.forget(found)
         click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
+    elif only_list:
+        click.echo(f"{'On' if _trust.is_trusted(found) else 'Not on'} the list of trusted files.")
     else:
-        click.echo(f"Trusted as long as they stay as they are; written to {_trust.trust(found)}")
+        place = one_line(str(_trust.trust(found)))
+        click.echo(f"They will be executed as long as they stay as they are; written to {place}")
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.option("--look", is_flag=True, help="Change nothing.")
+def doctor(model_dir: Path, look: bool) -> None:
+    """What is damaged in a model directory; what can be mended without loss, is."""
+    from ragg_runtime.model_dir.doctor import examined
+
+    found = examined(model_dir, mend=not look)
+    for f in found:
+        click.echo(printable(f"{f.what}\n  -> {f.way_back}" if f.way_back else f.what))
+    if any(f.open for f in found):
+        sys.exit(2)
+    click.echo(f"{one_line(str(model_dir))}: {'mended' if found else 'in order'}")
 
 
 @cli.command()
@@ -400,6 +485,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
     from ragg_runtime.model_dir.provenance import provenance
 
     directory = load_model_dir(model_dir)
+    _notes(model_dir, directory.notes)
     steps = [s.as_json() for s in directory.history]
     made = provenance(_command(), directory)
     _emit({"steps": steps, "provenance": made}, json_file, terminal.history(steps))
@@ -410,7 +496,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option(
     "-o",
     "--output",
-    type=DIRECTORY,
+    type=OUTPUT,
     required=True,
     metavar="FLIGHT",
     help="File to write (.csv, .parquet, .nc).",
@@ -433,7 +519,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
-def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: Any) -> None:
+def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
     from ragg_runtime.flight import write_flight
     from ragg_runtime.workflow.simulate import simulated
@@ -456,8 +542,25 @@ def demo(output: Path) -> None:
     _demo.main(output, command=_command())
 
 
+cli.add_command(convert)
+cli.add_command(map_command)
+cli.add_command(qc)
+
+
+def _with_standard_streams() -> None:
+    """Descriptors that were closed are taken by what leads nowhere, lest a file that is opened become stderr."""
+    for handle in range(3):
+        try:
+            os.fstat(handle)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest that is free
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process lives
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
+    _with_standard_streams()
     try:
         from ragg_runtime.experiments.command import experiment
 
@@ -484,10 +587,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
     except Exception as error:
-        if isinstance(error, OSError) and error.errno in _REFUSALS:
-            place = f"{error.filename}: " if error.filename else ""
-            click.echo(printable(f"ragg: {place}{error.strerror}"), err=True)
+        if isinstance(error, OSError) and error.errno is not None:
+            click.echo(printable(f"ragg: {_place_of(error)}{error.strerror}"), err=True)
             sys.exit(2)
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)
+
+
+def _place_of(error: OSError) -> str:
+    if error.filename:
+        return f"{os.fsdecode(error.filename) if isinstance(error.filename, bytes) else error.filename}: "
+    try:
+        os.getcwd()
+    except OSError:
+        return "the working folder is gone: "
+    return ""

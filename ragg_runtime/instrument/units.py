@@ -18,6 +18,7 @@ import pint
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.unit_spelling import spellings
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -76,15 +77,18 @@ class Units:
     def _parse(self, text: str, where: str | None) -> Any:
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
-        remedy = _complaint(text)
-        if remedy is None:
-            try:
-                return self._registry.parse_units(text.replace("·", "*"))
-            except pint.UndefinedUnitError as error:
-                names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
-                remedy = f"{', '.join(map(str, names))} is not a known unit"
-            except Exception:  # what pint raises for a malformed expression is not documented
-                remedy = None
+        remedy: str | None = None
+        for spelling in spellings(text):
+            complaint = _complaint(spelling)
+            if complaint is None:
+                try:
+                    return self._registry.parse_units(spelling.replace("·", "*"))
+                except pint.UndefinedUnitError as error:
+                    names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
+                    complaint = f"{', '.join(map(str, names))} is not a known unit"
+                except Exception:  # what pint raises for a malformed expression is not documented
+                    complaint = None
+            remedy = remedy or complaint
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:

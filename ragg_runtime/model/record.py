@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
@@ -20,8 +21,8 @@ from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
-GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
 
+GRADIENTS = GRADIENT
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
@@ -214,9 +215,10 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     if disc.angle_column in flight.channels:
         turning = bool(np.ptp(flight.channels[disc.angle_column]) > STANDING)
         let_go(flight.channels[disc.angle_column])
+    wide = {name: x for name, x in flight.channels.items() if name not in RATES}
     return Record(
         time=time,
-        wide=flight.channels,
+        wide=wide,
         rate=flight.rate,
         valid=flight.valid,
         spin_frequency=disc.spin_frequency,

@@ -35,6 +35,9 @@ _ARM_ITERATIONS = 3
 _STEP = 0.01
 """Between the instants at which an arm's length is looked at to learn how fast it changes, s."""
 
+_WARMING = 1e-4
+"""Half the stretch over which the rate of a temperature is taken, s."""
+
 _FIRST = (1 / 12, -2 / 3, 0.0, 2 / 3, -1 / 12)
 _SECOND = (-1 / 12, 4 / 3, -5 / 2, 4 / 3, -1 / 12)
 """Derivatives by central differences over five instants, good to the fourth power of the step."""
@@ -112,7 +115,7 @@ class Chain:
 
     def scale(self, time: Array) -> Array:
         """k_VI K1 of the accelerometers as they are at the time, (n, N) V/(m/s^2)."""
-        auxiliaries = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        auxiliaries = self._auxiliaries_at(time)
         k = self.instrument.accelerometers
         return np.stack(
             [
@@ -134,12 +137,20 @@ class Chain:
         return Instant(
             time=past,
             phi=tuple(
-                geometry.disc_angle(t.at(time, delay), angle_error, self.effects) for t in self.turning
+                geometry.disc_angle(t.at(time, delay), past, angle_error, self.effects) for t in self.turning
             ),
             motion=self.motion.at(time, delay),
-            auxiliaries={name: channel(past) for name, channel in self.auxiliaries.items()},
+            auxiliaries=self._auxiliaries_at(past),
             around=around,
         )
+
+    def _auxiliaries_at(self, time: Array) -> dict[str, Array]:
+        found = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        if "thermal-lag" in self.effects:
+            temperature = self.auxiliaries["temperature"]
+            change = temperature(time + _WARMING) - temperature(time - _WARMING)
+            found[transducer.RATE_OF_TEMPERATURE] = change / (2 * _WARMING)
+        return found
 
     def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
         """Voltage of accelerometer j, averaged over the instances of the unrecorded vibration."""

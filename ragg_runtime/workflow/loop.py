@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -21,6 +21,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
@@ -28,7 +29,10 @@ from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.landmarks import distinct
+from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -37,12 +41,19 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir.directory import (
+    MAPPING,
+    ModelDir,
+    create_model_dir,
+    load_model_dir,
+    replace_model_dir,
+)
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
 
 NO_FORM = (
@@ -121,8 +132,15 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
     }
 
 
-def new(path: Path | str, source: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
+
+    ``mapping`` is kept with the model: what the columns of its flight files are.
+    """
+    kept = None
+    if mapping is not None:
+        kept = read_text(Path(mapping))
+        parse_mapping(kept, Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -136,8 +154,9 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    made = _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
-    return made if tomllib.loads(text).get("model") else replace(made, notes=(*made.notes, NO_FORM))
+    made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
+    m = _loaded(made)
+    return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -149,14 +168,29 @@ def _loaded(directory: ModelDir) -> Loaded:
     model = derive.model_of(directory.instrument, directory.generated)
     check_settings(model, directory.instrument)
     note = derive.departure(directory.instrument, directory.generated)
-    return Loaded(directory, model, () if note is None else (note,))
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    i = m.instrument
-    read = (read_flight(p, i.g0, accelerometers=i.layout) for p in paths)
-    return [settled(examined(m.model, i, x)) for x in read]
+def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+
+    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
+    default the model's own ``mapping.toml``, if it has one.
+    """
+    how = mapping_of(m, mapping)
+    found = []
+    for path in paths:
+        for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
+            found.append(settled(examined(m.model, m.instrument, x)))
+    return found
+
+
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.path / MAPPING
+    return replace(read_mapping(own), kept=True) if own.exists() else None
 
 
 def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
@@ -164,6 +198,7 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
 
     With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
     """
+    distinct(flights)
     c = _compare.compare(m.model, m.instrument, flights)
     if not ladder:
         return c
@@ -174,6 +209,7 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
 
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
     """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+    distinct(flights)
 
     def extended(model: Model, ids: Sequence[str]) -> Model:
         return derive.with_effects(m.instrument, model, ids)
@@ -209,25 +245,43 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
     """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
 
     The arguments are those of :func:`ragg_runtime.survey.run.survey`.
     """
     place = m.directory.path / "model.toml"
+    how = mapping_of(m, mapping)
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        tls=tls,
+        resume=resume,
+        progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed.
     """
+    distinct(flights)
     instrument = m.instrument
     symbolic = derive.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
@@ -278,17 +332,29 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
     )
+    made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
+    if tell is not None:
+        tell(made)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
-    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+    return replace(made, loaded=_loaded(directory))
 
 
-def remove(m: Loaded, effect: str) -> Loaded:
-    """Take an effect out of the model again."""
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
     step = Step("remove", _now(), effect)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
     )

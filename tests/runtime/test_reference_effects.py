@@ -82,8 +82,18 @@ SIZES = {
     "1/(m s^2)": 1e-7,
     "(m/s^2)^2": 1e-2,
     "V": 3.0,
+    "1/s^2": 1e-7,
+    "rad/s": 1e-5,
+    "(rad/s)/(m/s^2)": 1e-5,
+    "m/s^2": 1e-4,
+    "(m/s^2)/(K/s)": 1e-3,
+    "1/(K/s)": 1e-4,
+    "(m/s^2)/(rad/s)^2": 1e-4,
 }
-RECORD_ONLY = {"time-offset", "imu-lever-arm", "imu-misalignment", "gyro-scale"}
+RECORD_ONLY = {
+    "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-bias",
+    "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
+}  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation"}
 PER_ACCELEROMETER = [
     e for e, parameters in CATALOGUE.items() if any(p.per_accelerometer for p in parameters.values())

@@ -22,6 +22,9 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
         for axis in ("roll", "pitch"):
             if axis in auxiliaries:
                 total = total + contract(_turned(masses, axis), r) * np.sin(auxiliaries[axis])
+    if standing := effects.get("gradient-offset"):
+        xx, xy, xz, yy, yz = (standing[f"G_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
+        total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r)
     if near := effects.get("near-mass"):
         total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
     return total
