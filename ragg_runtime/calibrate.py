@@ -8,42 +8,40 @@ sheet puts them, because each parameter has a prior as wide as its plausible siz
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ragg_runtime import design
 from ragg_runtime.design import Column, Observation
-from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor, vector
+from ragg_runtime.fit.noise import estimate_noise, spread
+from ragg_runtime.fit.trust_region import SETTLED, Linear, Minimum, minimise
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.passes import Noise, Piece, Point, flight_segments, passed
-from ragg_runtime.segments import Segment
-from ragg_runtime.whiten import NoiseModel, estimate
+from ragg_runtime.whiten import NoiseModel
 
 Array = NDArray[np.float64]
 
-TAPS = 24576
-"""Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
+LOUD = 1.1
+"""Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
+nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
-REACH = 5.0
-"""Farthest that a parameter is fitted from its nominal value, in scales."""
+LEAN = 4.0
+"""There a sample counts as exact to what is left over this: the sheet's word weighs so little that the rms is within 1 %
+of what it would be without it where parameters move by less than a hundred scales, and enough to keep the fit in the
+neighbourhood of the sheet, where the model holds."""
 
-SETTLED = 0.01, 2e-3
-"""The step of a fit is its last if it gains less chi-square than this, or moves no parameter by this many scales: what
-is quadratic in so small a step is below the noise of any record."""
+ROUNDS = 4
+"""Most times that a fit of what is loud is made with what the one before has left."""
 
-NOISE_SEGMENTS = 8
-"""Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
+FALLING = 0.9
+"""Factor below which what is left must have fallen for another one."""
 
 WHITE_SEGMENTS = 4
 """Most segments on which the first fit, with noise still taken as white, is made."""
-
-SHORTEST = 128
-"""Least number of samples of which noise can be estimated."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +55,14 @@ class Calibration:
     columns, index
         The fitted parameters and their places in ``p``.
     covariance
-        (n, n) of the fitted parameters in units of their scales, prior included.
+        (n, n) of the fitted parameters in units of their scales, prior included; where more than noise is left, what
+        is left counts as noise.
     noise
         Noise of every flight.
     rows
         Whitened samples in the fit.
+    converged, reason
+        Whether the fit ended at an optimum, and in words why it ended.
     """
 
     p: Array
@@ -70,92 +71,136 @@ class Calibration:
     covariance: Array
     noise: tuple[Noise, ...]
     rows: int
+    converged: bool
+    reason: str
 
 
-def estimate_noise(at: Point, o: Observation) -> Noise:
-    """Noise of each output from what no column (base, candidate, unknown gradient) explains."""
-    r = o.record
-    if np.sum(r.valid) < SHORTEST:
-        raise UserError(
-            "the record is too short to estimate its noise",
-            where=o.name,
-            found=f"{int(np.sum(r.valid))} valid samples",
-            expected=f"at least {SHORTEST}",
-            remedy="give a longer or cleaner recording",
-        )
-    plain = Noise((), (np.ones(1),) * len(o.series))
-    found: list[list[Array]] = [[] for _ in o.series]
-    squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
-    share = []
+@dataclass(frozen=True)
+class _Fall(Linear):
+    """A fit linearised about a point, and sums over all samples.
 
-    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]]] | None:
-        valid = piece.observation.record.valid
-        if np.sum(valid) < SHORTEST:
-            return None
-        taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
-        outputs = []
-        for flat in np.split(piece.white, len(o.series), axis=1):
-            solution, rank = _least_squares(flat)
-            y = flat[-1]
-            rest = y - solution @ flat[:-1]
-            # The fit takes as many degrees of freedom as it has columns.
-            e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
-            gain = design.noise_gain(r.rate) if o.kind == "channels" else 1.0
-            free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
-            outputs.append((e, float(np.sum(rest**2)) / gain, free))
-        return float(np.mean(valid)), outputs
-
-    for part in passed(at, o, plain, left, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
-        if part is None:
-            continue
-        share.append(part[0])
-        for m, (e, square, free) in enumerate(part[1]):
-            found[m].append(e)
-            squares[m] += square
-            freedom[m] += free
-    models, filters = [], []
-    for m, e_m in enumerate(found):
-        if o.kind == "channels":
-            # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
-            sigma = float(np.sqrt(squares[m] / freedom[m]))
-            flat_psd = np.full(2, np.log(2 * sigma**2 / r.rate))
-            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
-            filters.append(np.array([1.0 / sigma]))
-            continue
-        noise = estimate(e_m, r.rate)
-        # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
-        noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
-        models.append(noise)
-        filters.append(noise.whitening_filter(int(min(TAPS, len(r.time)))))
-    return Noise(tuple(models), tuple(filters))
-
-
-def spread(found: Sequence[Segment], most: int) -> list[Segment]:
-    """At most so many of the segments, evenly spread."""
-    if len(found) <= most:
-        return list(found)
-    return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
-
-
-ABSENT = 1e-11
-"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
-
-
-def _least_squares(columns: Array) -> tuple[Array, float]:
-    """Coefficients (n,) that fit the last of columns (n + 1, rows), and how many they count as.
-
-    Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
-    on which side of an edge one is.
+    Attributes
+    ----------
+    data
+        (n + 1, n + 1): triangle [base | residual], without the prior.
+    to_nominal
+        (n,): the prior's centre as seen from the point, in scales.
+    sums
+        (n + 1,), V: of the columns of G_out and of its residual.
+    square
+        Sum of squares of the residual of G_out, V^2.
+    rows
+        Whitened samples.
     """
-    R = design.triangle(columns)
-    n = len(R) - 1
-    norms = np.linalg.norm(R[:, :n], axis=0)
-    norms[norms == 0.0] = 1.0
-    U, s, Vt = np.linalg.svd(R[:n, :n] / norms)
-    faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
-    solution = Vt.T @ (faded / np.maximum(s, 1e-300) * (U.T @ R[:n, n]))
-    return np.asarray(solution / norms), float(np.sum(faded))
+
+    data: Array
+    to_nominal: Array
+    sums: Array
+    square: float
+    rows: int
+
+    @property
+    def excess(self) -> float:
+        """Chi-square of the data over their number."""
+        return float(self.data[:, -1] @ self.data[:, -1]) / max(self.rows, 1)
+
+    def over(self, size: float) -> _Fall:
+        """The same with a noise so many times as large."""
+        fall = with_prior(self.data / size, self.to_nominal)
+        rest = fall.rest if np.isfinite(self.rest) else np.inf
+        return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
+
+    model: Model
+    instrument: Instrument
+    observations: Sequence[Observation]
+    nominal: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
+
+    @staticmethod
+    def of(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> _Task:
+        found = design.base_columns(model, instrument)
+        columns = tuple(c for c, _ in found)
+        index = np.array([i for _, i in found])
+        return _Task(model, instrument, observations, vector(model, instrument), columns, index)
+
+    @property
+    def scale(self) -> Array:
+        return np.array([c.scale for c in self.columns])
+
+    def vector(self, x: Array) -> Array:
+        """Parameter vector, SI."""
+        p = self.nominal.copy()
+        p[self.index] += x * self.scale
+        return p
+
+    def at(self, x: Array, noise: Sequence[Noise], most: int | None = None) -> _Fall:
+        """Linearised about x; of at most ``most`` segments of every flight."""
+        p = self.vector(x)
+        if not scale_factor(self.model.chain, p) > 0.0:
+            return self._nowhere(x)
+        point = Point(self.model, self.instrument, p, with_candidates=False)
+        triangles, rows, square, sums = [], 0, 0.0, np.zeros(len(x) + 1)
+        for o, n in zip(self.observations, noise, strict=True):
+            chosen = None if most is None else spread(flight_segments(o), most)
+            for T, count, part, left in passed(point, o, n, _triangle, chosen=chosen):
+                triangles.append(T)
+                rows += count
+                sums += part
+                square += left
+        data = design.join(triangles)
+        if not np.isfinite(data).all():
+            return self._nowhere(x)
+        fall = with_prior(data, -x)
+        return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, square, rows)
+
+    def noise(self, x: Array) -> list[Noise]:
+        """Noise of every flight from what nothing explains about x."""
+        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        return [estimate_noise(everything, o) for o in self.observations]
+
+    def _nowhere(self, x: Array) -> _Fall:
+        """A point at which the model is no instrument: infinitely far from any record."""
+        n = len(x)
+        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, np.zeros(n + 1), np.inf, 1)
+
+
+@dataclass(frozen=True)
+class _Plain:
+    """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
+
+    task: _Task
+    most: int | None = None
+    _tried: dict[bytes, _Fall] = field(default_factory=dict)
+
+    def volts(self, x: Array) -> _Fall:
+        """Linearised about x, a noise of 1 V."""
+        key = x.tobytes()
+        if key not in self._tried:
+            while len(self._tried) > 1:
+                self._tried.pop(next(iter(self._tried)))
+            unit = [_white(o, 1.0) for o in self.task.observations]
+            self._tried[key] = self.task.at(x, unit, self.most)
+        return self._tried[key]
+
+    def fit(self, x: Array, size: float) -> Minimum[_Fall]:
+        """From x with noise of this size, V."""
+        return minimise(lambda at: self.volts(at).over(size), x)
+
+    def left(self, x: Array) -> float:
+        """rms of the outputs' residual at x, V."""
+        at = self.volts(x)
+        return float(np.sqrt(at.excess))
+
+    def promised(self, x: Array) -> float:
+        """rms that a linear fit from x would leave, V."""
+        at = self.volts(x)
+        return float(abs(at.data[-1, -1])) / float(np.sqrt(at.rows))
 
 
 def fit(
@@ -165,93 +210,77 @@ def fit(
     *,
     start: Array | None = None,
     noise: Sequence[Noise] | None = None,
-    iterations: int = 6,
+    plain: bool = False,
 ) -> Calibration:
-    """Gauss-Newton on all flights at once, from the nominal values or from ``start``.
+    """Least squares on all flights at once, from the nominal values or from ``start``.
 
-    The model is so nearly linear in its parameters that two or three steps suffice. The noise is first
-    taken as white; once the fit has settled it is estimated from what nothing explains, and the fit is
-    repeated with every column whitened. In the end the null biases take the residual's mean (``design.levelled``).
+    First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
+    estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
+    than noise (or ``plain`` is asked for), unwhitened still (:data:`LEAN`). In the end the null biases take the
+    residual's mean (``design.levelled``).
     """
-    nominal = vector(model, instrument)
-    p = nominal.copy()
-    found = design.base_columns(model, instrument)
-    columns = tuple(c for c, _ in found)
-    index = np.array([i for _, i in found])
-    scale = np.array([c.scale for c in columns])
-    begun = nominal if start is None else start
-    away = np.clip((begun[index] - nominal[index]) / scale, -REACH, REACH)
-    p[index] = nominal[index] + away * scale
-    known = list(noise) if noise is not None else None
-    eotvos = scale_factor(model.chain, nominal)
-    white = [_white(o, eotvos) for o in observations]
-    for iteration in range(iterations):
-        at = Point(model, instrument, p.copy(), with_candidates=False)
-        triangles, rows, sums = [], 0, np.zeros(len(columns) + 1)
-        for k, o in enumerate(observations):
-            noise_k, chosen = (
-                (white[k], spread(flight_segments(o), WHITE_SEGMENTS)) if known is None else (known[k], None)
-            )
-            for T, count, part in passed(at, o, noise_k, _triangle, chosen=chosen):
-                rows += count
-                sums += part
-                triangles.append(T)
-        normal = with_prior(design.join(triangles), -away)
-        # A strong effect that the model lacks must not drag the parameters out of all proportion:
-        # they are where the signatures are evaluated.
-        step = np.clip(away + normal.step, -REACH, REACH) - away
-        settled = normal.gain(step) < SETTLED[0] or bool(np.max(np.abs(step)) < SETTLED[1])
-        away = away + step
-        p[index] = nominal[index] + away * scale
-        if known is None and (settled or iteration == 2):
-            everything = Point(model, instrument, p.copy(), with_candidates=True)
-            known = [estimate_noise(everything, o) for o in observations]
-        elif known is not None and settled:
+    task = _Task.of(model, instrument, observations)
+    x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
+    loud = plain
+    if noise is None:
+        some = _Plain(task, WHITE_SEGMENTS)
+        x = some.fit(x, some.promised(x)).x
+        noise = task.noise(x)
+        loud = loud or some.left(x) ** 2 > LOUD * _size(noise) ** 2
+    if not loud:
+        found = minimise(lambda at: task.at(at, noise), x)
+        return _calibration(task, found, noise)
+    found = _loud(_Plain(task), x)
+    return _calibration(task, found, noise if plain else task.noise(found.x))
+
+
+def _loud(p: _Plain, x: Array) -> Minimum[_Fall]:
+    """The fit from x of what leaves more than noise: as exact as what it leaves says."""
+    left = p.left(x)
+    for _ in range(ROUNDS):
+        found = p.fit(x, left / LEAN)
+        before, left = left, p.left(found.x)
+        x = found.x
+        if left > FALLING * before:
             break
-    assert known is not None
-    p[index] += (design.levelled(step, sums, design.null_biases(columns)) - step) * scale
-    return Calibration(p, columns, index, normal.covariance, tuple(known), rows)
+    return found
 
 
-def _triangle(piece: Piece) -> tuple[Array, int, Array]:
-    return design.triangle(piece.white), piece.white.shape[1], piece.sums()
+def _size(noise: Sequence[Noise]) -> float:
+    """Root of the mean power of the outputs' noise over all flights, V."""
+    return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
 
 
-@dataclass(frozen=True)
-class _Linear:
-    """Linear least squares in scales, prior included: the triangle R (n, n) and the rotated data y (n,)."""
-
-    R: Array
-    y: Array
-
-    @property
-    def step(self) -> Array:
-        """(n,): the solution."""
-        return np.asarray(linalg.solve_triangular(self.R, self.y))
-
-    @property
-    def covariance(self) -> Array:
-        """(n, n)."""
-        inverse = np.linalg.inv(self.R)
-        return np.asarray(inverse @ inverse.T)
-
-    def gain(self, step: Array) -> float:
-        """By how much a step lowers chi-square."""
-        return float(self.y @ self.y - np.sum((self.y - self.R @ step) ** 2))
+def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
+    """The end of a fit as parameters: with its last step where that is below what noise does, and levelled."""
+    at = found.at
+    step = at.damped(0.0) if at.decrement < SETTLED else np.zeros(len(found.x))
+    step = design.levelled(step, at.sums, design.null_biases(task.columns))
+    covariance = with_prior(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+    p = task.vector(found.x + step)
+    return Calibration(
+        p, task.columns, task.index, covariance, tuple(noise), at.rows, found.converged, found.reason
+    )
 
 
-def with_prior(T: Array, to_nominal: Array) -> _Linear:
+def _triangle(piece: Piece) -> tuple[Array, int, Array, float]:
+    left = piece.left(np.zeros((1, len(piece.columns) - 1)))
+    return design.triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(left**2))
+
+
+def with_prior(T: Array, to_nominal: Array) -> Linear:
     """The fit of a triangle [base (n) | residual] and of the prior.
 
     The prior pulls every parameter to its nominal value, ``to_nominal`` away, with a width of one scale.
     """
     n = len(to_nominal)
     R = np.asarray(np.linalg.qr(np.vstack([T, np.column_stack([np.eye(n), to_nominal])]), mode="r"))
-    return _Linear(R[:n, :n], R[:n, n])
+    return Linear(R[:n, :n], R[:n, n], float(R[n, n] ** 2))
 
 
-def _white(o: Observation, eotvos: float) -> Noise:
+def _white(o: Observation, size: float) -> Noise:
+    """White noise of this size, V, in every output."""
     flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
-    taps = np.array([1.0 / eotvos])
+    taps = np.array([1.0 / size])
     m = len(o.series)
     return Noise((flat,) * m, (taps,) * m)

@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime import compare, design, display, next_motion, suggestion
-from ragg_runtime.calibrate import estimate_noise
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
 from ragg_runtime.evaluate import missing_channels, vector
@@ -29,6 +28,7 @@ from ragg_runtime.evidence.omnibus import Found
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.special import Variance
 from ragg_runtime.evidence.work import Flown
+from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model

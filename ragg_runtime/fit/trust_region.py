@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,9 +99,16 @@ class Linear:
         """Decrease that a step promises."""
         return self.decrement - float(np.sum((self.y - self.R @ step) ** 2))
 
+    def slope(self, step: Array) -> float:
+        """Half of the rate at which the sum of squares falls at the beginning of a step."""
+        return float(self.y @ (self.R @ step))
+
+
+L = TypeVar("L", bound=Linear)
+
 
 @dataclass(frozen=True)
-class Minimum:
+class Minimum(Generic[L]):
     """Where the search ended.
 
     Attributes
@@ -116,7 +124,7 @@ class Minimum:
     """
 
     x: Array
-    at: Linear
+    at: L
     converged: bool
     reason: str
     trials: int
@@ -127,7 +135,7 @@ def settled(at: Linear) -> bool:
     return at.decrement <= max(SETTLED, RELATIVE * at.cost)
 
 
-def minimise(linearise: Callable[[Array], Linear], start: Array, most: int = MOST) -> Minimum:
+def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) -> Minimum[L]:
     """Minimise a sum of squares from ``start`` (n,); chi-square never rises.
 
     ``linearise`` gives the problem about a point; where its cost is not finite the point is out of the model's reach.
@@ -143,13 +151,12 @@ def minimise(linearise: Callable[[Array], Linear], start: Array, most: int = MOS
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         ahead = linearise(x + step)
-        promised = at.promised(step)
         fallen = at.cost - ahead.cost
-        ratio = fallen / promised if np.isfinite(fallen) and promised > 0.0 else -np.inf
+        ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
         if ratio < POOR:
-            radius = length * _shrunk(ratio, promised, at.decrement)
+            radius = length * _shrunk(at.slope(step), fallen)
         elif ratio > GOOD:
-            radius = max(radius, 2.0 * length) if np.isfinite(radius) else radius
+            radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
             x, at = x + step, ahead
         elif radius < _smallest(x):
@@ -157,13 +164,11 @@ def minimise(linearise: Callable[[Array], Linear], start: Array, most: int = MOS
     return Minimum(x, at, settled(at), f"it was stopped after {most} steps", most)
 
 
-def _shrunk(ratio: float, promised: float, whole: float) -> float:
-    """Factor for the radius after a poor step: where a parabola through both ends and the slope has its minimum."""
-    slope = (promised + whole) / 2.0  # not less than half of the decrease along the step
-    if not np.isfinite(ratio):
+def _shrunk(slope: float, fallen: float) -> float:
+    """Factor for the radius after a poor step: where the parabola with this slope and this fall has its minimum."""
+    if not np.isfinite(fallen):
         return 0.1
-    curvature = slope - ratio * promised
-    return float(np.clip(0.5 * slope / max(curvature, 1e-300), 0.1, 0.5))
+    return float(np.clip(slope / max(2.0 * slope - fallen, 1e-300), 0.1, 0.5))
 
 
 def _smallest(x: Array) -> float:
