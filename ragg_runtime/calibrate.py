@@ -61,6 +61,8 @@ class Calibration:
         Noise of every flight.
     rows
         Whitened samples in the fit.
+    chi2
+        Chi-square where the fit ended, prior included.
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
     """
@@ -71,6 +73,7 @@ class Calibration:
     covariance: Array
     noise: tuple[Noise, ...]
     rows: int
+    chi2: float
     converged: bool
     reason: str
 
@@ -257,9 +260,16 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
     step = at.damped(0.0) if at.decrement < SETTLED else np.zeros(len(found.x))
     step = design.levelled(step, at.sums, design.null_biases(task.columns))
     covariance = with_prior(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
-    p = task.vector(found.x + step)
     return Calibration(
-        p, task.columns, task.index, covariance, tuple(noise), at.rows, found.converged, found.reason
+        p=task.vector(found.x + step),
+        columns=task.columns,
+        index=task.index,
+        covariance=covariance,
+        noise=tuple(noise),
+        rows=at.rows,
+        chi2=at.cost,
+        converged=found.converged,
+        reason=found.reason,
     )
 
 

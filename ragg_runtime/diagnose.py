@@ -2,6 +2,7 @@
 
 1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
 2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
+   Strong ones are derived into the model one after the other, and everything is done anew (``diagnosis.strong``).
 3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
    nonlinear again; search the remainder for anything else. Several effects must do as well as
    any one generic term.
@@ -21,27 +22,23 @@ from numpy.typing import NDArray
 from ragg_runtime import compare, design, display, next_motion, suggestion
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
+from ragg_runtime.diagnosis import convergence, strong
+from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
 from ragg_runtime.evaluate import missing_channels, vector
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.omnibus import Found
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.special import Variance
-from ragg_runtime.evidence.work import Flown
-from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
 from ragg_runtime.metrics import Error, finite
 from ragg_runtime.next_motion import Proposal
 from ragg_runtime.passes import Piece
-from ragg_runtime.segments import BLOCKS
 from ragg_runtime.threads import one_thread
 
 Array = NDArray[np.float64]
-
-Extend = Callable[[Model, Sequence[str]], Model]
-"""Derives a model with further effects (given by the caller: this module cannot derive)."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +125,12 @@ class Diagnosis:
     target: Fitted
     coefficients: Array
     next_motion: tuple[Proposal, ...]
+    complaint: str | None = None
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
+        return self.complaint is None
 
     @property
     def after(self) -> Error:
@@ -179,6 +182,8 @@ class Diagnosis:
     def as_json(self) -> dict[str, object]:
         return {
             "verdict": self.verdict,
+            "converged": self.converged,
+            "reason": self.complaint,
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
@@ -230,11 +235,11 @@ def diagnose_fitted(
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
     output = _output_effects(f, flights)
-    field, f, instants = _with_steps(f)
-    choice = search.choose(field)
+    first = Stage.of(f)
+    steps, last = strong.taken(first, extend)
+    f, field, choice = last.fitted, last.field, last.choice
     chosen = list(choice.chosen)
     given = [n for e in chosen for n, _ in field.candidates[e]]
-    ranking, before = _ranking(f, field, choice, instants, output)
     final = _confirmed(f, chosen, extend)
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
@@ -245,31 +250,84 @@ def diagnose_fitted(
     random_found = sorted((t.log_p, e) for e, t in random.items() if search.significant(t, count))
     target = f if final is None else final
     v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
-    (after,) = target.score([v])
-    noise = compare.noise_floor(f)
-    if rem.significant or after.whole.rms_Eo > LOUD * noise:
+    half = target.vector(*_half(target, given if final is None else ()))
+    after, held_out = target.score([v, half])
+    noise = compare.noise_floor(target)
+    complaint = convergence.complaint(target.calibration, after, held_out)
+    if complaint is not None or rem.significant or after.whole.rms_Eo > LOUD * noise:
         verdict, found = "unexplained", []
     else:
-        found = [*chosen, *(e for _, e in random_found[:1]), *output]
+        found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
-
     explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
     whitened = sum(s.square for s in rem.searches)
+    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
+    ranking += _ranked_random(f, random, before)
+    if steps:
+        later, _ = _ranking(f, field, choice, last.instants, ())
+        ranking = _staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+    groups = search.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     return Diagnosis(
-        verdict,
-        f,
-        tuple(sorted([*ranking, *_ranked_random(f, random, before)], key=_place(choice))),
-        tuple(found),
-        tuple(_not_testable(f, field)),
-        rem if rem.significant else _without_terms(rem),
-        explained / whitened if whitened else 0.0,
-        before,
-        after,
-        noise,
-        tuple(_sizes(f, field)),
-        target,
-        v,
-        tuple(next_motion.proposals(f, field, next_motion.pairs_of(search.rivals(field, choice)), limits)),
+        verdict=verdict,
+        fitted=first.fitted,
+        ranking=tuple(sorted(ranking, key=_place([*(t.effect for t in steps), *chosen]))),
+        found=tuple(found),
+        not_testable=tuple(_not_testable(first.fitted, first.field)),
+        remainder=rem if rem.significant else _without_terms(rem),
+        remainder_share=explained / whitened if whitened else 0.0,
+        before=before,
+        scored=after,
+        noise_floor=noise,
+        sizes=tuple(_sizes(first.fitted, first.field)),
+        target=target,
+        coefficients=v,
+        next_motion=tuple(
+            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
+        ),
+        complaint=complaint,
+    )
+
+
+def _half(f: Fitted, given: Sequence[int]) -> tuple[Array, Sequence[int]]:
+    """Coefficients fitted to half of the blocks of time, and the candidates among them."""
+    return f.coefficients(given, held_out=True)[0], given
+
+
+def _staged(
+    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
+) -> list[Ranked]:
+    """The ranking where effects were derived into the model one after the other: each of them with what the model, with
+    those before it in, leaves without and with it; the rest as they stand against the model as it was.
+    """
+    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
+    names = {r.effect for r in found}
+    return [*found, *(r for r in others if r.effect not in names)]
+
+
+def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
+    (before,) = t.before.score([np.zeros(t.before.size)])
+    half = t.after.vector(*_half(t.after, ()))
+    after, held_out = t.after.score([np.zeros(t.after.size), half])
+    c = target.calibration
+    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
+    columns = [c.columns[n] for n in own]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
+    covariance = c.covariance[np.ix_(own, own)]
+    parameters = parameter_values(columns, values, covariance)
+    if t.instant is not None:
+        parameters.append(ParameterValue("t_step", None, t.instant, 0.0, "s"))
+    return Ranked(
+        effect=t.effect,
+        log_p=t.test.log_p,
+        chi2=t.test.chi2,
+        rank=t.test.rank,
+        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
+        before=before.whole,
+        after=after.whole,
+        after_holdout=held_out.held_out,
+        parameters=tuple(parameters),
+        combinations=tuple(visible_combinations(columns, values, covariance)),
+        indistinguishable_from=t.rivals,
     )
 
 
@@ -331,73 +389,6 @@ def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
     for c, place in design.base_columns(extended, f.instrument):
         p[place] = value[c.label]
     return p
-
-
-def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
-    """The field of all deterministic candidates, steps at their most likely instant among them.
-
-    Returns the field, the flights with the steps' columns put in, and the instants by effect, s. A step that no column
-    explained is part of the noise that was estimated: once its instant is known the noise is estimated again, and
-    everything with it (``quiet``: that has been done).
-    """
-    available = compare.testable_effects(f)
-    steps = [e for e in f.model.candidates if e.kind == "step"]
-    if len(f.flown) != 1 or not steps:
-        return f.field(available), f, {}
-    x, triangles = f.flown[0], f.triangles[0]
-    time = x.observation.record.time
-    columns = design.candidate_columns(f.model, f.instrument)
-    plain = f.field(available)
-    first = [n for e in search.choose(plain).chosen for n, _ in plain.candidates[e]]
-    instants: dict[str, float] = {}
-    exact: dict[str, float] = {}
-    stepped, sums = list(triangles), f.sums[0].copy()
-    for e in steps:
-        own = [(n, c) for n, c in enumerate(columns) if c.effect == e.id]
-        edges = [int(k) for k in x.edges[1:-1]]
-        scans = [
-            (special.best_step(triangles, edges, f.n_base, given, own, f.to_nominal), given)
-            for given in ([[], first] if first else [[]])
-        ]
-        # By itself, unless it explains far more beside the first choice.
-        step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - 20.0 else scans[0]
-        found = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
-        field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
-        if e.id in search.choose(field).chosen:
-            step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
-            exact[e.id] = float(time[step.sample])
-        instants[e.id] = float(time[step.sample])
-        places = [f.n_base + n for n, _ in own]
-        stepped = _stepped(stepped, x, step, places)
-        sums[np.ix_(x.edges[:-1] < step.sample, np.array(places))] = 0.0
-    if exact and not quiet:
-        noise = estimate_noise(replace(x.at, instants=exact), x.observation)
-        calmer = compare.fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
-        return _with_steps(calmer, quiet=True)
-    if exact:  # the columns themselves, to the sample, and through the filter
-        x = replace(x.released(), at=replace(x.at, instants=exact))
-        triangles, sums = work.blocks(x)
-        stepped = list(triangles)
-    elif instants:
-        moved = {e: [f.n_base + n for n, c in enumerate(columns) if c.effect == e] for e in instants}
-        x = x.with_steps(instants, moved)
-    f = replace(f, flown=(x,), triangles=(tuple(stepped),), sums=(sums,))
-    return _with_penalty(f, [*available, *instants]), f, instants
-
-
-def _stepped(triangles: Sequence[Array], x: Flown, step: special.Step, places: Sequence[int]) -> list[Array]:
-    """Block triangles with the columns at ``places`` put to zero before a step on the edge of a block."""
-    found = [t.copy() for t in triangles]
-    for b in range(BLOCKS):
-        if x.edges[b] < step.sample:
-            found[b][:, list(places)] = 0.0
-    return found
-
-
-def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant."""
-    steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(f.field(effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
 
 
 def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
@@ -498,9 +489,9 @@ def _ranked_random(f: Fitted, random: dict[str, Test], before: Error) -> list[Ra
     ]
 
 
-def _place(choice: Choice) -> Callable[[Ranked], tuple[int, float, str]]:
+def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
     """Order of the ranking: chosen effects as they were chosen, then by significance."""
-    order = {e: n for n, e in enumerate(choice.chosen)}
+    order = {e: n for n, e in enumerate(chosen)}
     return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
 
 

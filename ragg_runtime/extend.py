@@ -146,11 +146,13 @@ def derived(
     return from_files(files), files
 
 
-def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
-    """``model`` with further effects derived into it; without signatures of any more."""
+def with_effects(
+    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
+) -> Model:
+    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, ())[0]
+    return derived(chosen, k.effects if candidates else ())[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:

@@ -143,8 +143,8 @@ def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
     """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
 
-    def extended(model: Model, ids: Sequence[str]) -> Model:
-        return extend.with_effects(m.instrument, model, ids)
+    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
+        return extend.with_effects(m.instrument, model, ids, candidates=candidates)
 
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 

@@ -187,9 +187,9 @@ _one_thread = _Limit()
 
 
 def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
-    def extended(m: Model, ids: Sequence[str]) -> Model:
+    def extended(m: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
         with _deriving:
-            return extend.with_effects(instrument, m, ids)
+            return extend.with_effects(instrument, m, ids, candidates=candidates)
 
     f = compare.fit(model, instrument, [compare.observe(flight, instrument)])
     p = vector(model, instrument)

@@ -108,7 +108,7 @@ class Case:
 
 def case(made: Any) -> Case:
     model, known = load.packaged(), instrument()
-    d = diagnose.diagnose(model, known, [made], lambda m, ids: extend.with_effects(known, m, ids))
+    d = diagnose.diagnose(model, known, [made], lambda m, ids, **k: extend.with_effects(known, m, ids, **k))
     return Case(compare.compare(model, known, [made]), d, made)
 
 

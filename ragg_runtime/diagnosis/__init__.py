@@ -1,0 +1,1 @@
+"""Which physical effect a model lacks: the steps of the diagnosis."""
