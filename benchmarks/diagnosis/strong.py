@@ -82,7 +82,8 @@ def cases(kinds: Sequence[str], most: int | None, sample: int) -> list[Case]:
     found = []
     for kind in kinds:
         count = PER_PAIR if kind in PAIRS else effects
-        for index in range(count if most is None else min(most, count)):
+        chosen = np.arange(count) if most is None else np.unique(np.arange(most) * count // most)
+        for index in (int(k) for k in chosen):  # fewer are spread over the catalogue
             drawn = plan.spec("effect-free", index, sample)
             seed = 7_000_000 + 100_000 * KINDS.index(kind) + 1_000_000 * 31 * sample + index
             world = plan.spec("effect-free", int(np.random.default_rng(seed).integers(10_000)), sample)
@@ -141,9 +142,7 @@ def plausible(bench: Bench, effect: str, rng: np.random.Generator) -> tuple[Hidd
     if one is None or not np.isfinite(one.plausible) or one.plausible > 0.1:
         return ()
     strength = 1.0 / one.plausible
-    values = {
-        n: (np.asarray(v) * strength).tolist() if n != "t_step" else v for n, v in one.values.items()
-    }
+    values = {n: (np.asarray(v) * strength).tolist() if n != "t_step" else v for n, v in one.values.items()}
     return (Hidden(effect, values, 1.0, strength, one.signature * strength, one.instant),)
 
 

@@ -141,7 +141,9 @@ def _derived(
 def _neutral(f: Fitted, model: Model, instrument: Instrument) -> Array:
     """Where a fit of the extended model begins: as calibrated without the new effects, SI."""
     p = vector(model, instrument)
-    known = {c.label: f.calibration.p[k] for c, k in zip(f.calibration.columns, f.calibration.index, strict=True)}
+    known = {
+        c.label: f.calibration.p[k] for c, k in zip(f.calibration.columns, f.calibration.index, strict=True)
+    }
     for c, place in design.base_columns(model, instrument):
         if c.label in known:
             p[place] = known[c.label]
@@ -169,7 +171,9 @@ def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
             kept = [k for k in found if k is not t]
             instants = {k.effect: k.instant for k in kept if k.instant is not None}
             model, instrument = _derived(first, [k.effect for k in kept], instants, extend, candidates=True)
-            fitted = compare.fit(model, instrument, first.observations, start=_neutral(last, model, instrument))
+            fitted = compare.fit(
+                model, instrument, first.observations, start=_neutral(last, model, instrument)
+            )
             return _needed([*kept[:-1], replace(kept[-1], after=fitted)], first, extend)
     return found
 

@@ -205,7 +205,10 @@ CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
 
 def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
     return diagnose(
-        load.packaged(), s.sheet, [flight], lambda model, ids, **k: extend.with_effects(s.sheet, model, ids, **k)
+        load.packaged(),
+        s.sheet,
+        [flight],
+        lambda model, ids, **k: extend.with_effects(s.sheet, model, ids, **k),
     )
 
 
