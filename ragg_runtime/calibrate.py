@@ -25,7 +25,7 @@ from ragg_runtime.whiten import NoiseModel
 
 Array = NDArray[np.float64]
 
-LOUD = 1.1
+MISFIT = 1.1
 """Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
 nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
@@ -229,7 +229,7 @@ def fit(
         some = _Plain(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
-        loud = loud or some.left(x) ** 2 > LOUD * _size(noise) ** 2
+        loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)

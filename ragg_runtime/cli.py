@@ -331,6 +331,13 @@ def add(
         json_file,
         texts.added(result, read),
     )
+    if not result.converged:
+        raise UserError(
+            "nothing was added: the model is as it was",
+            where=", ".join(x.name for x in read),
+            found=result.after.complaint if result.after else None,
+            remedy="see what else is missing: ragg diagnose; or what is wrong with the record",
+        )
 
 
 @cli.command()

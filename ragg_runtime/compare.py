@@ -20,6 +20,8 @@ from ragg_runtime.evidence import likelihood, omnibus, search, special, work
 from ragg_runtime.evidence.omnibus import Omnibus
 from ragg_runtime.evidence.search import Field
 from ragg_runtime.evidence.work import Flown
+from ragg_runtime.fit import convergence
+from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.flight.spool import let_go
@@ -35,6 +37,10 @@ Array = NDArray[np.float64]
 
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
 @dataclass(frozen=True)
@@ -255,13 +261,16 @@ def fit(
     observations: Sequence[Observation],
     noise: Sequence[Noise] | None = None,
     start: Array | None = None,
+    *,
+    plain: bool = False,
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
-    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given.
+    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
+    ``plain``: all samples weigh the same in it.
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
     if not scale_factor(model.chain, c.p) > 0.0:
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",
@@ -322,6 +331,13 @@ class Comparison:
     adequate: bool
     remainder: Remainder
     nominal_values: Array
+    complaint: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration has arrived at an optimum; if not, ``complaint`` says why."""
+        return self.complaint is None
 
     @property
     def calibrated(self) -> Error:
@@ -364,6 +380,9 @@ class Comparison:
                 "holdout": self.holdout.as_json(),
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "converged": self.converged,
+            "reason": self.complaint,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
                 "harmonics": self.harmonics,
@@ -491,17 +510,41 @@ def channel_unit(name: str) -> str:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    f = fit(model, instrument, [observe(x, instrument) for x in flights])
-    p = vector(model, instrument)
-    half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out, nominal = f.score(
-        [f.vector(np.zeros(f.n_base)), f.vector(half)], lambda x: nominal_residual(f, p, x)[None], 1
-    )
+    observations = [observe(x, instrument) for x in flights]
+    f = fit(model, instrument, observations)
+    calibrated, half, nominal = _three_scores(f)
+    if calibrated.whole.rms_V > nominal.whole.rms_V:
+        # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
+        f = fit(model, instrument, observations, f.calibration.noise, plain=True)
+        calibrated, half, nominal = _three_scores(f)
     rem = remainder(f)
     available = testable_effects(f)
     choice = search.choose(f.field(available)) if available else None
-    adequate = not rem.significant and not (choice and choice.chosen)
-    return Comparison(f, nominal.whole, calibrated, held_out.held_out, noise_floor(f), adequate, rem, p)
+    complaint = convergence.complaint(f.calibration, calibrated.held_out, half.held_out)
+    noise = noise_floor(f)
+    quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
+    adequate = quiet and not rem.significant and not (choice and choice.chosen)
+    return Comparison(
+        fitted=f,
+        nominal=nominal.whole,
+        scored=calibrated,
+        holdout=half.held_out,
+        noise_floor=noise,
+        adequate=adequate,
+        remainder=rem,
+        nominal_values=vector(model, instrument),
+        complaint=complaint,
+        off_sheet=tuple(off_sheet(model, instrument, f.calibration)),
+    )
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
+    p = vector(f.model, f.instrument)
+    half, _ = f.coefficients((), held_out=True)
+    vectors = [f.vector(np.zeros(f.n_base)), f.vector(half)]
+    calibrated, held_out, nominal = f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
+    return calibrated, held_out, nominal
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

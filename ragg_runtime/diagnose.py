@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ragg_runtime import compare, design, display, next_motion, suggestion
 from ragg_runtime.compare import Fitted, Remainder, Scored
 from ragg_runtime.design import Column
-from ragg_runtime.diagnosis import convergence, strong
+from ragg_runtime.diagnosis import strong
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
 from ragg_runtime.evaluate import missing_channels, vector
 from ragg_runtime.evidence import likelihood, omnibus, search, special, work
@@ -30,6 +30,8 @@ from ragg_runtime.evidence.likelihood import Test
 from ragg_runtime.evidence.omnibus import Found
 from ragg_runtime.evidence.search import Choice, Field
 from ragg_runtime.evidence.special import Variance
+from ragg_runtime.fit import convergence
+from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Effect, Model
@@ -126,6 +128,9 @@ class Diagnosis:
     coefficients: Array
     next_motion: tuple[Proposal, ...]
     complaint: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+    staged: bool = False
+    """Whether what was found was derived into the model one after the other."""
 
     @property
     def converged(self) -> bool:
@@ -184,6 +189,7 @@ class Diagnosis:
             "verdict": self.verdict,
             "converged": self.converged,
             "reason": self.complaint,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
@@ -253,8 +259,8 @@ def diagnose_fitted(
     half = target.vector(*_half(target, given if final is None else ()))
     after, held_out = target.score([v, half])
     noise = compare.noise_floor(target)
-    complaint = convergence.complaint(target.calibration, after, held_out)
-    if complaint is not None or rem.significant or after.whole.rms_Eo > LOUD * noise:
+    complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
+    if complaint is not None or rem.significant or after.whole.rms_Eo > compare.LOUD * noise:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
@@ -285,6 +291,8 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
+        staged=bool(steps),
+        off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )
 
 
@@ -329,10 +337,6 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
         combinations=tuple(visible_combinations(columns, values, covariance)),
         indistinguishable_from=t.rivals,
     )
-
-
-LOUD = 1.15
-"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
 def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
@@ -437,7 +441,7 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
 
 
 def _ranking(
-    f: Fitted, field: Field, choice: Choice, instants: dict[str, float], output: Sequence[str]
+    f: Fitted, field: Field, choice: Choice, instants: Mapping[str, float], output: Sequence[str]
 ) -> tuple[list[Ranked], Error]:
     """Every testable effect with the evidence for it alone, and the error without any."""
     rivals = search.rivals(field, choice)

@@ -62,7 +62,10 @@ class Loaded:
 
 @dataclass(frozen=True)
 class Added:
-    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
 
     loaded: Loaded
     effect: str
@@ -70,6 +73,11 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
 
     def _repr_html_(self) -> str:
         noise, adequate = (
@@ -80,6 +88,9 @@ class Added:
     def as_json(self) -> dict[str, object]:
         return {
             "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
             "before": errors_of(self.before),
             "after": errors_of(self.after),
             "parameters": [p.as_json() for p in self.parameters],
@@ -194,7 +205,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all.
+    The directory is changed whole or not at all; not where the calibration does not converge.
     """
     instrument = m.instrument
     known = extend.known(instrument)
@@ -238,6 +249,8 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         after = after.with_nominal(with_values)
+        if not after.converged:
+            return Added(m, effect, before, after, parameters, combinations)
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",

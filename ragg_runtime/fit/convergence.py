@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ragg_runtime.calibrate import Calibration
-from ragg_runtime.compare import Scored
+from ragg_runtime.metrics import Error
 
 BEATEN = 1.5
 """Error of the calibration over that of a fit to half of the record, on the other half, from which it is no optimum: what
@@ -16,14 +16,15 @@ FAR = 10.0
 other, or the linearisation about the calibration does not hold."""
 
 
-def complaint(c: Calibration, calibrated: Scored, half: Scored) -> str | None:
+def complaint(c: Calibration, calibrated: Error, half: Error) -> str | None:
     """Why a calibration is not to be trusted, in words; ``None`` if it is.
 
-    ``calibrated`` and ``half`` are scores of the calibrated parameters and of those fitted to half of the record.
+    ``calibrated`` and ``half`` are what the calibrated parameters, and those fitted to half of the record, leave of the
+    other half.
     """
     if not c.converged:
         return f"the calibration has not converged: {c.reason}"
-    whole, other = calibrated.held_out.rms_V, half.held_out.rms_V
+    whole, other = calibrated.rms_V, half.rms_V
     if not (np.isfinite(whole) and np.isfinite(other)):
         return None
     if whole > BEATEN * other:
