@@ -64,7 +64,8 @@ class EffectSetting:
 class Instrument:
     """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (4,) for A1 ... A4, effects.
 
-    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`.
+    Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (4,);
+    the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
     """
 
     radius: float
@@ -74,6 +75,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
 
     @classmethod
     def build(
@@ -85,6 +87,7 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
+        sigmas: Mapping[str, ArrayLike] | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
         _check_names(accelerometers, PARAMETER, "accelerometers")
@@ -97,7 +100,14 @@ class Instrument:
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
         made = cls(
-            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
+            radius=radius,
+            spin_frequency=spin_frequency,
+            g0=g0,
+            accelerometers=MappingProxyType(vectors),
+            effects=tuple(effects),
+            path=path,
+            effects_folder=effects_folder,
+            sigmas=MappingProxyType({name: _vector(v) for name, v in (sigmas or {}).items()}),
         )
         _check_physical(made)
         return made
@@ -107,6 +117,12 @@ class Instrument:
         _check_names(changes, PARAMETER, "accelerometers")
         vectors = dict(self.accelerometers) | {name: _vector(v) for name, v in changes.items()}
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+
+    def sigma(self, name: str) -> Vector:
+        """How far a parameter of the accelerometers may be from its sheet, (4,) SI: as the sheet says, or plausible."""
+        if name in self.sigmas:
+            return self.sigmas[name]
+        return PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
 
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
         """The same instrument with another list of effects."""
@@ -172,11 +188,13 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         ) from None
     _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
     disc = _disc(_table(table, "disc", path), path)
+    accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), disc["g0"], path)
     return Instrument.build(
         radius=disc["radius"],
         spin_frequency=disc["spin_frequency"],
         g0=disc["g0"],
-        accelerometers=_accelerometers(_table(table, "accelerometers", path), disc["g0"], path),
+        accelerometers=accelerometers,
+        sigmas=sigmas,
         effects=_effects(table.get("effects", []), disc["g0"], path),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
@@ -213,13 +231,26 @@ def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
     }
 
 
-def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
+def _accelerometers(
+    table: Mapping[str, Any], g0: float, path: Path | None
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Values, and how sure the sheet is of those for which it says so, in SI."""
     _check_names(table, PARAMETER, "accelerometers", path)
-    found = {}
+    found, sigmas = {}, {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
-        found[name] = _si(read_quantity(raw, place), PARAMETER[name].si_unit, g0, place)
-    return found
+        si_unit = PARAMETER[name].si_unit
+        own = {k: v for k, v in raw.items() if k != "sigma"} if isinstance(raw, dict) else raw
+        quantity = read_quantity(own, place)
+        found[name] = _si(quantity, si_unit, g0, place)
+        if isinstance(raw, dict) and "sigma" in raw:
+            where = f"{place}, sigma"
+            sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where)
+            sigmas[name] = _si(sigma, si_unit, g0, where)
+            if np.any(sigmas[name] <= 0):
+                expected = f"one or four above 0, in {quantity.unit}; none if the sheet does not say"
+                raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
+    return found, sigmas
 
 
 def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
