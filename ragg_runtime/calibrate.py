@@ -17,7 +17,7 @@ from ragg_runtime import design
 from ragg_runtime.design import Column, Observation
 from ragg_runtime.evaluate import scale_factor, vector
 from ragg_runtime.fit.noise import estimate_noise, spread
-from ragg_runtime.fit.trust_region import SETTLED, Linear, Minimum, minimise
+from ragg_runtime.fit.trust_region import Linear, Minimum, minimise
 from ragg_runtime.instrument import Instrument
 from ragg_runtime.load import Model
 from ragg_runtime.passes import Noise, Piece, Point, flight_segments, passed
@@ -61,8 +61,9 @@ class Calibration:
         Noise of every flight.
     rows
         Whitened samples in the fit.
-    chi2
-        Chi-square where the fit ended, prior included.
+    chi2, excess
+        Chi-square where the fit ended, prior included; and that of the data alone over their number (of a fit of what is
+        loud, in what it counted as noise).
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
     """
@@ -74,6 +75,7 @@ class Calibration:
     noise: tuple[Noise, ...]
     rows: int
     chi2: float
+    excess: float
     converged: bool
     reason: str
 
@@ -255,10 +257,9 @@ def _size(noise: Sequence[Noise]) -> float:
 
 
 def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
-    """The end of a fit as parameters: with its last step where that is below what noise does, and levelled."""
+    """The end of a fit as parameters, levelled."""
     at = found.at
-    step = at.damped(0.0) if at.decrement < SETTLED else np.zeros(len(found.x))
-    step = design.levelled(step, at.sums, design.null_biases(task.columns))
+    step = design.levelled(np.zeros(len(found.x)), at.sums, design.null_biases(task.columns))
     covariance = with_prior(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),
@@ -268,6 +269,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
         noise=tuple(noise),
         rows=at.rows,
         chi2=at.cost,
+        excess=at.excess,
         converged=found.converged,
         reason=found.reason,
     )

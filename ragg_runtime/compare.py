@@ -21,7 +21,7 @@ from ragg_runtime.evidence.omnibus import Omnibus
 from ragg_runtime.evidence.search import Field
 from ragg_runtime.evidence.work import Flown
 from ragg_runtime.fit import convergence
-from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
+from ragg_runtime.fit.off_sheet import OffSheet, off_sheet, widened
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.flight.spool import let_go
@@ -41,6 +41,10 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 
 LOUD = 1.15
 """Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+
+
+WIDENED = 3
+"""Most times that a sheet is taken to be less sure than it says."""
 
 
 @dataclass(frozen=True)
@@ -271,6 +275,13 @@ def fit(
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
+    wider = widened(model, instrument, c)
+    for _ in range(WIDENED):
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, plain=plain)
+        wider = widened(model, instrument, c)
     if not scale_factor(model.chain, c.p) > 0.0:
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",

@@ -317,11 +317,10 @@ def main(arguments: Sequence[str]) -> int:
     lines = [json.loads(x) for x in path.read_text("utf-8").splitlines()] if path.exists() else []
     done = {x["id"] for x in lines}
     todo = [] if options.table else [c for c in wanted if c.id not in done]
-    # a process each: what is derived for a flight is remembered by its process
     context = multiprocessing.get_context("spawn")
     with (
         path.open("a", encoding="utf-8") as file,
-        ProcessPoolExecutor(options.jobs, mp_context=context, max_tasks_per_child=20) as pool,
+        ProcessPoolExecutor(options.jobs, mp_context=context) as pool,
     ):
         for n, future in enumerate(as_completed([pool.submit(flown, c) for c in todo]), 1):
             lines.append(future.result())

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
 
 from ragg_runtime.calibrate import Calibration
 from ragg_runtime.evaluate import vector
@@ -51,7 +54,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
         OffSheet(
             name=q.name,
             accelerometer=q.accelerometer,
-            sigmas=float((c.p[k] - sheet[k]) / q.scale),
+            sigmas=float((c.p[k] - sheet[k]) / instrument.sigma(q.name)[(q.accelerometer or 1) - 1]),
             value=float(c.p[k] / q.unit_factor),
             sheet=float(sheet[k] / q.unit_factor),
             unit=q.unit,
@@ -60,6 +63,25 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
         if q.effect is None
     ]
     return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
+
+
+WIDE = 3.0
+"""Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
+(or than is plausible), by that factor: a sheet for an instrument of another class, say."""
+
+QUIET = 2.0
+"""Excess of chi-square up to which the record says so, not an effect that is missing."""
+
+
+def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
+    """The instrument with a sheet as sure as the record says it is, if that is far less than it says."""
+    sheet = vector(model, instrument)
+    off = [(c.p[k] - sheet[k]) / q.scale for q, k in zip(c.columns, c.index, strict=True) if q.effect is None]
+    factor = float(np.sqrt(np.mean(np.square(off))))
+    if factor < WIDE or c.excess > QUIET:
+        return None
+    sigmas = {q.name: factor * instrument.sigma(q.name) for q in c.columns if q.effect is None}
+    return replace(instrument, sigmas=MappingProxyType(sigmas))
 
 
 SAID = 3

@@ -28,6 +28,10 @@ direction, well below what noise does to any estimate."""
 RELATIVE = 1e-6
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
+VALLEY = 0.5
+"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: the way there is a
+curved valley, and what is at its end is not worth half a standard deviation."""
+
 ACCEPTED = 1e-4
 """Least share of the promised decrease for which a step is taken."""
 
@@ -159,6 +163,8 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
             x, at = x + step, ahead
+            if fallen < SETTLED and at.decrement < VALLEY:
+                return Minimum(x, at, True, "nothing worth having is left to gain", trial + 1)
         elif radius < _smallest(x):
             return Minimum(x, at, False, "no step, however small, lowers the misfit", trial + 1)
     return Minimum(x, at, settled(at), f"it was stopped after {most} steps", most)
