@@ -259,7 +259,7 @@ def _size(noise: Sequence[Noise]) -> float:
 def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
     """The end of a fit as parameters, levelled."""
     at = found.at
-    step = design.levelled(np.zeros(len(found.x)), at.sums, design.null_biases(task.columns))
+    step = design.levelled(found.last, at.sums, design.null_biases(task.columns))
     covariance = with_prior(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),

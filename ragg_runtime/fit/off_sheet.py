@@ -65,7 +65,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
     return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
 
 
-WIDE = 3.0
+WIDE = 2.0
 """Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
 (or than is plausible), by that factor: a sheet for an instrument of another class, say."""
 

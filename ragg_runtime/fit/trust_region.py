@@ -38,6 +38,9 @@ ACCEPTED = 1e-4
 POOR, GOOD = 0.25, 0.75
 """Shares below which the radius shrinks, and above which it may grow (Moré's)."""
 
+FAITHFUL = 0.01
+"""Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
+
 MOST = 40
 """Most trials of a fit; usual are two or three."""
 
@@ -125,6 +128,8 @@ class Minimum(Generic[L]):
         Whether it is an optimum by :func:`settled`, and in words why the search ended.
     trials
         Points at which the problem was linearised.
+    faithful
+        Whether the last step did what was promised of it, and none before had to be shortened: then the linearised problem can be trusted with a further one.
     """
 
     x: Array
@@ -132,6 +137,13 @@ class Minimum(Generic[L]):
     converged: bool
     reason: str
     trials: int
+    faithful: bool = False
+
+    @property
+    def last(self) -> Array:
+        """(n,): the step to the optimum of the linearised problem, where that is below what noise does."""
+        trusted = self.faithful and self.at.decrement < SETTLED
+        return self.at.damped(0.0) if trusted else np.zeros(len(self.x))
 
 
 def settled(at: Linear) -> bool:
@@ -148,10 +160,10 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     at = linearise(x)
     if not np.isfinite(at.cost):
         return Minimum(x, at, False, "the model has no finite output where the fit begins", 1)
-    radius = np.inf
+    radius, faithful = np.inf, False
     for trial in range(1, most):
         if settled(at):
-            return Minimum(x, at, True, "nothing is left to gain", trial)
+            return Minimum(x, at, True, "nothing is left to gain", trial, faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         ahead = linearise(x + step)
@@ -163,6 +175,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
             x, at = x + step, ahead
+            faithful = abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
             if fallen < SETTLED and at.decrement < VALLEY:
                 return Minimum(x, at, True, "nothing worth having is left to gain", trial + 1)
         elif radius < _smallest(x):
