@@ -35,9 +35,13 @@ from scipy import optimize
 from benchmarks.diagnosis import fly, inject, plan, score
 from benchmarks.diagnosis.inject import Bench, Hidden
 from benchmarks.diagnosis.plan import Spec, scenario_of
-from ragg_runtime import compare, design, diagnose, extend, load
-from ragg_runtime.compare import Fitted
-from ragg_runtime.evaluate import output, scale_factor, vector
+from ragg_runtime.diagnosis import comparison, diagnose
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import fitted, observation
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import output, scale_factor, vector
+from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario
 
 Array = NDArray[np.float64]
@@ -209,16 +213,16 @@ def _flown(case: Case) -> dict[str, object]:
     plain = s.simulate(record_gradient=recorded)
     model = load.packaged()
     flight = plain.flight(case.id)
-    bench = Bench(compare.fit(model, s.sheet, [compare.observe(flight, s.sheet)]), plain)
+    bench = Bench(fitted.fit(model, s.sheet, [observation.observe(flight, s.sheet)]), plain)
     hidden = hidden_in(case, bench, s)
     if not hidden:
         return {"skipped": "not to be reached on this flight"}
     sim = s.simulate({h.effect: h.values for h in hidden}, record_gradient=recorded)
     p = fly.Prepared(s, sim, sim.flight(case.id), hidden, (), None, bench)
-    c = compare.compare(model, s.sheet, [p.flight])
+    c = comparison.compare(model, s.sheet, [p.flight])
     begin = time.perf_counter()
     d = diagnose.diagnose(
-        model, s.sheet, [p.flight], lambda m, ids, **k: extend.with_effects(s.sheet, m, ids, **k)
+        model, s.sheet, [p.flight], lambda m, ids, **k: derive.with_effects(s.sheet, m, ids, **k)
     )
     seconds = time.perf_counter() - begin
     best = optimum(c.fitted, p.noise_Eo, case.spec.rng(3)) if recorded else None

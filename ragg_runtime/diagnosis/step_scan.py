@@ -8,13 +8,15 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, design
-from ragg_runtime.compare import Fitted
-from ragg_runtime.evidence import search, special, work
-from ragg_runtime.evidence.search import Field
-from ragg_runtime.evidence.work import Flown
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence import steps as special
+from ragg_runtime.evidence.selection import Field, field_of, testable_effects
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import prepared
+from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.noise import estimate_noise
-from ragg_runtime.segments import BLOCKS
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.segments import BLOCKS
 
 Array = NDArray[np.float64]
 
@@ -26,15 +28,15 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     explained is part of the noise that was estimated: once its instant is known the noise is estimated again, and
     everything with it (``quiet``: that has been done).
     """
-    available = compare.testable_effects(f)
+    available = testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
     if len(f.flown) != 1 or not steps:
-        return f.field(available), f, {}
+        return field_of(f, available), f, {}
     x, triangles = f.flown[0], f.triangles[0]
     time = x.observation.record.time
     columns = design.candidate_columns(f.model, f.instrument)
-    plain = f.field(available)
-    first = [n for e in search.choose(plain).chosen for n, _ in plain.candidates[e]]
+    plain = field_of(f, available)
+    first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
     instants: dict[str, float] = {}
     exact: dict[str, float] = {}
     stepped, sums = list(triangles), f.sums[0].copy()
@@ -49,7 +51,7 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - 20.0 else scans[0]
         found = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
         field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
-        if e.id in search.choose(field).chosen:
+        if e.id in selection.choose(field).chosen:
             step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
             exact[e.id] = float(time[step.sample])
         instants[e.id] = float(time[step.sample])
@@ -58,11 +60,11 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         sums[np.ix_(x.edges[:-1] < step.sample, np.array(places))] = 0.0
     if exact and not quiet:
         noise = estimate_noise(replace(x.at, instants=exact), x.observation)
-        calmer = compare.fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
+        calmer = fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
         return with_steps(calmer, quiet=True)
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
-        triangles, sums = work.blocks(x)
+        triangles, sums = prepared.blocks(x)
         stepped = list(triangles)
     elif instants:
         moved = {e: [f.n_base + n for n, c in enumerate(columns) if c.effect == e] for e in instants}
@@ -83,4 +85,4 @@ def _stepped(triangles: Sequence[Array], x: Flown, step: special.Step, places: S
 def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
     """The field of effects, steps among them charged for the choice of their instant."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(f.field(effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(field_of(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -16,17 +16,18 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import calibrate, compare, design
-from ragg_runtime.calibrate import Calibration
-from ragg_runtime.compare import Fitted
 from ragg_runtime.diagnosis.step_scan import with_steps
-from ragg_runtime.evaluate import vector
-from ragg_runtime.evidence import likelihood, search
-from ragg_runtime.evidence.likelihood import Test
-from ragg_runtime.evidence.search import Choice, Field
-from ragg_runtime.instrument import EffectSetting, Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.units import RawQuantity
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.selection import Choice, Field
+from ragg_runtime.fit import calibrate, columns
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.significance import log_sf
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -63,7 +64,7 @@ class Stage:
     @staticmethod
     def of(f: Fitted) -> Stage:
         field, fitted, instants = with_steps(f)
-        return Stage(field, fitted, instants, search.choose(field))
+        return Stage(field, fitted, instants, selection.choose(field))
 
     @property
     def strong(self) -> bool:
@@ -99,7 +100,7 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
     """The strong effects in the order of their strength, and the stage at which nothing strong is left."""
     found: list[Taken] = []
     stage = first
-    while extend is not None and stage.strong and len(found) < search.MOST:
+    while extend is not None and stage.strong and len(found) < selection.MOST:
         best = _strongest(stage, extend)
         found.append(best)
         found = _needed(found, first.fitted, extend)
@@ -117,10 +118,10 @@ def _strongest(stage: Stage, extend: Extend) -> Taken:
     near = sorted(near, key=lambda e: (tests[e].log_p, e))[:CONTENDERS]
     scores = {e: _score(f, tests[e], _derived(f, [e], stage.instants, extend)) for e in near[: len(near)]}
     best = min(scores.values())
-    equal = [e for e in near if scores[e] < best + search.INDISTINGUISHABLE]
+    equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
-    after = compare.fit(model, instrument, f.observations, start=_neutral(f, model, instrument))
+    after = fit(model, instrument, f.observations, start=_neutral(f, model, instrument))
     instant = stage.instants.get(effect)
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
 
@@ -144,7 +145,7 @@ def _neutral(f: Fitted, model: Model, instrument: Instrument) -> Array:
     known = {
         c.label: f.calibration.p[k] for c, k in zip(f.calibration.columns, f.calibration.index, strict=True)
     }
-    for c, place in design.base_columns(model, instrument):
+    for c, place in columns.base_columns(model, instrument):
         if c.label in known:
             p[place] = known[c.label]
     return p
@@ -167,13 +168,11 @@ def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
     """Those taken without any that the later ones have made superfluous; the model is fitted anew without it."""
     last = found[-1].after
     for t in found[:-1]:
-        if significance(last.calibration, t.effect) > np.log(search.FURTHER):
+        if significance(last.calibration, t.effect) > np.log(selection.FURTHER):
             kept = [k for k in found if k is not t]
             instants = {k.effect: k.instant for k in kept if k.instant is not None}
             model, instrument = _derived(first, [k.effect for k in kept], instants, extend, candidates=True)
-            fitted = compare.fit(
-                model, instrument, first.observations, start=_neutral(last, model, instrument)
-            )
+            fitted = fit(model, instrument, first.observations, start=_neutral(last, model, instrument))
             return _needed([*kept[:-1], replace(kept[-1], after=fitted)], first, extend)
     return found
 
@@ -184,4 +183,4 @@ def significance(c: Calibration, effect: str) -> float:
     values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
     information = np.linalg.inv(c.covariance[np.ix_(own, own)]) - np.eye(len(own))  # without the prior's
     seen = int(np.sum(np.linalg.eigvalsh(information) > 1.0))
-    return likelihood.log_sf(max(float(values @ information @ values), 0.0), seen)
+    return log_sf(max(float(values @ information @ values), 0.0), seen)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ragg_runtime.calibrate import Calibration
-from ragg_runtime.metrics import Error
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.score import Error
 
 BEATEN = 1.5
 """Error of the calibration over that of a fit to half of the record, on the other half, from which it is no optimum: what

@@ -8,12 +8,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design
-from ragg_runtime.design import Observation
-from ragg_runtime.errors import UserError
-from ragg_runtime.passes import Noise, Piece, Point, flight_segments, passed
-from ragg_runtime.segments import Segment
-from ragg_runtime.whiten import NoiseModel, estimate
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit.linearise import Point
+from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.passes import Piece, flight_segments, passed
+from ragg_runtime.fit.segments import Segment
+from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, estimate
 
 Array = NDArray[np.float64]
 
@@ -56,7 +57,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             # The fit takes as many degrees of freedom as it has columns.
             e = np.zeros(len(valid))
             e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
-            gain = design.noise_gain(r.rate) if o.kind == "channels" else 1.0
+            gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
         return float(np.mean(valid)), outputs
@@ -103,7 +104,7 @@ def _least_squares(columns: Array) -> tuple[Array, float]:
     Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
     on which side of an edge one is.
     """
-    R = design.triangle(columns)
+    R = triangle(columns)
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0

@@ -8,10 +8,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.calibrate import Calibration
-from ragg_runtime.evaluate import vector
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
 
 FAR = 5.0
 """Standard errors of the sheet from which a parameter is named: none of a few dozen should be there by chance."""

@@ -11,16 +11,18 @@ import tomlkit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.instrument import (
-    PARAMETERS,
-    EffectSetting,
-    Instrument,
-    parse_instrument,
-    read_instrument,
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.edit_toml import (
+    add_effect,
+    model_text,
+    remove_effect,
+    set_parameters,
+    write_instrument,
 )
-from ragg_runtime.model_toml import add_effect, model_text, remove_effect, set_parameters, write_instrument
-from ragg_runtime.units import RawQuantity
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
+from ragg_runtime.instrument.units import RawQuantity
 
 TEXT = """# The maker's test sheet.
 effects = []  # none yet
@@ -289,7 +291,9 @@ k_VI = { value = 1e9, unit = "ohm" }
 """
 
 
-@pytest.mark.parametrize(("sigma", "four"), [("0.01", [0.01] * 4), ("[0.1, 0.2, 0.3, 0.4]", [0.1, 0.2, 0.3, 0.4])])
+@pytest.mark.parametrize(
+    ("sigma", "four"), [("0.01", [0.01] * 4), ("[0.1, 0.2, 0.3, 0.4]", [0.1, 0.2, 0.3, 0.4])]
+)
 def test_the_sheet_can_say_how_sure_it_is(sigma: str, four: list[float]) -> None:
     known = parse_instrument(sure(sigma))
     np.testing.assert_allclose(known.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)

@@ -1,0 +1,280 @@
+"""Which physical effect is missing: the method, its verdict, and what the record cannot tell.
+
+1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
+2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
+   Strong ones are derived into the model one after the other, and everything is done anew (``diagnosis.strong``).
+3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
+   nonlinear again; search the remainder for anything else. Several effects must do as well as
+   any one generic term.
+4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
+   down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis import comparison, next_motion, strong
+from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.ranking import Ranked, _not_testable, _place, _ranked_random, _ranking, _sizes
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.random_effects import Variance, pooled
+from ragg_runtime.evidence.selection import Choice, Field
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import convergence, prepared
+from ragg_runtime.fit import fitted as fitted_
+from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.off_sheet import off_sheet
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.output_values import quantisation, saturation
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.lack_of_fit import remainder as remainder_
+from ragg_runtime.lack_of_fit.remainder import Remainder
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+
+@one_thread
+def diagnose(
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
+) -> Diagnosis:
+    """Find which of the model's candidate effects the flights need.
+
+    Parameters
+    ----------
+    flights
+        Flights of one instrument, fitted together.
+    extend
+        Derives the model with the chosen effects in it, for the final, nonlinear check. Without it the
+        check is linear.
+    limits
+        Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
+    """
+    observations = [observe(x, instrument) for x in flights]
+    f = fit(model, instrument, observations)
+    return diagnose_fitted(f, flights, extend, limits)
+
+
+@one_thread
+def diagnose_fitted(
+    f: Fitted,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
+) -> Diagnosis:
+    """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
+    output = _output_effects(f, flights)
+    first = Stage.of(f)
+    steps, last = strong.taken(first, extend)
+    f, field, choice = last.fitted, last.field, last.choice
+    chosen = list(choice.chosen)
+    given = [n for e in chosen for n, _ in field.candidates[e]]
+    final = _confirmed(f, chosen, extend)
+    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
+    if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
+        rem = simpler
+    if rem.significant:
+        random = {}
+    count = len(field.candidates) + len(random)
+    random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
+    target = f if final is None else final
+    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
+    half = target.vector(*_half(target, given if final is None else ()))
+    after, held_out = target.score([v, half])
+    noise = fitted_.noise_floor(target)
+    complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
+    if complaint is not None or rem.significant or after.whole.rms_Eo > comparison.LOUD * noise:
+        verdict, found = "unexplained", []
+    else:
+        found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
+        verdict = "missing-effect" if found else "adequate"
+    explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    whitened = sum(s.square for s in rem.searches)
+    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
+    ranking += _ranked_random(f, random, before)
+    if steps:
+        later, _ = _ranking(f, field, choice, last.instants, ())
+        ranking = _staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+    groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
+    return Diagnosis(
+        verdict=verdict,
+        fitted=first.fitted,
+        ranking=tuple(sorted(ranking, key=_place([*(t.effect for t in steps), *chosen]))),
+        found=tuple(found),
+        not_testable=tuple(_not_testable(first.fitted, first.field)),
+        remainder=rem if rem.significant else _without_terms(rem),
+        remainder_share=explained / whitened if whitened else 0.0,
+        before=before,
+        scored=after,
+        noise_floor=noise,
+        sizes=tuple(_sizes(first.fitted, first.field)),
+        target=target,
+        coefficients=v,
+        next_motion=tuple(
+            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
+        ),
+        complaint=complaint,
+        staged=bool(steps),
+        off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
+    )
+
+
+def _half(f: Fitted, given: Sequence[int]) -> tuple[Array, Sequence[int]]:
+    """Coefficients fitted to half of the blocks of time, and the candidates among them."""
+    return f.coefficients(given, held_out=True)[0], given
+
+
+def _staged(
+    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
+) -> list[Ranked]:
+    """The ranking where effects were derived into the model one after the other: each of them with what the model, with
+    those before it in, leaves without and with it; the rest as they stand against the model as it was.
+    """
+    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
+    names = {r.effect for r in found}
+    return [*found, *(r for r in others if r.effect not in names)]
+
+
+def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
+    (before,) = t.before.score([np.zeros(t.before.size)])
+    half = t.after.vector(*_half(t.after, ()))
+    after, held_out = t.after.score([np.zeros(t.after.size), half])
+    c = target.calibration
+    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
+    columns = [c.columns[n] for n in own]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
+    covariance = c.covariance[np.ix_(own, own)]
+    parameters = parameter_values(columns, values, covariance)
+    if t.instant is not None:
+        parameters.append(ParameterValue("t_step", None, t.instant, 0.0, "s"))
+    return Ranked(
+        effect=t.effect,
+        log_p=t.test.log_p,
+        chi2=t.test.chi2,
+        rank=t.test.rank,
+        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
+        before=before.whole,
+        after=after.whole,
+        after_holdout=held_out.held_out,
+        parameters=tuple(parameters),
+        combinations=tuple(visible_combinations(columns, values, covariance)),
+        indistinguishable_from=t.rivals,
+    )
+
+
+def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
+    """What the model alone leaves, if there one generic term explains more than all that is chosen.
+
+    Asked of several effects and of one with many coefficients. Those that are really there could lose to one term only
+    if it were nearly the sum of their signatures and fitted the noise better besides.
+    """
+    blocks = [choice.blocks[e] for e in choice.chosen]
+    if not blocks or len(f.flown) > 1:
+        return None
+    picked, rank = field.joint(blocks)
+    if len(blocks) < 2 and rank <= FEW:
+        return None
+    joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
+    rem = remainder_.remainder(f)
+    best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
+    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else omnibus.INDISTINGUISHABLE
+    return rem if best > max(picked, joint - freedom) + margin else None
+
+
+FEW = 4
+"""Coefficients up to which one effect need not fear that a generic term stands in its place."""
+
+SIMPLER_THAN_ONE = 16.0
+"""Chi-square by which one generic term must be better than one effect to take its place (4 sigma): of single effects there
+are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
+
+
+def _without_terms(rem: Remainder) -> Remainder:
+    return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
+
+
+def _confirmed(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
+    steps = {e.id for e in f.model.candidates if e.kind == "step"}
+    if not chosen or extend is None or (steps & set(chosen)):
+        return None
+    extended = extend(f.model, chosen)
+    start = _linear(f, chosen, extended)
+    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+
+
+def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+    """Parameter vector of the extended model as the linear fit has it, SI."""
+    own = [
+        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect in chosen
+    ]
+    fitted, _ = f.coefficients([n for n, _ in own])
+    columns = (*f.calibration.columns, *(c for _, c in own))
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
+    p = vector(extended, f.instrument)
+    for c, place in design.base_columns(extended, f.instrument):
+        p[place] = value[c.label]
+    return p
+
+
+def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
+    """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
+    places = _random_columns(f)
+
+    def variances(piece: Piece, y: Array) -> dict[str, Variance]:
+        return {e: Variance.of(piece, place, y) for e, place in places.items()}
+
+    searches, counted = [], []
+    for x, triangles in zip(f.flown, f.triangles, strict=True):
+        found, more = omnibus.search(x, prepared.projector(triangles, f.n_base, given), variances)
+        searches.append(found)
+        counted += more
+    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]).test() for e in places}
+
+
+def _random_columns(f: Fitted) -> dict[str, int]:
+    """The place of every random effect's column."""
+    if any(o.kind == "channels" for o in f.observations):
+        return {}  # neighbouring samples of a demodulated channel are not independent
+    columns = design.candidate_columns(f.model, f.instrument)
+    found = {}
+    for e in f.model.candidates:
+        own = [n for n, c in enumerate(columns) if c.effect == e.id]
+        if e.kind == "random" and own:
+            found[e.id] = f.n_base + own[0]
+    return found
+
+
+def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
+    """Saturation and quantisation of a recorded output, recognised in its values."""
+    known = {e.id for e in f.model.candidates if e.kind == "output"}
+    found = []
+    for x, w in zip(flights, f.flown, strict=True):
+        for name, series in x.outputs.items():
+            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+                continue
+            valid = np.isfinite(series) & x.valid
+            if "saturation" in known and saturation(series, valid):
+                found.append("saturation")
+            noise = w.noise.models[0].rms
+            if "quantisation" in known and quantisation(series, valid, noise):
+                found.append("quantisation")
+    return sorted(set(found))
