@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from derive.stages import Force, Geometry, Motion, SensedForce
-from derive.symbols import COS_PHI, MOTION, SIN_PHI, TIME, symbol
+from derive.symbols import COS_PHI, MOTION, SIN_PHI, TIME, local, symbol
 from derive.tape import Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
@@ -39,7 +39,7 @@ class Context:
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
-        return symbol(name)
+        return symbol(local(name))
 
     def harmonic(self, n: int) -> tuple[sp.Expr, sp.Expr]:
         """cos(n phi), sin(n phi) of the disc angle, as polynomials in its cosine and sine."""
@@ -48,7 +48,7 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e), _symbol_rate)
+        return self.tape.rate(sp.sympify(e, strict=True), _symbol_rate)
 
     def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
         """``e`` at the instant t + delta, to second order in delta."""
@@ -66,10 +66,10 @@ def _symbol_rate(s: sp.Symbol) -> sp.Expr:
     name = s.name
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
-    if name.startswith("d_"):
-        return symbol(f"d2_{name[2:]}")
     if name in _MOVING:
         return symbol(f"d_{name}")
+    if name.startswith("d_") and name[2:] in _MOVING:
+        return symbol(f"d2_{name[2:]}")
     return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
 
 

@@ -45,8 +45,10 @@ def difference(root: Path) -> str:
 
 def committed_with(root: Path) -> str:
     """The version of SymPy that the code below ``root`` was derived with; that of this machine if none is told."""
+    place = root / GENERATED / MANIFEST
     try:
-        found = json.loads((root / GENERATED / MANIFEST).read_text("utf-8"))["sympy"]
+        # a pipe would be waited for
+        found = json.loads(place.read_text("utf-8"))["sympy"] if place.is_file() else None
     except (OSError, ValueError, KeyError, TypeError):
         return str(sympy.__version__)
     return found if isinstance(found, str) else str(sympy.__version__)

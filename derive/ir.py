@@ -19,7 +19,7 @@ from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
 from derive.tape import Program, simplify
 
 
@@ -191,7 +191,7 @@ def chain(
         value,
         derivatives,
         tuple(Row(n, shared) for _, n, shared in named),
-        (*MOTION, *(auxiliary_channel(n) for n in extra)),
+        (*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
         (*INSTRUMENT, *effect_parameters(effects)),
         tuple(candidates) or tuple(effects),
     )

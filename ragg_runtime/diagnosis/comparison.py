@@ -35,11 +35,7 @@ LOUD = 1.15
 """Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
-WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says."""
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Comparison:
     """The result of ``compare``: the interface's JSON, and what the report draws."""
 
@@ -82,6 +78,15 @@ class Comparison:
         p = vector(self.fitted.model, instrument)
         (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
         return replace(self, nominal=scored.whole, nominal_values=p)
+
+    def __repr__(self) -> str:
+        errors = (
+            ("nominal", self.nominal.rms_Eo),
+            ("calibrated", self.calibrated.rms_Eo),
+            ("held out", self.holdout.rms_Eo),
+            ("noise", self.noise_floor),
+        )
+        return notebook.in_one_line("Comparison", "adequate" if self.adequate else "not adequate", *errors)
 
     def _repr_html_(self) -> str:
         return notebook.comparison(self.as_json(), [o.name for o in self.fitted.observations])

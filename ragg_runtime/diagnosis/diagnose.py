@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
-from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
-from ragg_runtime.diagnosis.ranking import Ranked, _not_testable, _place, _ranked_random, _ranking, _sizes
+from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
+from ragg_runtime.diagnosis.strong import Extend, Stage
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.random_effects import Variance, pooled
@@ -96,7 +95,8 @@ def diagnose_fitted(
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     target = f if final is None else final
     v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
-    half = target.vector(*_half(target, given if final is None else ()))
+    extra = given if final is None else ()
+    half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
@@ -111,7 +111,7 @@ def diagnose_fitted(
     ranking += _ranked_random(f, random, before)
     if steps:
         later, _ = _ranking(f, field, choice, last.instants, ())
-        ranking = _staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+        ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
     groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     return Diagnosis(
         verdict=verdict,
@@ -133,49 +133,6 @@ def diagnose_fitted(
         complaint=complaint,
         staged=bool(steps),
         off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
-    )
-
-
-def _half(f: Fitted, given: Sequence[int]) -> tuple[Array, Sequence[int]]:
-    """Coefficients fitted to half of the blocks of time, and the candidates among them."""
-    return f.coefficients(given, held_out=True)[0], given
-
-
-def _staged(
-    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
-) -> list[Ranked]:
-    """The ranking where effects were derived into the model one after the other: each of them with what the model, with
-    those before it in, leaves without and with it; the rest as they stand against the model as it was.
-    """
-    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
-    names = {r.effect for r in found}
-    return [*found, *(r for r in others if r.effect not in names)]
-
-
-def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
-    (before,) = t.before.score([np.zeros(t.before.size)])
-    half = t.after.vector(*_half(t.after, ()))
-    after, held_out = t.after.score([np.zeros(t.after.size), half])
-    c = target.calibration
-    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
-    columns = [c.columns[n] for n in own]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
-    covariance = c.covariance[np.ix_(own, own)]
-    parameters = parameter_values(columns, values, covariance)
-    if t.instant is not None:
-        parameters.append(ParameterValue("t_step", None, t.instant, 0.0, "s"))
-    return Ranked(
-        effect=t.effect,
-        log_p=t.test.log_p,
-        chi2=t.test.chi2,
-        rank=t.test.rank,
-        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
-        before=before.whole,
-        after=after.whole,
-        after_holdout=held_out.held_out,
-        parameters=tuple(parameters),
-        combinations=tuple(visible_combinations(columns, values, covariance)),
-        indistinguishable_from=t.rivals,
     )
 
 

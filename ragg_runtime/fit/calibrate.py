@@ -114,7 +114,7 @@ class _Fall(Linear):
 
     def over(self, size: float) -> _Fall:
         """The same with a noise so many times as large."""
-        fall = with_prior(self.data / size, self.to_nominal)
+        fall = _linear(self.data / size, self.to_nominal)
         rest = fall.rest if np.isfinite(self.rest) else np.inf
         return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
 
@@ -164,7 +164,7 @@ class _Task:
         data = join(triangles)
         if not np.isfinite(data).all():
             return self._nowhere(x)
-        fall = with_prior(data, -x)
+        fall = _linear(data, -x)
         return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, square, rows)
 
     def noise(self, x: Array) -> list[Noise]:
@@ -263,7 +263,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
     """The end of a fit as parameters, levelled."""
     at = found.at
     step = design.levelled(found.last, at.sums, design.null_biases(task.columns))
-    covariance = with_prior(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+    covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),
         columns=task.columns,
@@ -281,6 +281,12 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
 def _triangle(piece: Piece) -> tuple[Array, int, Array, float]:
     left = piece.left(np.zeros((1, len(piece.columns) - 1)))
     return triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(left**2))
+
+
+def _linear(T: Array, to_nominal: Array) -> Linear:
+    """The fit of a triangle [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
+    R = with_prior(T, range(len(to_nominal)), to_nominal)
+    return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
 
 
 def _white(o: Observation, size: float) -> Noise:

@@ -129,7 +129,8 @@ class Minimum(Generic[L]):
     trials
         Points at which the problem was linearised.
     faithful
-        Whether the last step did what was promised of it, and none before had to be shortened: then the linearised problem can be trusted with a further one.
+        Whether the last step did what was promised of it, and none before had to be shortened: then the linearised
+        problem can be trusted with a further one.
     """
 
     x: Array

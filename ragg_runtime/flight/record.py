@@ -22,6 +22,13 @@ ANGULAR_ACCELERATION = ("omegadot_x", "omegadot_y", "omegadot_z")
 GRADIENT = ("Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_yy", "Gamma_yz", "Gamma_zz")
 VOLTAGES = ("V_1", "V_2", "V_3", "V_4")
 DEMODULATED = ("inline", "cross")
+RATES = frozenset(
+    f"{d}_{name}"
+    for d in ("d", "d2")
+    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRADIENT)
+)
+"""Time derivatives of the motion: models form them from it, whatever columns of these names hold."""
+
 OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
 
 AUXILIARY: Mapping[str, str] = MappingProxyType(
@@ -104,6 +111,10 @@ class Flight:
         units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
         set_field(self, "units", MappingProxyType(units))
 
+    def __repr__(self) -> str:
+        columns = " ".join((*self.channels, *self.outputs))
+        return f"<Flight {self.name}: {self.duration:.6g} s at {self.rate:.6g} Hz; {columns}>"
+
     def __len__(self) -> int:
         return len(self.time)
 
@@ -116,11 +127,6 @@ class Flight:
     def duration(self) -> float:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
-
-    def with_outputs(self, outputs: Mapping[str, ArrayLike]) -> Flight:
-        """The same motion with other outputs (SI), e.g. a model's; it no longer stands for the file."""
-        columns = {name: np.asarray(v, dtype=np.float64) for name, v in outputs.items()}
-        return dataclasses.replace(self, outputs=columns, path=None, digest="")
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Chain, Effect
@@ -17,8 +18,8 @@ from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
-GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
 
+GRADIENTS = GRADIENT
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
@@ -135,7 +136,8 @@ def record(flight: Flight, instrument: Instrument) -> Record:
     """What of this flight enters a model of this instrument."""
     # a long flight's columns stay on disk, unless they have to be shifted
     time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
-    return Record(time, flight.channels, flight.rate, flight.valid, instrument.spin_frequency)
+    wide = {name: x for name, x in flight.channels.items() if name not in RATES}
+    return Record(time, wide, flight.rate, flight.valid, instrument.spin_frequency)
 
 
 def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:

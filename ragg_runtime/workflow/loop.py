@@ -40,10 +40,11 @@ from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Loaded:
     """A model directory, the model derived for it, and what was odd, in sentences."""
 
@@ -59,12 +60,15 @@ class Loaded:
     def name(self) -> str:
         return self.directory.path.resolve().name
 
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
+
     def _repr_html_(self) -> str:
         steps = [s.as_json() for s in self.directory.history]
         return notebook.model(self.name, [e.id for e in self.model.effects], steps)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Added:
     """The result of ``add``: the errors before and after, and the calibrated parameters.
 
@@ -82,6 +86,13 @@ class Added:
     def converged(self) -> bool:
         """Whether the effect was added."""
         return self.after is None or self.after.converged
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return notebook.in_one_line("Added", self.effect, *errors)
 
     def _repr_html_(self) -> str:
         noise, adequate = (
@@ -142,7 +153,7 @@ def _loaded(directory: ModelDir) -> Loaded:
     note = (
         derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
     )
-    return Loaded(directory, model, () if note is None else (note,))
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
@@ -192,6 +203,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
 ) -> Survey:
@@ -201,7 +213,14 @@ def survey(
     """
     place = m.directory.path / "model.toml"
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        tls=tls,
+        resume=resume,
+        progress=progress,
     )
 
 
@@ -290,7 +309,7 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     covariance = cal.covariance[np.ix_(mine, mine)]
     return (
         tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(columns, values, covariance)),
+        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
     )
 
 
