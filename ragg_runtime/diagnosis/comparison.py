@@ -15,9 +15,10 @@ from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns
+from ragg_runtime.fit import columns, convergence
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
 from ragg_runtime.fit.observation import as_output, observations_of
+from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
 from ragg_runtime.flight import Flight
@@ -30,6 +31,10 @@ from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,6 +50,13 @@ class Comparison:
     remainder: Remainder
     nominal_values: Array
     ladder: tuple[Rung, ...] = ()
+    complaint: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration has arrived at an optimum; if not, ``complaint`` says why."""
+        return self.complaint is None
 
     @property
     def calibrated(self) -> Error:
@@ -96,6 +108,9 @@ class Comparison:
                 "holdout": self.holdout.as_json(),
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "converged": self.converged,
+            "reason": self.complaint,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
                 "harmonics": self.harmonics,
@@ -187,17 +202,41 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    f = fit(model, instrument, observations_of(flights, instrument))
-    p = vector(model, instrument)
-    half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out, nominal = f.score(
-        [f.vector(np.zeros(f.n_base)), f.vector(half)], lambda x: nominal_residual(f, p, x)[None], 1
-    )
+    observations = observations_of(flights, instrument)
+    f = fit(model, instrument, observations)
+    calibrated, half, nominal = _three_scores(f)
+    if calibrated.whole.rms_V > nominal.whole.rms_V:
+        # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
+        f = fit(model, instrument, observations, f.calibration.noise, plain=True)
+        calibrated, half, nominal = _three_scores(f)
     rem = remainder(f)
     available = testable_effects(f)
     choice = selection.choose(field_of(f, available)) if available else None
-    adequate = not rem.significant and not (choice and choice.chosen)
-    return Comparison(f, nominal.whole, calibrated, held_out.held_out, noise_floor(f), adequate, rem, p)
+    complaint = convergence.complaint(f.calibration, calibrated.held_out, half.held_out)
+    noise = noise_floor(f)
+    quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
+    adequate = quiet and not rem.significant and not (choice and choice.chosen)
+    return Comparison(
+        fitted=f,
+        nominal=nominal.whole,
+        scored=calibrated,
+        holdout=half.held_out,
+        noise_floor=noise,
+        adequate=adequate,
+        remainder=rem,
+        nominal_values=vector(model, instrument),
+        complaint=complaint,
+        off_sheet=tuple(off_sheet(model, instrument, f.calibration)),
+    )
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
+    p = vector(f.model, f.instrument)
+    half, _ = f.coefficients((), held_out=True)
+    vectors = [f.vector(np.zeros(f.n_base)), f.vector(half)]
+    calibrated, held_out, nominal = f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
+    return calibrated, held_out, nominal
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

@@ -72,7 +72,7 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
         if q.name in UNOBSERVABLE:
             continue
         factor = unit_factor(q.display_unit, known)
-        scales = q.plausible_si(instrument.accelerometers[q.name], instrument.g0)
+        scales = instrument.sigma(q.name)
         for j in range(instrument.layout.size):
             column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
             found.append((column, start[q.name] + j))

@@ -14,6 +14,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
@@ -28,6 +29,10 @@ Array = NDArray[np.float64]
 
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+
+WIDENED = 3
+"""Most times that a sheet is taken to be less sure than it says."""
 
 
 @dataclass(frozen=True)
@@ -230,13 +235,23 @@ def fit(
     observations: Sequence[Observation],
     noise: Sequence[Noise] | None = None,
     start: Array | None = None,
+    *,
+    plain: bool = False,
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
-    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given.
+    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
+    ``plain``: all samples weigh the same in it.
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
+    wider = widened(model, instrument, c)
+    for _ in range(WIDENED):
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, plain=plain)
+        wider = widened(model, instrument, c)
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",

@@ -89,9 +89,11 @@ def model_text(instrument: Instrument) -> str:
     known = instrument.units
     for p in PARAMETERS:
         shown = known.from_si(instrument.accelerometers[p.name], p.si_unit, p.display_unit)
-        accelerometers.add(
-            p.name, _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
-        )
+        entry = _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
+        if p.name in instrument.sigmas:
+            sigma = known.from_si(instrument.sigmas[p.name], p.si_unit, p.display_unit)
+            entry.add("sigma", [_plain(v) for v in sigma])
+        accelerometers.add(p.name, entry)
     document.add("effects", tomlkit.array())
     if instrument.effects_folder is not None:
         document.add("effects_folder", str(instrument.effects_folder))
@@ -210,8 +212,11 @@ def _plain(value: float) -> int | float:
 
 
 def _put(table: Any, name: str, item: Any) -> None:
+    """Set a quantity; the sigma of the old one stays where the unit does."""
     if name in table:
         old = table[name]
+        if isinstance(old, dict) and "sigma" in old and old.get("unit") == item.get("unit"):
+            item.add("sigma", old["sigma"])
         trivia = getattr(old, "trivia", None)
         table[name] = item
         if trivia is not None:

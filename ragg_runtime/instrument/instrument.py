@@ -62,8 +62,9 @@ class EffectSetting:
 class Instrument:
     """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
 
-    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`. ``radius`` and
-    ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
+    Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
+    the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
+    ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
     """
 
     radius: float
@@ -73,6 +74,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
     form: Form = forms.PAPER
     layout: Layout = PAPER
 
@@ -92,6 +94,7 @@ class Instrument:
         effects_folder: Path | None = None,
         form: Form = forms.PAPER,
         layout: Layout | None = None,
+        sigmas: Mapping[str, ArrayLike] | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
 
@@ -117,6 +120,7 @@ class Instrument:
             effects_folder=effects_folder,
             layout=layout,
             form=form,
+            sigmas=MappingProxyType({name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}),
         )
         _check_physical(made)
         return made
@@ -128,6 +132,12 @@ class Instrument:
             name: _vector(v, self.layout.size) for name, v in changes.items()
         }
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+
+    def sigma(self, name: str) -> Vector:
+        """How far a parameter of the accelerometers may be from its sheet, (n,) SI: as the sheet says, or plausible."""
+        if name in self.sigmas:
+            return self.sigmas[name]
+        return PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
 
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
         """The same instrument with another list of effects."""

@@ -38,11 +38,13 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
     known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0")
     _check_names(table, known, None, path)
     layout, g0 = _discs(table, path)
+    accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
     return Instrument.build(
         radius=layout.places[0].radius,
         spin_frequency=layout.discs[layout.places[0].disc].spin_frequency,
         g0=g0,
-        accelerometers=_accelerometers(_table(table, "accelerometers", path), g0, path, layout.size),
+        accelerometers=accelerometers,
+        sigmas=sigmas,
         effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
@@ -105,13 +107,26 @@ def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
     }
 
 
-def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None, count: int) -> dict[str, Vector]:
+def _accelerometers(
+    table: Mapping[str, Any], g0: float, path: Path | None, count: int
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Values, and how sure the sheet is of those for which it says so, in SI."""
     _check_names(table, PARAMETER, "accelerometers", path)
-    found = {}
+    found, sigmas = {}, {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
-        found[name] = _si(read_quantity(raw, place, count=count), PARAMETER[name].si_unit, g0, place)
-    return found
+        si_unit = PARAMETER[name].si_unit
+        own = {k: v for k, v in raw.items() if k != "sigma"} if isinstance(raw, dict) else raw
+        quantity = read_quantity(own, place, count=count)
+        found[name] = _si(quantity, si_unit, g0, place)
+        if isinstance(raw, dict) and "sigma" in raw:
+            where = f"{place}, sigma"
+            sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
+            sigmas[name] = _si(sigma, si_unit, g0, where)
+            if np.any(sigmas[name] <= 0):
+                expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; none if the sheet does not say"
+                raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
+    return found, sigmas
 
 
 def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:

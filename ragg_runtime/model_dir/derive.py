@@ -217,11 +217,13 @@ def _placed(layout: Layout) -> SymbolicLayout:
     return SymbolicLayout(names=layout.names, constants=stations.constants(layout), outputs=outputs)
 
 
-def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
-    """``model`` with further effects derived into it; without signatures of any more."""
+def with_effects(
+    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
+) -> Model:
+    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, (), instrument.form, instrument.layout)[0]
+    return derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:

@@ -231,9 +231,9 @@ _one_thread = _Limit()
 
 
 def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
-    def extended(m: Model, ids: Sequence[str]) -> Model:
+    def extended(m: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
         with _deriving:
-            return derive.with_effects(instrument, m, ids)
+            return derive.with_effects(instrument, m, ids, candidates=candidates)
 
     f = fit(model, instrument, observations_of([flight], instrument))
     p = vector(model, instrument)

@@ -89,7 +89,10 @@ class Loaded:
 
 @dataclass(frozen=True, repr=False)
 class Added:
-    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
 
     loaded: Loaded
     effect: str
@@ -97,6 +100,11 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
 
     def __repr__(self) -> str:
         before = None if self.before is None else self.before.calibrated.rms_Eo
@@ -114,6 +122,9 @@ class Added:
     def as_json(self) -> dict[str, object]:
         return {
             "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
             "before": errors_of(self.before),
             "after": errors_of(self.after),
             "parameters": [p.as_json() for p in self.parameters],
@@ -211,8 +222,8 @@ def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] =
     """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
     distinct(flights)
 
-    def extended(model: Model, ids: Sequence[str]) -> Model:
-        return derive.with_effects(m.instrument, model, ids)
+    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
+        return derive.with_effects(m.instrument, model, ids, candidates=candidates)
 
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
@@ -279,7 +290,7 @@ def add(
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
     The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
-    nothing is changed.
+    nothing is changed; nor where the calibration does not converge.
     """
     distinct(flights)
     instrument = m.instrument
@@ -323,6 +334,11 @@ def add(
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         after = after.with_nominal(with_values)
+        if not after.converged:
+            made = Added(m, effect, before, after, parameters, combinations)
+            if tell is not None:
+                tell(made)
+            return made
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",
