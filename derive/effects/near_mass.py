@@ -29,9 +29,10 @@ def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
     def tensor(*axes: str) -> sp.Matrix:
         return sp.Matrix(3, 3, [component(p, *axes, a, b) for a in "xyz" for b in "xyz"])
 
+    r = c.in_measurement_frame(r)
     second = {k: r.dot(tensor(k) * r) / 2 for k in "xyz"}
     third = {k: sp.Add(*(r["xyz".index(j)] * r.dot(tensor(k, j) * r) for j in "xyz")) / 6 for k in "xyz"}
-    return sp.Matrix([-second[k] - third[k] for k in "xyz"])
+    return c.in_disc_frame(sp.Matrix([-second[k] - third[k] for k in "xyz"]))
 
 
 EFFECT = Effect(

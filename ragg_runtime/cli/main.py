@@ -386,7 +386,14 @@ def add(
             _emit(result.as_json() | origin, json_file, terminal.added(result, read))
 
     with progress.shown("add", sum(map(len, read))):
-        loop.add(m, effect, read, tell)
+        result = loop.add(m, effect, read, tell)
+    if not result.converged:
+        raise UserError(
+            "nothing was added: the model is as it was",
+            where=", ".join(x.name for x in read),
+            found=result.after.complaint if result.after else None,
+            remedy="see what else is missing: ragg diagnose; or what is wrong with the record",
+        )
 
 
 @cli.command()

@@ -13,6 +13,8 @@ from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit import off_sheet
+from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.form import Form
@@ -44,6 +46,15 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
         f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
         "there is no such stretch"
     ]
+
+
+def _not_converged(complaint: str | None) -> list[str]:
+    return [] if complaint is None else [f"NOT CONVERGED: {complaint}"]
+
+
+def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
+    said = off_sheet.note(found)
+    return [] if said is None else [f"note: {said}"]
 
 
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
@@ -89,8 +100,10 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
         f"{'noise floor':12} {c.noise_floor:12.5g}",
         *_missing((c.calibrated, c.holdout), flights),
         "",
+        *_not_converged(c.complaint),
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
         *ladder(c),
+        *_off_sheet(c.off_sheet),
     ]
     where: Any = c.as_json()["where"]
     if where["motion"]:
@@ -121,6 +134,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
     """The result of ``diagnose``."""
     lines = [
         notebook.verdict(d.verdict, d.found),
+        *_not_converged(d.complaint),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
         "",
         f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
@@ -155,13 +169,15 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
         lines += ["", f"next: ragg add {one_line(str(model_dir))} {d.found[0]} FLIGHT"]
+    lines += _off_sheet(d.off_sheet)
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
 def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     """The result of ``add``."""
-    lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
+    done = f"added {a.effect}" if a.converged else f"{a.effect} was NOT added"
+    lines = [f"{done}; effects: {', '.join(e.id for e in a.loaded.model.effects) or 'none'}"]
     if a.before is not None and a.after is not None:
         lines += [
             _HEAD,
@@ -171,7 +187,9 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
             f"{'noise floor':12} {a.after.noise_floor:12.5g}",
             *_missing((a.after.calibrated, a.after.holdout), flights),
             "",
+            *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
+            *_off_sheet(a.after.off_sheet),
         ]
         lines += _parameters(a.parameters, a.combinations)
     lines += [f"note: {note}" for x in flights for note in x.notes]

@@ -108,8 +108,13 @@ class Flight:
                     )
             set_field(self, group, MappingProxyType(columns))
         names = ("time", *self.channels, *self.outputs)
-        units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
+        units = {name: self.units.get(name) or self._unit(name) for name in names}
         set_field(self, "units", MappingProxyType(units))
+
+    def _unit(self, name: str) -> str:
+        """SI unit of a column: outputs and disc angles have names of the instrument's own."""
+        own = "V" if name in self.outputs else "rad" if name.startswith("spin_angle") else "1"
+        return SI_UNITS.get(name, own)
 
     def __repr__(self) -> str:
         columns = " ".join((*self.channels, *self.outputs))

@@ -147,7 +147,7 @@ def by_combination(f: Fitted) -> list[Row]:
     fitted = posterior(f)
     rows = []
     for positions in _names(f).values():
-        if len(positions) != 4:
+        if len(positions) != 4 or not f.instrument.layout.like_paper:
             continue
         first = c.columns[positions[0]]
         scale = np.array([c.columns[n].scale for n in positions])
@@ -180,7 +180,7 @@ def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
     kind = f.observations[0].kind
     directions, rows = [], []
     for positions in _names(f).values():
-        together = kind == "G_out" and len(positions) == 4
+        together = kind == "G_out" and len(positions) == 4 and f.instrument.layout.like_paper
         for k, n in enumerate(positions):
             row = np.zeros(len(columns))
             if together:
@@ -214,7 +214,7 @@ def visibility(f: Fitted) -> Visibility:
         len(own),
         tuple((k, tuple(v)) for k, v in unseen.items()),
         tuple(g for g in groups if g.unseen),
-        f.observations[0].kind == "G_out",
+        f.observations[0].kind == "G_out" and f.instrument.layout.like_paper,
     )
 
 

@@ -68,6 +68,7 @@ def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
             f" {', '.join(c['effects']) or 'none'}"
         ),
         _table(ERROR_HEADS, rows),
+        *_not_converged(c),
         _line(ADEQUATE if c["adequate"] else NOT_ADEQUATE, strong=True),
         *(
             [
@@ -87,6 +88,10 @@ def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
     )
 
 
+def _not_converged(x: Mapping[str, Any]) -> list[str]:
+    return [] if x.get("converged", True) else [_line(f"NOT CONVERGED: {x['reason']}", strong=True)]
+
+
 def diagnosis(d: Mapping[str, Any]) -> str:
     """The result of ``diagnose``."""
     before, after = d["error"]["before"]["rms_Eo"], d["error"]["after"]["rms_Eo"]
@@ -101,6 +106,7 @@ def diagnosis(d: Mapping[str, Any]) -> str:
     ]
     parts = [
         _line(verdict(d["verdict"], d["found"]), strong=True),
+        *_not_converged(d),
         _line(
             f"error {number(before)} Eo -> {number(after)} Eo rms,"
             f" noise floor {number(d['noise_floor']['rms_Eo'])} Eo"
@@ -138,7 +144,8 @@ def diagnosis(d: Mapping[str, Any]) -> str:
 
 def added(a: Mapping[str, Any], effects: Sequence[str], noise: float | None, adequate: bool) -> str:
     """The result of ``add``; ``noise`` and ``adequate`` are those after it."""
-    parts = [_line(f"added {a['effect']}; effects: {', '.join(effects)}", strong=True)]
+    done = f"added {a['effect']}" if a.get("converged", True) else f"{a['effect']} was NOT added"
+    parts = [_line(f"{done}; effects: {', '.join(effects)}", strong=True), *_not_converged(a)]
     if a["before"] is not None and a["after"] is not None and noise is not None:
         rows = [
             _error("before", a["before"]["calibrated"]),

@@ -36,6 +36,7 @@ from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
@@ -88,7 +89,10 @@ class Loaded:
 
 @dataclass(frozen=True, repr=False)
 class Added:
-    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
 
     loaded: Loaded
     effect: str
@@ -96,6 +100,11 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
 
     def __repr__(self) -> str:
         before = None if self.before is None else self.before.calibrated.rms_Eo
@@ -113,6 +122,9 @@ class Added:
     def as_json(self) -> dict[str, object]:
         return {
             "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
             "before": errors_of(self.before),
             "after": errors_of(self.after),
             "parameters": [p.as_json() for p in self.parameters],
@@ -179,7 +191,7 @@ def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | N
     how = mapping_of(m, mapping)
     found = []
     for path in paths:
-        for x in _read_flights(path, m.instrument.g0, mapping=how):
+        for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
             found.append(settled(examined(m.model, m.instrument, x)))
     return found
 
@@ -218,8 +230,8 @@ def diagnose(
     """
     distinct(flights)
 
-    def extended(model: Model, ids: Sequence[str]) -> Model:
-        return derive.with_effects(m.instrument, model, ids)
+    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
+        return derive.with_effects(m.instrument, model, ids, candidates=candidates)
 
     if compared is not None:
         return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
@@ -290,7 +302,8 @@ def add(
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
     The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
-    nothing is changed. Without ``save`` the directory stays, and the result says what would be.
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
     """
     distinct(flights)
     instrument = m.instrument
@@ -328,12 +341,17 @@ def add(
     if flights:
         after = _compare.compare(model, extended, flights)
         parameters, combinations = calibrated(after, effect)
-        values |= settings(parameters)
+        values |= settings(parameters, instrument.layout.size)
         with_values = replace(
             extended,
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         after = after.with_nominal(with_values)
+        if not after.converged:
+            made = Added(m, effect, before, after, parameters, combinations)
+            if tell is not None:
+                tell(made)
+            return made
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",
@@ -388,17 +406,17 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     )
 
 
-def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
-    """Calibrated parameters as they are written to model.toml."""
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for p in parameters:
         if p.accelerometer is None:
             values[p.name] = RawQuantity(p.value, p.unit)
         else:
             old = values.get(p.name)
-            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
-            four[p.accelerometer - 1] = p.value
-            values[p.name] = RawQuantity(tuple(four), p.unit)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
     return values
 
 

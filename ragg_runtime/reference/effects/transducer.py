@@ -133,10 +133,10 @@ LONGEST_LAG = 0.03
 _NODES, _WEIGHTS = np.polynomial.laguerre.laggauss(10)
 
 
-def lags(effects: Injected) -> Array:
-    """Time constants of the four accelerometers, (4,) s."""
+def lags(effects: Injected, count: int) -> Array:
+    """Time constants of the accelerometers, (count,) s."""
     if "lag" not in effects:
-        return np.zeros(4)
+        return np.zeros(count)
     tau = effects["lag"]["tau"]
     if np.any(tau < 0) or np.any(tau > LONGEST_LAG):
         raise UserError("a lag is out of range", found=tau.tolist(), expected=f"0 to {LONGEST_LAG} s")
