@@ -173,13 +173,29 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
+)
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
 @_json
 @_report
-def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def compare(
+    model_dir: Path,
+    flights: Sequence[Path],
+    frozen: bool,
+    calibration: str,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime import texts, workflow
 
     m = _load(model_dir)
+    if frozen or calibration == "frozen":
+        from ragg_runtime.commands_after import compare_frozen
+
+        compare_frozen(m, flights, json_file, report_file)
+        return
     _progress(f"reading {len(flights)} flight(s)")
     read = workflow.read_flights(m, flights)
     _progress("calibrating and comparing")
@@ -465,9 +481,11 @@ def demo(output: Path) -> None:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     try:
+        from ragg_runtime import commands_after
         from ragg_runtime.experiments.command import experiment
 
-        cli.add_command(experiment)
+        for command in (experiment, *commands_after.COMMANDS):
+            cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:

@@ -270,6 +270,14 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
+    return about(model, instrument, observations, c)
+
+
+@one_thread
+def about(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+) -> Fitted:
+    """The evidence about a calibration, however it was found."""
     flown = work.prepare(model, instrument, observations, c)
     triangles, sums = zip(*(work.blocks(x) for x in flown), strict=True)
     return Fitted(
@@ -492,16 +500,25 @@ def channel_unit(name: str) -> str:
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
     f = fit(model, instrument, [observe(x, instrument) for x in flights])
-    p = vector(model, instrument)
     half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out, nominal = f.score(
-        [f.vector(np.zeros(f.n_base)), f.vector(half)], lambda x: nominal_residual(f, p, x)[None], 1
-    )
+    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    return concluded(f, nominal.whole, calibrated, held_out.held_out)
+
+
+def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    p = vector(f.model, f.instrument)
+    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+
+
+def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
+    """Search what is left, and say whether the model is adequate."""
     rem = remainder(f)
     available = testable_effects(f)
     choice = search.choose(f.field(available)) if available else None
     adequate = not rem.significant and not (choice and choice.chosen)
-    return Comparison(f, nominal.whole, calibrated, held_out.held_out, noise_floor(f), adequate, rem, p)
+    p = vector(f.model, f.instrument)
+    return Comparison(f, nominal, calibrated, holdout, noise_floor(f), adequate, rem, p)
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

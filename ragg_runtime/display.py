@@ -85,6 +85,22 @@ def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
     )
 
 
+def calibration(c: Mapping[str, Any], flights: Sequence[str]) -> str:
+    """The result of ``calibrate``."""
+    e = c["error"]
+    rows = [_error(label, e[key]) for label, key in (("nominal", "nominal"), ("calibrated", "calibrated"))]
+    rows += [_error("held out", e["holdout"]), _noise(c["noise_floor"]["rms_Eo"])]
+    seen = c["directions"]
+    return _fragment(
+        _line(
+            f"calibrated on {', '.join(flights)}" + ("" if c["converged"] else ", NOT converged"), strong=True
+        ),
+        _table(ERROR_HEADS, rows),
+        _line(f"the record determines {seen['seen']} of {seen['fitted']} directions:"),
+        *(_line(parameter({"accelerometer": None, **q})) for q in c["combinations"]),
+    )
+
+
 def diagnosis(d: Mapping[str, Any]) -> str:
     """The result of ``diagnose``."""
     before, after = d["error"]["before"]["rms_Eo"], d["error"]["after"]["rms_Eo"]

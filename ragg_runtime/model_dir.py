@@ -1,4 +1,4 @@
-"""A model directory: model.toml, generated/ and history.json, changed all together or not at all.
+"""A model directory: model.toml, generated/, history.json and calibration.json, changed all together or not at all.
 
 A change is a transaction (:mod:`ragg_runtime.transaction`): a process may be killed at any instant. Writers
 hold a lock; readers need none: they look again if a change came between.
@@ -25,10 +25,11 @@ from ragg_runtime.lock import locked
 
 __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
-MODEL, GENERATED, HISTORY = "model.toml", "generated", "history.json"
+MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 Code = Mapping[str, str] | Path | None
 """Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
 
+_LONGEST = 1 << 26  # bytes of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 
@@ -50,6 +51,8 @@ class ModelDir:
         The steps so far, oldest first.
     digest
         SHA-256 over all of it, hexadecimal: equal states have equal digests.
+    calibration
+        The text of calibration.json; ``None``: nothing was ever saved.
     """
 
     path: Path
@@ -58,6 +61,7 @@ class ModelDir:
     generated: Path | None
     history: tuple[Step, ...]
     digest: str
+    calibration: str | None = None
 
 
 def load_model_dir(path: Path | str) -> ModelDir:
@@ -129,9 +133,16 @@ def create_model_dir(
 
 
 def replace_model_dir(
-    current: ModelDir, text: str, *, generated: Code, history: tuple[Step, ...]
+    current: ModelDir,
+    text: str,
+    *,
+    generated: Code,
+    history: tuple[Step, ...],
+    calibration: str | None = None,
 ) -> ModelDir:
-    """Put a new state in place of ``current``: all three things, or nothing if this fails or is killed.
+    """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
+
+    Without a ``calibration`` (text of calibration.json) the one that is there stays.
 
     Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
     """
@@ -154,7 +165,7 @@ def replace_model_dir(
                 remedy="look at it with: ragg history, and run the command again",
             )
         try:
-            _stage(transaction.stage(path), text, generated, history)
+            _stage(transaction.stage(path), text, generated, history, calibration)
             folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
             transaction.switch(path, folders, removed=removed)
         except OSError as error:
@@ -166,8 +177,12 @@ def replace_model_dir(
     return load_model_dir(path)
 
 
-def _stage(folder: Path, text: str, generated: Code, history: tuple[Step, ...]) -> None:
+def _stage(
+    folder: Path, text: str, generated: Code, history: tuple[Step, ...], calibration: str | None = None
+) -> None:
     """Write a complete state into an empty folder."""
+    if calibration is not None:
+        (folder / CALIBRATION).write_bytes(calibration.encode())
     (folder / MODEL).write_bytes(text.encode())
     (folder / HISTORY).write_text(history_text(history), "utf-8")
     if isinstance(generated, Path):
@@ -200,9 +215,9 @@ def _cannot_complete(path: Path, error: OSError) -> UserError:
 
 
 def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
-    """What changes whenever one of the three things is replaced or edited."""
+    """What changes whenever one of these things is replaced or edited."""
     found: list[tuple[int, int, int] | None] = []
-    for name in (MODEL, GENERATED, HISTORY):
+    for name in (MODEL, GENERATED, HISTORY, CALIBRATION):
         try:
             status = (path / name).stat()
         except FileNotFoundError:
@@ -222,6 +237,7 @@ def _read(path: Path) -> ModelDir:
         )
     text = read_text(path / MODEL)
     history = read_history(path / HISTORY)
+    calibration = read_text(path / CALIBRATION, _LONGEST) if (path / CALIBRATION).exists() else None
     generated = path / GENERATED if (path / GENERATED).is_dir() else None
     return ModelDir(
         path=path,
@@ -230,13 +246,14 @@ def _read(path: Path) -> ModelDir:
         generated=generated,
         history=history,
         digest=_digest(path),
+        calibration=calibration,
     )
 
 
 def _digest(path: Path) -> str:
-    """SHA-256 over the three things. Links and pipes in generated/ count by what they are, and are not followed."""
+    """SHA-256 over all of it. Links and pipes in generated/ count by what they are, and are not followed."""
     total = hashlib.sha256()
-    for file in (path / MODEL, path / HISTORY, *_below(path / GENERATED)):
+    for file in (path / MODEL, path / HISTORY, path / CALIBRATION, *_below(path / GENERATED)):
         try:
             status = file.lstat()
             if stat.S_ISLNK(status.st_mode) and file.parent != path:

@@ -72,18 +72,27 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
 
 
+def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+    """Errors, the first before anything was done, above the noise floor; why some have no value."""
+    return [
+        _HEAD,
+        *(f"{label:12} {_error(e)}" for label, e in rows),
+        f"{'noise floor':12} {noise:12.5g}",
+        *_missing([e for _, e in rows[1:]], flights),
+    ]
+
+
 def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     """The result of ``compare``."""
     f = c.fitted
     lines = [
         f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
         f"{', '.join(e.id for e in f.model.effects) or 'none'}",
-        _HEAD,
-        f"{'nominal':12} {_error(c.nominal)}",
-        f"{'calibrated':12} {_error(c.calibrated)}",
-        f"{'held out':12} {_error(c.holdout)}",
-        f"{'noise floor':12} {c.noise_floor:12.5g}",
-        *_missing((c.calibrated, c.holdout), flights),
+        *errors_table(
+            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            c.noise_floor,
+            flights,
+        ),
         "",
         display.ADEQUATE if c.adequate else display.NOT_ADEQUATE,
     ]
@@ -158,13 +167,9 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     """The result of ``add``."""
     lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
     if a.before is not None and a.after is not None:
+        rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            _HEAD,
-            f"{'before':12} {_error(a.before.calibrated)}",
-            f"{'after':12} {_error(a.after.calibrated)}",
-            f"{'held out':12} {_error(a.after.holdout)}",
-            f"{'noise floor':12} {a.after.noise_floor:12.5g}",
-            *_missing((a.after.calibrated, a.after.holdout), flights),
+            *errors_table(rows, a.after.noise_floor, flights),
             "",
             display.NOW_ADEQUATE if a.after.adequate else display.STILL_MISSING,
         ]

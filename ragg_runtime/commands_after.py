@@ -1,0 +1,78 @@
+"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``export``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from ragg_runtime import progress
+from ragg_runtime.cli import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
+from ragg_runtime.errors import printable
+from ragg_runtime.workflow import Loaded
+
+
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
+@_json
+def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
+    """Fit the model's parameters: values, how sure they are, what the record sees of them."""
+    from ragg_runtime import texts, texts_after, workflow, workflow_after
+
+    m = _load(model_dir)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow.read_flights(m, flights)
+    _progress("calibrating")
+    with progress.shown("compare", sum(map(len, read))):
+        kept = workflow_after.calibrate(m, read, save)
+    origin = texts.origin(kept.loaded, read, _command())
+    _emit(kept.as_json() | origin, json_file, texts_after.calibrated(kept, read))
+
+
+def compare_frozen(
+    m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
+) -> None:
+    """``ragg compare --frozen``."""
+    from ragg_runtime import texts, texts_after, workflow, workflow_after
+    from ragg_runtime.compensation.frozen import sentence
+
+    odd = _calibration_notes(m)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow.read_flights(m, flights)
+    _progress("comparing with the calibration that was kept")
+    with progress.shown("compare", sum(map(len, read))):
+        h = workflow_after.compare_frozen(m, read)
+
+    def page() -> str:
+        from ragg_runtime.report import compare_html
+
+        return compare_html(
+            h.comparison,
+            title=f"{m.name}, frozen, and {', '.join(x.name for x in read)}",
+            command=_command(),
+            sources=workflow.sources(m, read),
+            notes=[sentence(h), *odd, *texts.notes(m, read)],
+        )
+
+    _write_report(report_file, page)
+    origin = texts.origin(m, read, _command())
+    _emit(
+        h.as_json() | origin | {"notes": [*odd, *texts.notes(m, read)]}, json_file, texts_after.held(h, read)
+    )
+
+
+def _calibration_notes(m: Loaded) -> list[str]:
+    """What is odd about the saved calibration, told on stderr as well."""
+    from ragg_runtime import workflow_after
+
+    odd = workflow_after.calibration_notes(m)
+    for note in odd:
+        click.echo(printable(f"note: {note}"), err=True)
+    return odd
+
+
+COMMANDS = (calibrate,)
+"""What the command line registers."""

@@ -1,0 +1,224 @@
+"""Calibrate once: parameters, what the record sees of them and what the sheet alone says, and where it is valid."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime import calibrate, compare
+from ragg_runtime.compare import Fitted
+from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.design import Column, join
+from ragg_runtime.diagnose import PATTERNS, ParameterValue, parameter_values
+from ragg_runtime.evaluate import vector
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Model
+from ragg_runtime.metrics import Error
+from ragg_runtime.segments import ROWS
+
+Array = NDArray[np.float64]
+
+SEEN = 0.1
+"""A combination counts as seen where the record brings its standard deviation below this share of the sheet's."""
+
+LEARNED = 0.5
+"""About a parameter whose standard deviation the record at least halves, the record says more than the sheet."""
+
+
+@dataclass(frozen=True)
+class Combination:
+    """A parameter, or a combination of four, that a record determines: ``weights`` (n,) on the fitted columns."""
+
+    name: str
+    weights: Array
+    unit: str
+    factor: float
+
+    def of(self, values: Array, covariance: Array) -> tuple[float, float]:
+        """Value and standard deviation, in ``unit``, of values (n,) and covariance (n, n) in scales."""
+        variance = float(self.weights @ covariance @ self.weights)
+        return float(self.weights @ values) * self.factor, float(np.sqrt(max(0.0, variance))) * self.factor
+
+
+def visible(columns: Sequence[Column], covariance: Array) -> list[Combination]:
+    """What a covariance (n, n), in scales, says to be determined: single values, else the paper's combinations."""
+    found = []
+
+    def add(label: str, places: Sequence[int], weights: Sequence[float]) -> None:
+        w = np.zeros(len(columns))
+        w[list(places)] = weights
+        if float(w @ covariance @ w) < SEEN**2 * float(w @ w):
+            c = columns[places[0]]
+            found.append(Combination(name=label, weights=w, unit=c.unit, factor=c.scale / c.unit_factor))
+
+    for name in dict.fromkeys(c.name for c in columns):
+        places = [k for k, c in enumerate(columns) if c.name == name]
+        label = name.split(".", 1)[-1]
+        singly = bool(np.all(np.diag(covariance)[places] < SEEN**2))
+        if singly or len(places) != len(PATTERNS[0][1]):
+            for k in places:
+                j = columns[k].accelerometer
+                add(label if j is None else f"{label}[{j}]", [k], [1.0])
+        else:
+            for pattern, weights in PATTERNS:
+                add(pattern.format(label), places, weights)
+    return found
+
+
+def converged(f: Fitted) -> bool:
+    """Whether the fit had settled: as the calibration says, else by what one more step would gain."""
+    said = getattr(f.calibration, "converged", None)
+    if said is not None:
+        return bool(said)
+    normal = calibrate.with_prior(join([t for x in f.triangles for t in _base(x, f.n_base)]), f.to_nominal)
+    gain, size = normal.gain(normal.step), float(np.max(np.abs(normal.step)))
+    return gain < calibrate.SETTLED[0] or size < calibrate.SETTLED[1]
+
+
+def _base(triangles: Sequence[Array], n: int) -> list[Array]:
+    return [t[:, [*range(n), -1]] for t in triangles]
+
+
+def alone(f: Fitted, flight: int) -> tuple[Array, Array]:
+    """What one of the flights says by itself (with the sheet): step from the present point, and covariance, in scales."""
+    normal = calibrate.with_prior(join(_base(f.triangles[flight], f.n_base)), f.to_nominal)
+    return normal.step, normal.covariance
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """A model calibrated on flights."""
+
+    fitted: Fitted
+    nominal: Error
+    error: Error
+    holdout: Error
+
+    @property
+    def converged(self) -> bool:
+        return converged(self.fitted)
+
+    @cached_property
+    def values(self) -> Array:
+        """(n,): the fitted parameters, in scales."""
+        c = self.fitted.calibration
+        return np.asarray(c.p[c.index] / np.array([q.scale for q in c.columns]))
+
+    @cached_property
+    def parameters(self) -> list[ParameterValue]:
+        c = self.fitted.calibration
+        return parameter_values(c.columns, self.values, c.covariance)
+
+    @cached_property
+    def combinations(self) -> list[Combination]:
+        c = self.fitted.calibration
+        return visible(c.columns, c.covariance)
+
+    @cached_property
+    def directions(self) -> tuple[int, int]:
+        """How many directions of the parameters the record determines, and how many there are."""
+        variances = np.linalg.eigvalsh(self.fitted.calibration.covariance)
+        return int(np.sum(variances < LEARNED**2)), len(variances)
+
+    def drift(self) -> list[dict[str, Any]]:
+        """The visible combinations as every flight alone has them; nothing for one flight."""
+        f, c = self.fitted, self.fitted.calibration
+        if len(f.observations) < 2:
+            return []
+        rows = []
+        for k, o in enumerate(f.observations):
+            step, covariance = alone(f, k)
+            for q in self.combinations:
+                value, std = q.of(self.values + step, covariance)
+                rows.append({"flight": o.name, "name": q.name, "value": value, "std": std, "unit": q.unit})
+        return rows
+
+    def as_json(self) -> dict[str, Any]:
+        c = self.fitted.calibration
+        sheet = self.values + self.fitted.to_nominal
+        parameters = []
+        for q, column, s, variance in zip(
+            self.parameters, c.columns, sheet, np.diag(c.covariance), strict=True
+        ):
+            factor = column.scale / column.unit_factor
+            said_by = "record" if variance < LEARNED**2 else "sheet"
+            parameters.append(
+                {
+                    **q.as_json(),
+                    "effect": column.effect,
+                    "sheet": float(s) * factor,
+                    "sheet_sigma": factor,
+                    "said_by": said_by,
+                }
+            )
+        combinations = []
+        for x in self.combinations:
+            value, std = x.of(self.values, c.covariance)
+            combinations.append({"name": x.name, "value": value, "std": std, "unit": x.unit})
+        return {
+            "converged": self.converged,
+            "effects": [e.id for e in self.fitted.model.effects],
+            "error": {
+                "nominal": self.nominal.as_json(),
+                "calibrated": self.error.as_json(),
+                "holdout": self.holdout.as_json(),
+            },
+            "noise_floor": {"rms_Eo": compare.noise_floor(self.fitted)},
+            "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
+            "parameters": parameters,
+            "combinations": combinations,
+            "drift": self.drift(),
+        }
+
+
+def calibrated(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Calibrated:
+    """Fit a model to flights and hold it against held-out time."""
+    f = compare.fit(model, instrument, [compare.observe(x, instrument) for x in flights])
+    half, _ = f.coefficients((), held_out=True)
+    whole, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), half])
+    return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
+
+
+def to_save(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
+    """The calibration as it is kept."""
+    f, q = c.fitted, c.fitted.calibration
+    return Saved(
+        time=time,
+        effects=tuple(e.id for e in f.model.effects),
+        derivation=f.model.digest,
+        layout=tuple(f.model.chain.PARAMETERS),
+        p=q.p,
+        sheet=vector(f.model, f.instrument),
+        columns=q.columns,
+        index=q.index,
+        covariance=q.covariance,
+        converged=c.converged,
+        validity=validity(flights),
+        flights={x.name: x.digest for x in flights},
+        error=c.as_json()["error"],
+    )
+
+
+def validity(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
+    """Channel -> its range, SI, over the valid samples of all flights that have it; ``time`` since the first sample."""
+    found: dict[str, tuple[float, float]] = {}
+    for x in flights:
+        for name, values in ({"time": x.time} | dict(x.channels)).items():
+            low, high = found.get(name, (np.inf, -np.inf))
+            for start in range(0, len(x.time), ROWS):
+                some = slice(start, start + ROWS)
+                y = values[some][x.valid[some]]
+                y = y[np.isfinite(y)] - (x.time[0] if name == "time" else 0.0)
+                if len(y):
+                    low, high = min(low, float(np.min(y))), max(high, float(np.max(y)))
+            let_go(values)
+            if low <= high:
+                found[name] = (low, high)
+    return found

@@ -1,0 +1,237 @@
+"""A calibration that was kept, held against another flight: nothing is fitted, and how well it holds is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from ragg_runtime import calibrate, compare
+from ragg_runtime.calibrate import Calibration
+from ragg_runtime.compare import Comparison, Fitted
+from ragg_runtime.compensation import calibrated
+from ragg_runtime.compensation.saved import Saved, read
+from ragg_runtime.design import Observation, base_columns, join
+from ragg_runtime.errors import UserError, did_you_mean
+from ragg_runtime.evaluate import scale_factor, vector
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument import Instrument
+from ragg_runtime.load import Model
+from ragg_runtime.metrics import Error
+from ragg_runtime.model_dir import CALIBRATION, ModelDir
+from ragg_runtime.passes import Noise, Point
+from ragg_runtime.threads import one_thread
+
+Array = NDArray[np.float64]
+
+INFORMED = 0.1
+"""A direction is tested where the flight knows at least this share of what the saved calibration knows: the rest is
+noise that would hide a change."""
+
+HOLDS = 0.01
+"""Level of the test that the frozen parameters are still the instrument's."""
+
+
+def in_force(directory: ModelDir, model: Model) -> Saved:
+    """The calibration that a model directory keeps, if it is of this model; UserError if there is none."""
+    where = str(directory.path / CALIBRATION)
+    again = f"calibrate: ragg calibrate {directory.path} FLIGHT... --save"
+    if directory.calibration is None:
+        raise UserError("the model has no saved calibration", where=directory.path, remedy=again)
+    saved = read(directory.calibration, where)[-1]
+    nominal = vector(model, directory.instrument)
+    names = tuple(model.chain.PARAMETERS)
+    if saved.layout != names or saved.effects != tuple(e.id for e in model.effects):
+        raise UserError(
+            "the saved calibration is of another model",
+            where=where,
+            found=f"effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            expected=f"effects {', '.join(e.id for e in model.effects) or 'none'}",
+            remedy=again,
+        )
+    current = {(c.name, c.accelerometer): k for c, k in base_columns(model, directory.instrument)}
+    for c, k in zip(saved.columns, saved.index, strict=True):
+        if current.get((c.name, c.accelerometer)) != k:
+            raise UserError(
+                "the saved calibration names a parameter that the model does not fit",
+                where=where,
+                found=c.label,
+                remedy=did_you_mean(c.name, [name for name, _ in current]) or again,
+            )
+    given = np.setdiff1d(np.arange(len(nominal)), saved.index)
+    if not np.array_equal(saved.p[given], nominal[given]):
+        raise UserError(
+            "model.toml was changed since the calibration was saved: values that are not fitted differ",
+            where=where,
+            found=f"a calibration made {saved.time}",
+            remedy=again,
+        )
+    if not scale_factor(model.chain, saved.p) > 0.0:
+        raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
+    return saved
+
+
+def notes(saved: Saved, model: Model, directory: ModelDir) -> list[str]:
+    """What is odd about a saved calibration, in sentences."""
+    found = []
+    if saved.derivation != model.digest:
+        found.append("the model has been derived anew since the calibration was saved")
+    if not saved.converged:
+        found.append("the saved calibration had not converged")
+    if not np.array_equal(saved.sheet, vector(model, directory.instrument)):
+        found.append(
+            "model.toml has other values than when the calibration was saved; those it saved are used"
+        )
+    return found
+
+
+def covariance(saved: Saved, model: Model, instrument: Instrument) -> Array:
+    """(n, n): that of the calibration, in units of the present scales of the fitted columns."""
+    place = {int(k): n for n, k in enumerate(saved.index)}
+    columns = base_columns(model, instrument)
+    C = np.zeros((len(columns), len(columns)))
+    here = [n for n, (_, k) in enumerate(columns) if k in place]
+    there = [place[columns[n][1]] for n in here]
+    ratio = np.array([saved.columns[t].scale / columns[n][0].scale for n, t in zip(here, there, strict=True)])
+    C[np.ix_(here, here)] = saved.covariance[np.ix_(there, there)] * np.outer(ratio, ratio)
+    return C
+
+
+@one_thread
+def calibration(
+    saved: Saved, model: Model, instrument: Instrument, observations: Sequence[Observation]
+) -> Calibration:
+    """The saved parameters as the calibration of these flights; of the flights only the noise is estimated."""
+    columns = base_columns(model, instrument)
+    at = Point(model, instrument, saved.p, with_candidates=True)
+    noise: list[Noise] = [calibrate.estimate_noise(at, o) for o in observations]
+    return Calibration(
+        p=saved.p,
+        columns=tuple(c for c, _ in columns),
+        index=np.array([k for _, k in columns], dtype=np.intp),
+        covariance=covariance(saved, model, instrument),
+        noise=tuple(noise),
+        rows=int(sum(np.sum(o.record.valid) for o in observations)),
+    )
+
+
+@dataclass(frozen=True)
+class Held:
+    """How a frozen calibration holds on flights.
+
+    Attributes
+    ----------
+    comparison
+        Model and flights, everything about the frozen parameters: ``calibrated`` and ``holdout`` are the frozen error.
+    saved
+        The calibration.
+    free, free_holdout
+        The errors if the model's parameters were fitted to these flights.
+    chi2, directions
+        The step from the frozen to the free fit over its covariance (flight and calibration), and its rank.
+    squares
+        Sums of squares of the whitened residual, frozen and free.
+    """
+
+    comparison: Comparison
+    saved: Saved
+    free: Error
+    free_holdout: Error
+    chi2: float
+    directions: int
+    squares: tuple[float, float]
+
+    @property
+    def p_value(self) -> float:
+        return float(stats.chi2.sf(self.chi2, self.directions)) if self.directions else 1.0
+
+    @property
+    def holds(self) -> bool:
+        return self.p_value > HOLDS
+
+    def drift(self) -> list[dict[str, Any]]:
+        """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
+        f = self.comparison.fitted
+        c = f.calibration
+        values = c.p[c.index] / np.array([q.scale for q in c.columns])
+        rows = []
+        for k, o in enumerate(f.observations):
+            step, covariance = calibrated.alone(f, k)
+            for q in calibrated.visible(c.columns, c.covariance):
+                value, std = q.of(values, c.covariance)
+                now, now_std = q.of(values + step, covariance)
+                both = float(np.hypot(std, now_std))
+                z = (now - value) / both if both else 0.0
+                row = {"flight": o.name, "name": q.name, "frozen": value, "frozen_std": std}
+                rows.append(row | {"value": now, "std": now_std, "unit": q.unit, "z": z})
+        return rows
+
+    def as_json(self) -> dict[str, Any]:
+        frozen = {
+            "made": self.saved.time,
+            "flights": dict(self.saved.flights),
+            "converged": self.saved.converged,
+            "holds": self.holds,
+            "chi2": self.chi2,
+            "degrees_of_freedom": self.directions,
+            "p_value": self.p_value,
+            "samples": self.comparison.fitted.calibration.rows,
+            "whitened_squares": dict(zip(("frozen", "free"), self.squares, strict=True)),
+            "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
+            "drift": self.drift(),
+        }
+        return self.comparison.as_json() | {"frozen": frozen}
+
+
+def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
+    """Hold a saved calibration against flights."""
+    observations = [compare.observe(x, instrument) for x in flights]
+    model = model.for_fits(sum(len(o.record.time) for o in observations))
+    f = compare.about(model, instrument, observations, calibration(saved, model, instrument, observations))
+    free, _ = f.coefficients(())
+    half, _ = f.coefficients((), held_out=True)
+    frozen, fitted, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), free, half])
+    chi2, rank, squares = changed(f)
+    # nothing of these flights was fitted: all of their time is held out
+    comparison = compare.concluded(f, nominal.whole, frozen, frozen.whole)
+    return Held(
+        comparison=comparison,
+        saved=saved,
+        free=fitted.whole,
+        free_holdout=held_out.held_out,
+        chi2=chi2,
+        directions=rank,
+        squares=squares,
+    )
+
+
+def changed(f: Fitted) -> tuple[float, int, tuple[float, float]]:
+    """Chi-square of the step from frozen parameters (n,) to what flights say, its rank, and whitened squares.
+
+    In directions in which the calibration has unit variance, a flight that has s^-2 of its own moves by a step of
+    variance 1 + s^-2.
+    """
+    n = f.n_base
+    T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
+    values, vectors = np.linalg.eigh(f.calibration.covariance)
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    U, s, _ = np.linalg.svd(T[:n, :n] @ root)
+    along = U.T @ T[:n, n]
+    told = s**2 >= INFORMED
+    chi2 = float(np.sum(along[told] ** 2 / (1.0 + s[told] ** 2)))
+    total = float(np.sum(T[:, n] ** 2))
+    return chi2, int(np.sum(told)), (total, float(T[n, n] ** 2))
+
+
+def sentence(h: Held) -> str:
+    """How the calibration holds, in words."""
+    verdict = "holds" if h.holds else "does NOT hold"
+    return (
+        f"the calibration of {h.saved.time} on {', '.join(h.saved.flights)} {verdict} here: chi-square of the step to "
+        f"the free fit {h.chi2:.1f} in {h.directions} directions (p = {h.p_value:.2g}); error frozen "
+        f"{h.comparison.calibrated.rms_Eo:.4g} Eo, free {h.free.rms_Eo:.4g} Eo rms"
+    )

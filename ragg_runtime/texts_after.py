@@ -1,0 +1,57 @@
+"""Results of what comes after a model in words, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ragg_runtime import display
+from ragg_runtime.compensation.frozen import Held, sentence
+from ragg_runtime.flight import Flight
+from ragg_runtime.texts import compared, errors_table
+from ragg_runtime.workflow_after import Kept
+
+MOVED = 3.0
+"""Standard deviations from which a combination is shown as moved."""
+
+
+def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
+    """The result of ``calibrate``."""
+    c = k.calibrated
+    seen, of = c.directions
+    found: dict[str, Any] = k.as_json()
+    floor = found["noise_floor"]["rms_Eo"]
+    rows = (("nominal", c.nominal), ("calibrated", c.error), ("held out", c.holdout))
+    lines = [
+        f"{', '.join(x.name for x in flights)}: {c.fitted.calibration.rows} samples, effects in the model: "
+        f"{', '.join(found['effects']) or 'none'}",
+        *errors_table(rows, floor, flights),
+        "" if c.converged else "\nThe fit has NOT converged: do not rely on these values.",
+        f"the record determines {seen} of {of} directions of the parameters; the sheet alone says the others:",
+        *(f"  {display.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),
+    ]
+    if found["drift"]:
+        lines.append("\neach flight alone:")
+        lines += [
+            f"  {q['flight']:28} {q['name']} = {q['value']:.4g} +- {q['std']:.2g} {q['unit']}"
+            for q in found["drift"]
+        ]
+    if k.saved:
+        d = k.loaded.directory.path
+        lines += ["", f"kept in {d}; use it with: ragg compensate {d} FLIGHT -o OUT --calibration frozen"]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def held(h: Held, flights: Sequence[Flight]) -> str:
+    """The result of ``compare --frozen``."""
+    rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
+    moved = [r for r in rows if abs(r["z"]) > MOVED]
+    lines = [compared(h.comparison, flights), "", sentence(h)]
+    if moved:
+        lines.append("what moved since (frozen, now):")
+        lines += [
+            f"  {r['flight']:24} {r['name']}: {r['frozen']:.5g} -> {r['value']:.5g} {r['unit']}, {r['z']:+.1f} sigma"
+            for r in moved
+        ]
+    return "\n".join(lines)
