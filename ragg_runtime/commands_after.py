@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -11,6 +12,9 @@ from ragg_runtime import progress
 from ragg_runtime.cli import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
 from ragg_runtime.errors import printable
 from ragg_runtime.workflow import Loaded
+
+if TYPE_CHECKING:
+    from ragg_runtime.compensation.compensate import Kind
 
 
 @click.command()
@@ -30,6 +34,51 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
         kept = workflow_after.calibrate(m, read, save)
     origin = texts.origin(kept.loaded, read, _command())
     _emit(kept.as_json() | origin, json_file, texts_after.calibrated(kept, read))
+
+
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "-o", "--output", type=DIRECTORY, required=True, metavar="OUT", help="File to write (.csv, .parquet, .nc)."
+)
+@click.option(
+    "--calibration",
+    type=click.Choice(["frozen", "self", "crossed"]),
+    default="self",
+    show_default=True,
+    help="As saved; fitted to these flights; each block of time fitted to all others.",
+)
+@click.option(
+    "--demodulator",
+    type=click.Choice(["fir", "butterworth", "causal"]),
+    default="fir",
+    show_default=True,
+    help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
+)
+@_json
+def compensate(
+    model_dir: Path,
+    flights: Sequence[Path],
+    output: Path,
+    calibration: Kind,
+    demodulator: str,
+    json_file: str | None,
+) -> None:
+    """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
+    from ragg_runtime import texts, texts_after, workflow_after
+    from ragg_runtime.flight.source import format_of
+
+    format_of(output)
+    m = _load(model_dir)
+    odd = _calibration_notes(m) if calibration == "frozen" else []
+    _progress(f"reading {len(flights)} flight(s)")
+    read = workflow_after.read_for_compensation(m, flights)
+    _progress("compensating" if calibration == "frozen" else "calibrating and compensating")
+    with progress.shown("compare", sum(map(len, read))):
+        c = workflow_after.compensate(m, read, calibration, demodulator, output)
+    origin = texts.origin(m, read, _command()) | {"notes": [*odd, *texts.notes(m, read)]}
+    _emit(c.as_json() | {"output": str(output)} | origin, json_file, texts_after.compensated(c, output, read))
 
 
 def compare_frozen(
@@ -74,5 +123,5 @@ def _calibration_notes(m: Loaded) -> list[str]:
     return odd
 
 
-COMMANDS = (calibrate,)
+COMMANDS = (calibrate, compensate)
 """What the command line registers."""

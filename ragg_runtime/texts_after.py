@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from ragg_runtime import display
 from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
 from ragg_runtime.texts import compared, errors_table
-from ragg_runtime.workflow_after import Kept
+from ragg_runtime.workflow_after import Compensation, Kept
 
 MOVED = 3.0
 """Standard deviations from which a combination is shown as moved."""
@@ -54,4 +55,36 @@ def held(h: Held, flights: Sequence[Flight]) -> str:
             f"  {r['flight']:24} {r['name']}: {r['frozen']:.5g} -> {r['value']:.5g} {r['unit']}, {r['z']:+.1f} sigma"
             for r in moved
         ]
+    return "\n".join(lines)
+
+
+CONTRIBUTIONS = 8
+"""Contributions that are listed, the largest."""
+
+
+def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str:
+    """The result of ``compensate``."""
+    r = c.as_json()
+    d = r["demodulator"]
+    lag = f", {d['latency_s']:.3g} s late" if d["latency_s"] else ""
+    lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
+    if not r["converged"]:
+        lines.append("The calibration has NOT converged: do not rely on these values.")
+    for x in r["flights"]:
+        lines += ["", f"{x['flight']}: {x['good']} of {x['samples']} samples good"]
+        lines.append(f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo")
+        for channel in ("inline", "cross"):
+            numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
+            sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+            a, b, n, s, p = (display.number(v) for v in (*numbers, *sizes))
+            lines.append(f"  {channel:8} {a:>12} {b:>10} {n:>10} {'':9} {s:>10} {p:>10}")
+        lines.append("  removed (rms inline, cross, Eo):")
+        lines += [
+            f"    {q['of']:28} {q['inline_Eo']:10.4g} {q['cross_Eo']:10.4g}"
+            for q in x["contributions"][:CONTRIBUTIONS]
+        ]
+        told = [f"{name} {n}" for name, n in x["quality"].items() if n]
+        if told:
+            lines.append(f"  quality: {', '.join(told)} samples")
+    lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime import display, extend
 from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
+from ragg_runtime.compensation.compensate import Compensated, Kind, meaning, prepared, without_gradients
 from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
-from ragg_runtime.flight import Flight
+from ragg_runtime.compensation.series import Series
+from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.spool import settled
 from ragg_runtime.model_dir import CALIBRATION, ModelDir, Step, replace_model_dir
+from ragg_runtime.plausibility import examined
 from ragg_runtime.workflow import Loaded
 
 
@@ -77,6 +87,102 @@ def saved_calibration(m: Loaded) -> Saved:
 def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
     return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
+
+
+@dataclass(frozen=True)
+class Compensation:
+    """The result of ``compensate``.
+
+    ``series`` holds columns (name -> (N,), in the units of :data:`~ragg_runtime.compensation.output.UNITS`) of every
+    flight, unless they went to a file.
+    """
+
+    name: str
+    result: Mapping[str, Any]
+    series: tuple[Mapping[str, NDArray[Any]], ...]
+
+    def __repr__(self) -> str:
+        flights = ", ".join(x["flight"] for x in self.result["flights"])
+        return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
+
+    def _repr_html_(self) -> str:
+        return display.compensation(self.as_json())
+
+    def as_json(self) -> dict[str, Any]:
+        return dict(self.result)
+
+
+def compensate(
+    m: Loaded,
+    flights: Sequence[Flight],
+    calibration: Kind = "self",
+    demodulator: str = "fir",
+    output: Path | None = None,
+) -> Compensation:
+    """The gravity gradient as the instrument saw it: everything removed that the model explains, demodulated.
+
+    Parameters
+    ----------
+    calibration
+        ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
+        others; ``frozen``: as ``calibrate(..., save=True)`` kept them.
+    demodulator
+        ``fir``, ``butterworth`` or ``causal``.
+    output
+        A file for the series; without one they are in the result.
+    """
+    saved = saved_calibration(m) if calibration == "frozen" else None
+    p = prepared(m.model, m.instrument, flights, calibration, saved)
+    each = [Compensated(p, k, demodulator) for k in range(len(p.flights))]
+    kept: list[Mapping[str, NDArray[Any]]] = []
+    with contextlib.ExitStack() as stack:
+        several = len(each) > 1
+        samples = sum(len(x.time) for x in p.flights)
+        write = None if output is None else stack.enter_context(writing(output, samples, several=several))
+        for k, x in enumerate(each):
+            parts = []
+            for part in x.segments():
+                rows = columns(part, x.flight, k + 1)
+                if write is None:
+                    parts.append(rows)
+                else:
+                    write(rows)
+            if write is None:
+                kept.append({n: np.concatenate([r[n] for r in parts]) for n in parts[0] if several or n != "flight"})
+    d = each[0].demodulator
+    result = {
+        "calibration": calibration,
+        "converged": p.converged,
+        "effects": [e.id for e in m.model.effects],
+        "demodulator": {"name": d.name, "what": d.description, "latency_s": d.latency, "bandwidth_Hz": d.bandwidth},
+        "flights": [x.as_json() for x in each],
+        "quality": meaning(),
+    }
+    if saved is not None:
+        result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+    return Compensation(name=m.name, result=result, series=tuple(kept))
+
+
+def columns(part: Series, flight: Flight, number: int) -> dict[str, NDArray[Any]]:
+    """The columns of the output of one segment."""
+    return {
+        "time": np.array(flight.time[part.rows]),
+        "inline": part.gradient.real,
+        "cross": part.gradient.imag,
+        "inline_std": part.std[0],
+        "cross_std": part.std[1],
+        "quality": part.quality,
+        "flight": np.full(len(part.quality), number, dtype=np.int64),
+    }
+
+
+def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
+    """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
+    found = []
+    for path in paths:
+        flight = without_gradients(read_flight(path, m.instrument.g0))
+        found.append(settled(examined(m.model, m.instrument, flight)))
+    return found
 
 
 def calibration_notes(m: Loaded) -> list[str]:

@@ -129,7 +129,7 @@ class Calibrated:
 
     def drift(self) -> list[dict[str, Any]]:
         """The visible combinations as every flight alone has them; nothing for one flight."""
-        f, c = self.fitted, self.fitted.calibration
+        f = self.fitted
         if len(f.observations) < 2:
             return []
         rows = []

@@ -1,0 +1,81 @@
+"""Which parameters compensate which samples of a flight, and in which directions they may be wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime import calibrate
+from ragg_runtime.calibrate import Calibration
+from ragg_runtime.compare import Fitted
+from ragg_runtime.design import join
+from ragg_runtime.segments import BLOCKS, block_edges
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Samples ``first`` to ``last`` of a flight with one parameter vector.
+
+    ``p`` (size,) in SI; ``directions`` (k, size): steps of p of one standard deviation, independent of one another.
+    """
+
+    first: int
+    last: int
+    p: Array
+    directions: Array
+
+    def along(self, basis: Array) -> Stretch:
+        """The same with fewer directions: ``basis`` (k, r), orthonormal columns."""
+        return replace(self, directions=basis.T @ self.directions)
+
+
+def root(covariance: Array) -> Array:
+    """Symmetric square root of a covariance: it changes smoothly where that does."""
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray((vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T)
+
+
+def _stretch(c: Calibration, first: int, last: int, p: Array, covariance: Array) -> Stretch:
+    scale = np.array([q.scale for q in c.columns])
+    directions = np.zeros((len(c.columns), len(p)))
+    directions[:, c.index] = root(covariance) * scale
+    return Stretch(first=first, last=last, p=p, directions=directions)
+
+
+def whole(c: Calibration, samples: int) -> tuple[Stretch, ...]:
+    """One calibration for all samples."""
+    return (_stretch(c, 0, samples, c.p, c.covariance),)
+
+
+def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
+    """Of every flight: each block of time with the calibration on everything else."""
+    n, c = f.n_base, f.calibration
+    scale = np.array([q.scale for q in c.columns])
+    all_of = [[t[:, [*range(n), -1]] for t in x] for x in f.triangles]
+    found = []
+    for k, o in enumerate(f.observations):
+        edges = block_edges(len(o.record.time))
+        stretches = []
+        for b in range(BLOCKS):
+            others = [t for x, ts in enumerate(all_of) for y, t in enumerate(ts) if (x, y) != (k, b)]
+            normal = calibrate.with_prior(join(others), f.to_nominal)
+            p = c.p.copy()
+            p[c.index] += normal.step * scale
+            stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, normal.covariance))
+        found.append(tuple(stretches))
+    return found
+
+
+def within(stretches: Sequence[Stretch], first: int, last: int) -> list[tuple[slice, Stretch]]:
+    """The stretches of samples first ... last, with their places counted from ``first``."""
+    found = []
+    for s in stretches:
+        a, b = max(s.first, first), min(s.last, last)
+        if a < b:
+            found.append((slice(a - first, b - first), s))
+    return found
