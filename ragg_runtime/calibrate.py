@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
-from ragg_runtime import design
+from ragg_runtime import design, gradient
 from ragg_runtime.design import Column, Observation
 from ragg_runtime.errors import UserError
 from ragg_runtime.evaluate import scale_factor, vector
@@ -98,9 +98,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             solution, rank = _least_squares(flat)
             y = flat[-1]
             rest = y - solution @ flat[:-1]
-            # The fit takes as many degrees of freedom as it has columns.
+            # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
             e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
+            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank))
             gain = design.noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
@@ -123,7 +123,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise = estimate(e_m, r.rate)
+        noise = estimate(e_m, r.rate, gradient.band(o))
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
         noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
         models.append(noise)

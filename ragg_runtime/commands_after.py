@@ -40,7 +40,12 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option(
-    "-o", "--output", type=DIRECTORY, required=True, metavar="OUT", help="File to write (.csv, .parquet, .nc)."
+    "-o",
+    "--output",
+    type=DIRECTORY,
+    required=True,
+    metavar="OUT",
+    help="File to write (.csv, .parquet, .nc).",
 )
 @click.option(
     "--calibration",

@@ -72,7 +72,9 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
         lines.append("The calibration has NOT converged: do not rely on these values.")
     for x in r["flights"]:
         lines += ["", f"{x['flight']}: {x['good']} of {x['samples']} samples good"]
-        lines.append(f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo")
+        lines.append(
+            f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
+        )
         for channel in ("inline", "cross"):
             numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
             sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]

@@ -148,13 +148,20 @@ def compensate(
                 else:
                     write(rows)
             if write is None:
-                kept.append({n: np.concatenate([r[n] for r in parts]) for n in parts[0] if several or n != "flight"})
+                kept.append(
+                    {n: np.concatenate([r[n] for r in parts]) for n in parts[0] if several or n != "flight"}
+                )
     d = each[0].demodulator
     result = {
         "calibration": calibration,
         "converged": p.converged,
         "effects": [e.id for e in m.model.effects],
-        "demodulator": {"name": d.name, "what": d.description, "latency_s": d.latency, "bandwidth_Hz": d.bandwidth},
+        "demodulator": {
+            "name": d.name,
+            "what": d.description,
+            "latency_s": d.latency,
+            "bandwidth_Hz": d.bandwidth,
+        },
         "flights": [x.as_json() for x in each],
         "quality": meaning(),
     }

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from ragg_runtime import calibrate, compare
 from ragg_runtime.compare import Fitted
@@ -41,27 +42,28 @@ class Combination:
     unit: str
     factor: float
 
-    def of(self, values: Array, covariance: Array) -> tuple[float, float]:
-        """Value and standard deviation, in ``unit``, of values (n,) and covariance (n, n) in scales."""
-        variance = float(self.weights @ covariance @ self.weights)
-        return float(self.weights @ values) * self.factor, float(np.sqrt(max(0.0, variance))) * self.factor
+    def of(self, values: Array, root: Array) -> tuple[float, float]:
+        """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
+        return float(self.weights @ values) * self.factor, float(
+            np.linalg.norm(self.weights @ root)
+        ) * self.factor
 
 
-def visible(columns: Sequence[Column], covariance: Array) -> list[Combination]:
-    """What a covariance (n, n), in scales, says to be determined: single values, else the paper's combinations."""
+def visible(columns: Sequence[Column], root: Array) -> list[Combination]:
+    """What a root (n, k) of a covariance, in scales, says to be determined: single values, else combinations of four."""
     found = []
 
     def add(label: str, places: Sequence[int], weights: Sequence[float]) -> None:
         w = np.zeros(len(columns))
         w[list(places)] = weights
-        if float(w @ covariance @ w) < SEEN**2 * float(w @ w):
+        if float(np.linalg.norm(w @ root)) < SEEN * float(np.linalg.norm(w)):
             c = columns[places[0]]
             found.append(Combination(name=label, weights=w, unit=c.unit, factor=c.scale / c.unit_factor))
 
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
         label = name.split(".", 1)[-1]
-        singly = bool(np.all(np.diag(covariance)[places] < SEEN**2))
+        singly = bool(np.all(np.linalg.norm(root[places], axis=1) < SEEN))
         if singly or len(places) != len(PATTERNS[0][1]):
             for k in places:
                 j = columns[k].accelerometer
@@ -87,9 +89,22 @@ def _base(triangles: Sequence[Array], n: int) -> list[Array]:
 
 
 def alone(f: Fitted, flight: int) -> tuple[Array, Array]:
-    """What one of the flights says by itself (with the sheet): step from the present point, and covariance, in scales."""
+    """What one of the flights says by itself (with the sheet), in scales: step from here, and root of its covariance."""
     normal = calibrate.with_prior(join(_base(f.triangles[flight], f.n_base)), f.to_nominal)
-    return normal.step, normal.covariance
+    return normal.step, inverse(normal.R)
+
+
+def information(f: Fitted) -> Array:
+    """(n, n) upper triangular R: square root of the information of all flights and the sheet, in scales."""
+    return np.asarray(np.triu(f.whole[: f.n_base, : f.n_base]))
+
+
+def inverse(R: Array) -> Array:
+    """(n, n): the root R^-1 of the covariance of a square root R of the information, the diagonal made positive.
+
+    So it is unique, and changes smoothly with the data.
+    """
+    return np.asarray(linalg.solve_triangular(R, np.diag(np.sign(np.diag(R)))))
 
 
 @dataclass(frozen=True)
@@ -117,15 +132,19 @@ class Calibrated:
         return parameter_values(c.columns, self.values, c.covariance)
 
     @cached_property
+    def root(self) -> Array:
+        """(n, n): a root of the covariance, in scales."""
+        return inverse(information(self.fitted))
+
+    @cached_property
     def combinations(self) -> list[Combination]:
-        c = self.fitted.calibration
-        return visible(c.columns, c.covariance)
+        return visible(self.fitted.calibration.columns, self.root)
 
     @cached_property
     def directions(self) -> tuple[int, int]:
         """How many directions of the parameters the record determines, and how many there are."""
-        variances = np.linalg.eigvalsh(self.fitted.calibration.covariance)
-        return int(np.sum(variances < LEARNED**2)), len(variances)
+        deviations = np.linalg.svd(self.root, compute_uv=False)
+        return int(np.sum(deviations < LEARNED)), len(deviations)
 
     def drift(self) -> list[dict[str, Any]]:
         """The visible combinations as every flight alone has them; nothing for one flight."""
@@ -134,9 +153,9 @@ class Calibrated:
             return []
         rows = []
         for k, o in enumerate(f.observations):
-            step, covariance = alone(f, k)
+            step, root = alone(f, k)
             for q in self.combinations:
-                value, std = q.of(self.values + step, covariance)
+                value, std = q.of(self.values + step, root)
                 rows.append({"flight": o.name, "name": q.name, "value": value, "std": std, "unit": q.unit})
         return rows
 
@@ -160,7 +179,7 @@ class Calibrated:
             )
         combinations = []
         for x in self.combinations:
-            value, std = x.of(self.values, c.covariance)
+            value, std = x.of(self.values, self.root)
             combinations.append({"name": x.name, "value": value, "std": std, "unit": x.unit})
         return {
             "converged": self.converged,
@@ -198,7 +217,7 @@ def to_save(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
         sheet=vector(f.model, f.instrument),
         columns=q.columns,
         index=q.index,
-        covariance=q.covariance,
+        information=information(f),
         converged=c.converged,
         validity=validity(flights),
         flights={x.name: x.digest for x in flights},

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime import compare, progress
 from ragg_runtime.calibrate import Calibration, spread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
-from ragg_runtime.compensation.calibrated import converged
+from ragg_runtime.compensation.calibrated import converged, information, inverse
 from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.schedule import Stretch
@@ -78,12 +78,16 @@ def prepared(
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
         c = frozen.calibration(saved, model, instrument, observations)
-        stretches = [schedule.whole(c, n) for n in lengths]
+        root = frozen.root(saved, model, instrument)
+        stretches = [schedule.whole(c, root, n) for n in lengths]
         settled, validity = saved.converged, dict(saved.validity)
     else:
         f = compare.fit(model, instrument, observations)
         c, settled = f.calibration, converged(f)
-        stretches = schedule.crossed(f) if kind == "crossed" else [schedule.whole(c, n) for n in lengths]
+        root = inverse(information(f))
+        stretches = (
+            schedule.crossed(f) if kind == "crossed" else [schedule.whole(c, root, n) for n in lengths]
+        )
     return Prepared(
         kind=kind,
         model=model,
@@ -176,7 +180,10 @@ class Compensated:
                 "directions": len(self.setting.stretches[0].directions),
             },
             "contributions": contributions.of(
-                self.setting, [x.rows for x in spread(self._parts(self._rows()), 2)], self.model, self.instrument
+                self.setting,
+                [x.rows for x in spread(self._parts(self._rows()), 2)],
+                self.model,
+                self.instrument,
             ),
         }
 

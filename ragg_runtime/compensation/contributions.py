@@ -49,7 +49,9 @@ def of(s: Setting, samples: Sequence[slice], model: Model, instrument: Instrumen
     count = 0
     for rows in samples:
         p = s.stretches[0].p
-        segment = Segment(replace(s, stretches=(replace(s.stretches[0], first=0, last=_end(s)),)), rows, holes=False)
+        segment = Segment(
+            replace(s, stretches=(replace(s.stretches[0], first=0, last=_end(s)),)), rows, holes=False
+        )
         good = (segment.quality()[segment.own] & 3) == 0
         count += int(np.sum(good))
         for name, effect, changed in [("everything", None, np.zeros_like(p)), *neutral(model, instrument, p)]:

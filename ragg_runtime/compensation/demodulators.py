@@ -96,7 +96,7 @@ def _fir(rate: float) -> Demodulator:
 
 def _impulse(rate: float) -> Array:
     """Impulse response of the Butterworth low-pass until it is forgotten."""
-    if CUTOFF >= rate / 2:
+    if rate / 2 <= CUTOFF:
         raise UserError(
             "the low-pass does not fit the sampling rate",
             found=f"cutoff {CUTOFF:g} Hz, rate {rate:g} Hz",
@@ -145,7 +145,5 @@ DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(
 def demodulator(name: str, rate: float) -> Demodulator:
     """The demodulator of this name; UserError if there is none."""
     if name not in DEMODULATORS:
-        raise UserError(
-            "there is no such demodulator", found=repr(name), expected=", ".join(DEMODULATORS)
-        )
+        raise UserError("there is no such demodulator", found=repr(name), expected=", ".join(DEMODULATORS))
     return DEMODULATORS[name](rate)

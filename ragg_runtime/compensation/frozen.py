@@ -89,16 +89,16 @@ def notes(saved: Saved, model: Model, directory: ModelDir) -> list[str]:
     return found
 
 
-def covariance(saved: Saved, model: Model, instrument: Instrument) -> Array:
-    """(n, n): that of the calibration, in units of the present scales of the fitted columns."""
+def root(saved: Saved, model: Model, instrument: Instrument) -> Array:
+    """(n, k): a root of the covariance of the calibration, in units of the present scales of the fitted columns."""
     place = {int(k): n for n, k in enumerate(saved.index)}
+    inverse = calibrated.inverse(saved.information)
     columns = base_columns(model, instrument)
-    C = np.zeros((len(columns), len(columns)))
-    here = [n for n, (_, k) in enumerate(columns) if k in place]
-    there = [place[columns[n][1]] for n in here]
-    ratio = np.array([saved.columns[t].scale / columns[n][0].scale for n, t in zip(here, there, strict=True)])
-    C[np.ix_(here, here)] = saved.covariance[np.ix_(there, there)] * np.outer(ratio, ratio)
-    return C
+    found = np.zeros((len(columns), len(inverse)))
+    for n, (c, k) in enumerate(columns):
+        if k in place:  # else it stays where the sheet puts it
+            found[n] = inverse[place[k]] * (saved.columns[place[k]].scale / c.scale)
+    return found
 
 
 @one_thread
@@ -107,13 +107,14 @@ def calibration(
 ) -> Calibration:
     """The saved parameters as the calibration of these flights; of the flights only the noise is estimated."""
     columns = base_columns(model, instrument)
+    half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
     noise: list[Noise] = [calibrate.estimate_noise(at, o) for o in observations]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),
         index=np.array([k for _, k in columns], dtype=np.intp),
-        covariance=covariance(saved, model, instrument),
+        covariance=half @ half.T,
         noise=tuple(noise),
         rows=int(sum(np.sum(o.record.valid) for o in observations)),
     )
@@ -127,6 +128,8 @@ class Held:
     ----------
     comparison
         Model and flights, everything about the frozen parameters: ``calibrated`` and ``holdout`` are the frozen error.
+    root
+        (n, k): of the covariance of the calibration, in the scales of the fitted columns.
     saved
         The calibration.
     free, free_holdout
@@ -138,6 +141,7 @@ class Held:
     """
 
     comparison: Comparison
+    root: Array
     saved: Saved
     free: Error
     free_holdout: Error
@@ -160,10 +164,10 @@ class Held:
         values = c.p[c.index] / np.array([q.scale for q in c.columns])
         rows = []
         for k, o in enumerate(f.observations):
-            step, covariance = calibrated.alone(f, k)
-            for q in calibrated.visible(c.columns, c.covariance):
-                value, std = q.of(values, c.covariance)
-                now, now_std = q.of(values + step, covariance)
+            step, root_now = calibrated.alone(f, k)
+            for q in calibrated.visible(c.columns, self.root):
+                value, std = q.of(values, self.root)
+                now, now_std = q.of(values + step, root_now)
                 both = float(np.hypot(std, now_std))
                 z = (now - value) / both if both else 0.0
                 row = {"flight": o.name, "name": q.name, "frozen": value, "frozen_std": std}
@@ -195,11 +199,13 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     free, _ = f.coefficients(())
     half, _ = f.coefficients((), held_out=True)
     frozen, fitted, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), free, half])
-    chi2, rank, squares = changed(f)
+    half_covariance = root(saved, model, instrument)
+    chi2, rank, squares = changed(f, half_covariance)
     # nothing of these flights was fitted: all of their time is held out
     comparison = compare.concluded(f, nominal.whole, frozen, frozen.whole)
     return Held(
         comparison=comparison,
+        root=half_covariance,
         saved=saved,
         free=fitted.whole,
         free_holdout=held_out.held_out,
@@ -209,7 +215,7 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     )
 
 
-def changed(f: Fitted) -> tuple[float, int, tuple[float, float]]:
+def changed(f: Fitted, root: Array) -> tuple[float, int, tuple[float, float]]:
     """Chi-square of the step from frozen parameters (n,) to what flights say, its rank, and whitened squares.
 
     In directions in which the calibration has unit variance, a flight that has s^-2 of its own moves by a step of
@@ -217,9 +223,7 @@ def changed(f: Fitted) -> tuple[float, int, tuple[float, float]]:
     """
     n = f.n_base
     T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
-    values, vectors = np.linalg.eigh(f.calibration.covariance)
-    root = vectors * np.sqrt(np.maximum(values, 0.0))
-    U, s, _ = np.linalg.svd(T[:n, :n] @ root)
+    U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     along = U.T @ T[:n, n]
     told = s**2 >= INFORMED
     chi2 = float(np.sum(along[told] ** 2 / (1.0 + s[told] ** 2)))

@@ -46,7 +46,9 @@ def writing(path: Path, samples: int, *, several: bool) -> Iterator[Write]:
     schema = pa.schema([pa.field(n, _type(n), metadata={"units": UNITS[n]}) for n in names])
     with replacing(path) as temporary:
         if kind == "parquet":
-            with pq.ParquetWriter(temporary, schema, compression="snappy", use_dictionary=["quality"]) as writer:
+            with pq.ParquetWriter(
+                temporary, schema, compression="snappy", use_dictionary=["quality"]
+            ) as writer:
                 yield lambda rows: writer.write_table(_table(rows, schema))
         elif kind == "csv":
             with _text(temporary, path.name.lower().endswith(".gz")) as stream:

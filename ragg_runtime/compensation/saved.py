@@ -22,10 +22,10 @@ VERSION = 1
 """Of the file's form."""
 
 KEPT = 20
-"""Calibrations that are kept, the latest: each takes some 50 kB, most of it the covariance."""
+"""Calibrations that are kept, the latest: each takes some 30 kB, most of it their information."""
 
-SYMMETRIC = 1e-9
-"""Relative asymmetry or negative eigenvalue of a covariance that is rounding: numbers stand with 17 digits."""
+LEAST = 1e-3
+"""Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
 
 _FORM = '{"version": 1, "calibrations": [...]}, as `ragg calibrate --save` writes it'
 _REMEDY = "restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)"
@@ -47,8 +47,9 @@ class Saved:
         (size,) SI: calibrated values, and those of model.toml at that time.
     columns, index
         The fitted parameters and their places in ``p``.
-    covariance
-        (n, n) of the fitted parameters in units of their scales, prior included.
+    information
+        (n, n) upper triangular R, in units of the scales, prior included: the covariance is R^-1 R^-T. Its variances
+        span sixteen decades or more: written out, a covariance would lose what the record sees best to rounding.
     converged
         Whether the fit had settled.
     validity
@@ -67,7 +68,7 @@ class Saved:
     sheet: Array
     columns: tuple[Column, ...]
     index: NDArray[np.intp]
-    covariance: Array
+    information: Array
     converged: bool
     validity: Mapping[str, tuple[float, float]]
     flights: Mapping[str, str]
@@ -93,7 +94,9 @@ class Saved:
                 }
                 for c, k in zip(self.columns, self.index, strict=True)
             ],
-            "covariance": [[float(x) for x in row[: n + 1]] for n, row in enumerate(self.covariance)],
+            "square_root_information": [
+                [float(x) for x in row[n:]] for n, row in enumerate(self.information)
+            ],
             "validity": {name: list(limits) for name, limits in self.validity.items()},
             "flights": dict(self.flights),
             "error": dict(self.error),
@@ -164,7 +167,7 @@ def _entry(e: Mapping[str, Any]) -> Saved:
         sheet=sheet,
         columns=columns,
         index=index,
-        covariance=_covariance(e["covariance"], len(columns)),
+        information=_information(e["square_root_information"], len(columns)),
         converged=e["converged"],
         validity={n: (float(v[0]), float(v[1])) for n, v in limits.items()},
         flights={_text(n): _text(d) for n, d in e["flights"].items()},
@@ -189,15 +192,15 @@ def _column(c: Mapping[str, Any]) -> Column:
     )
 
 
-def _covariance(rows: Sequence[Sequence[Any]], n: int) -> Array:
-    if len(rows) != n or any(len(row) != k + 1 for k, row in enumerate(rows)):
-        raise ValueError("the covariance is not a lower triangle of the fitted parameters")
-    C = np.zeros((n, n))
+def _information(rows: Sequence[Sequence[Any]], n: int) -> Array:
+    if len(rows) != n or any(len(row) != n - k for k, row in enumerate(rows)):
+        raise ValueError("the square root of the information is no upper triangle of the fitted parameters")
+    R = np.zeros((n, n))
     for k, row in enumerate(rows):
-        C[k, : k + 1] = C[: k + 1, k] = _numbers(row, "covariance")
-    if n and np.linalg.eigvalsh(C)[0] < -SYMMETRIC * max(1.0, float(np.trace(C))):
-        raise ValueError("the covariance is not positive")
-    return C
+        R[k, k:] = _numbers(row, "square_root_information")
+    if n and not np.min(np.abs(np.diag(R))) > LEAST:
+        raise ValueError("the square root of the information is singular")
+    return R
 
 
 def _numbers(values: Sequence[Any], what: str) -> Array:

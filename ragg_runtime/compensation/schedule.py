@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime import calibrate
 from ragg_runtime.calibrate import Calibration
 from ragg_runtime.compare import Fitted
+from ragg_runtime.compensation.calibrated import inverse
 from ragg_runtime.design import join
 from ragg_runtime.segments import BLOCKS, block_edges
 
@@ -21,12 +22,14 @@ Array = NDArray[np.float64]
 class Stretch:
     """Samples ``first`` to ``last`` of a flight with one parameter vector.
 
-    ``p`` (size,) in SI; ``directions`` (k, size): steps of p of one standard deviation, independent of one another.
+    ``p`` (size,) in SI; ``directions`` (k, size): steps of one standard deviation, independent of one another, from
+    ``about``, where the fit was linearised: what it sees nothing of there it would seem to see elsewhere.
     """
 
     first: int
     last: int
     p: Array
+    about: Array
     directions: Array
 
     def along(self, basis: Array) -> Stretch:
@@ -34,22 +37,16 @@ class Stretch:
         return replace(self, directions=basis.T @ self.directions)
 
 
-def root(covariance: Array) -> Array:
-    """Symmetric square root of a covariance: it changes smoothly where that does."""
-    values, vectors = np.linalg.eigh(covariance)
-    return np.asarray((vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T)
-
-
-def _stretch(c: Calibration, first: int, last: int, p: Array, covariance: Array) -> Stretch:
+def _stretch(c: Calibration, first: int, last: int, p: Array, root: Array) -> Stretch:
     scale = np.array([q.scale for q in c.columns])
-    directions = np.zeros((len(c.columns), len(p)))
-    directions[:, c.index] = root(covariance) * scale
-    return Stretch(first=first, last=last, p=p, directions=directions)
+    directions = np.zeros((root.shape[1], len(p)))
+    directions[:, c.index] = root.T * scale
+    return Stretch(first=first, last=last, p=p, about=c.p, directions=directions)
 
 
-def whole(c: Calibration, samples: int) -> tuple[Stretch, ...]:
-    """One calibration for all samples."""
-    return (_stretch(c, 0, samples, c.p, c.covariance),)
+def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
+    """One calibration for all samples; ``root`` (n, k) of its covariance, in scales."""
+    return (_stretch(c, 0, samples, c.p, root),)
 
 
 def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
@@ -66,7 +63,7 @@ def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
             normal = calibrate.with_prior(join(others), f.to_nominal)
             p = c.p.copy()
             p[c.index] += normal.step * scale
-            stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, normal.covariance))
+            stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))
         found.append(tuple(stretches))
     return found
 

@@ -8,6 +8,7 @@ from scipy import signal
 
 from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.design import Observation
+from ragg_runtime.gradient import spin_frequency
 from ragg_runtime.passes import Noise, output_weights
 from ragg_runtime.timeseries import runs
 
@@ -23,19 +24,10 @@ GRID = 4001
 """Frequencies at which the noise is integrated."""
 
 
-def spin(o: Observation) -> float:
-    """Mean spin frequency, Hz, by the encoder where there is one."""
-    r = o.record
-    if "spin_angle" not in r.wide:
-        return r.spin_frequency
-    step = np.angle(np.exp(1j * np.diff(np.asarray(r.phi[: 1 << 16]))))
-    return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
-
-
 def of_noise(o: Observation, noise: Noise, d: Demodulator, k_ggi: float) -> tuple[float, float]:
     """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
     f = np.linspace(-0.5, 0.5, GRID)
-    carrier = 2 * spin(o)
+    carrier = 2 * spin_frequency(o)
     density = np.zeros(GRID)  # one-sided, V^2/Hz
     for weight, model in zip(output_weights(o), noise.models, strict=True):
         density += weight**2 * model.psd(np.abs(carrier + f))
