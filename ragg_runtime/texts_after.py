@@ -55,6 +55,9 @@ def held(h: Held, flights: Sequence[Flight]) -> str:
             f"  {r['flight']:24} {r['name']}: {r['frozen']:.5g} -> {r['value']:.5g} {r['unit']}, {r['z']:+.1f} sigma"
             for r in moved
         ]
+    for d in h.moved():
+        terms = " ".join(f"{t['weight']:+.2f} {t['name']}" for t in d["terms"])
+        lines.append(f"  a direction that moved, {d['z']:+.1f} sigma: {terms} (in errors of the sheet)")
     return "\n".join(lines)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -137,7 +138,7 @@ class Compensated:
         n = len(self.flight.time)
         count = max(1, -(-n // most))
         edges = np.linspace(0, n, count + 1).astype(int)
-        return [Segment(slice(int(a), int(b)), ()) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+        return [Segment(slice(int(a), int(b)), ()) for a, b in pairwise(edges)]
 
     def segments(self) -> Iterator[Series]:
         """The compensated series, segment after segment, in order of time."""

@@ -35,6 +35,12 @@ noise that would hide a change."""
 HOLDS = 0.01
 """Level of the test that the frozen parameters are still the instrument's."""
 
+MOVED = 4.0
+"""Standard deviations from which a direction is told to have moved: by chance one in 16,000 does."""
+
+TERMS, FAINT = 6, 0.1
+"""Parameters that are named of a direction, at most, and the least weight of one."""
+
 
 def in_force(directory: ModelDir, model: Model) -> Saved:
     """The calibration that a model directory keeps, if it is of this model; UserError if there is none."""
@@ -121,6 +127,29 @@ def calibration(
 
 
 @dataclass(frozen=True)
+class Change:
+    """The step from the frozen to the free fit.
+
+    Attributes
+    ----------
+    z
+        (k,): its components, each of unit variance if nothing has changed.
+    directions
+        (k, n): along which directions of the fitted parameters, in scales, normalised.
+    squares
+        Sums of squares of the whitened residual, frozen and free.
+    """
+
+    z: Array
+    directions: Array
+    squares: tuple[float, float]
+
+    @property
+    def chi2(self) -> float:
+        return float(np.sum(self.z**2))
+
+
+@dataclass(frozen=True)
 class Held:
     """How a frozen calibration holds on flights.
 
@@ -134,10 +163,8 @@ class Held:
         The calibration.
     free, free_holdout
         The errors if the model's parameters were fitted to these flights.
-    chi2, directions
-        The step from the frozen to the free fit over its covariance (flight and calibration), and its rank.
-    squares
-        Sums of squares of the whitened residual, frozen and free.
+    change
+        The step from the frozen to the free fit, tested.
     """
 
     comparison: Comparison
@@ -145,13 +172,25 @@ class Held:
     saved: Saved
     free: Error
     free_holdout: Error
-    chi2: float
-    directions: int
-    squares: tuple[float, float]
+    change: Change
 
     @property
     def p_value(self) -> float:
-        return float(stats.chi2.sf(self.chi2, self.directions)) if self.directions else 1.0
+        n = len(self.change.z)
+        return float(stats.chi2.sf(self.change.chi2, n)) if n else 1.0
+
+    def moved(self) -> list[dict[str, Any]]:
+        """Directions of the parameters in which the instrument changed, the surest first; weights in sheet errors."""
+        columns = self.comparison.fitted.calibration.columns
+        found = []
+        for k in np.argsort(-np.abs(self.change.z)):
+            if abs(self.change.z[k]) < MOVED:
+                break
+            w = self.change.directions[k]
+            largest = np.argsort(-np.abs(w), kind="stable")[:TERMS]
+            terms = [{"name": columns[n].label, "weight": float(w[n])} for n in largest if abs(w[n]) >= FAINT]
+            found.append({"z": float(self.change.z[k]), "terms": terms})
+        return found
 
     @property
     def holds(self) -> bool:
@@ -180,11 +219,12 @@ class Held:
             "flights": dict(self.saved.flights),
             "converged": self.saved.converged,
             "holds": self.holds,
-            "chi2": self.chi2,
-            "degrees_of_freedom": self.directions,
+            "chi2": self.change.chi2,
+            "degrees_of_freedom": len(self.change.z),
             "p_value": self.p_value,
             "samples": self.comparison.fitted.calibration.rows,
-            "whitened_squares": dict(zip(("frozen", "free"), self.squares, strict=True)),
+            "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
+            "moved": self.moved(),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
             "drift": self.drift(),
         }
@@ -200,7 +240,6 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     half, _ = f.coefficients((), held_out=True)
     frozen, fitted, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), free, half])
     half_covariance = root(saved, model, instrument)
-    chi2, rank, squares = changed(f, half_covariance)
     # nothing of these flights was fitted: all of their time is held out
     comparison = compare.concluded(f, nominal.whole, frozen, frozen.whole)
     return Held(
@@ -209,26 +248,25 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
         saved=saved,
         free=fitted.whole,
         free_holdout=held_out.held_out,
-        chi2=chi2,
-        directions=rank,
-        squares=squares,
+        change=changed(f, half_covariance),
     )
 
 
-def changed(f: Fitted, root: Array) -> tuple[float, int, tuple[float, float]]:
-    """Chi-square of the step from frozen parameters (n,) to what flights say, its rank, and whitened squares.
+def changed(f: Fitted, root: Array) -> Change:
+    """Test the step from frozen parameters to what flights say; ``root`` (n, k) of the calibration's covariance.
 
     In directions in which the calibration has unit variance, a flight that has s^-2 of its own moves by a step of
     variance 1 + s^-2.
     """
     n = f.n_base
     T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
-    U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
-    along = U.T @ T[:n, n]
+    U, s, Vt = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     told = s**2 >= INFORMED
-    chi2 = float(np.sum(along[told] ** 2 / (1.0 + s[told] ** 2)))
+    z = (U.T @ T[:n, n])[told] / np.sqrt(1.0 + s[told] ** 2)
+    directions = Vt[told] @ root.T
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
     total = float(np.sum(T[:, n] ** 2))
-    return chi2, int(np.sum(told)), (total, float(T[n, n] ** 2))
+    return Change(z=z, directions=directions, squares=(total, float(T[n, n] ** 2)))
 
 
 def sentence(h: Held) -> str:
@@ -236,6 +274,6 @@ def sentence(h: Held) -> str:
     verdict = "holds" if h.holds else "does NOT hold"
     return (
         f"the calibration of {h.saved.time} on {', '.join(h.saved.flights)} {verdict} here: chi-square of the step to "
-        f"the free fit {h.chi2:.1f} in {h.directions} directions (p = {h.p_value:.2g}); error frozen "
+        f"the free fit {h.change.chi2:.1f} in {len(h.change.z)} directions (p = {h.p_value:.2g}); error frozen "
         f"{h.comparison.calibrated.rms_Eo:.4g} Eo, free {h.free.rms_Eo:.4g} Eo rms"
     )

@@ -51,11 +51,11 @@ class Density:
             x = g[run][:: self.step]
             if len(x) < n:
                 continue
-            f, p = signal.welch(
-                np.stack([x.real, x.imag]), self.rate, nperseg=n, noverlap=0, detrend="linear", axis=-1
-            )
-            inside = (f >= BAND[0]) & (f <= BAND[1])
             count = len(x) // n
+            parts = np.stack([x.real, x.imag])[:, : count * n].reshape(2 * count, n)
+            f, density = signal.periodogram(signal.detrend(parts), self.rate, window="hann", detrend=False)
+            p = np.mean(density.reshape(2, count, -1), axis=1)
+            inside = (f >= BAND[0]) & (f <= BAND[1])
             self.total += count * np.mean(p[:, inside], axis=1)
             self.windows += count
 
