@@ -55,9 +55,12 @@ def held(h: Held, flights: Sequence[Flight]) -> str:
             f"  {r['flight']:24} {r['name']}: {r['frozen']:.5g} -> {r['value']:.5g} {r['unit']}, {r['z']:+.1f} sigma"
             for r in moved
         ]
-    for d in h.moved():
-        terms = " ".join(f"{t['weight']:+.2f} {t['name']}" for t in d["terms"])
-        lines.append(f"  a direction that moved, {d['z']:+.1f} sigma: {terms} (in errors of the sheet)")
+    suspects = h.suspects()
+    if suspects:
+        lines.append("the change of one parameter that would explain it, and how much of it:")
+        lines += [
+            f"  {x['name']:32} {x['change']:+.4g} {x['unit']}   {100 * x['share']:.1f} %" for x in suspects
+        ]
     return "\n".join(lines)
 
 

@@ -35,11 +35,8 @@ noise that would hide a change."""
 HOLDS = 0.01
 """Level of the test that the frozen parameters are still the instrument's."""
 
-MOVED = 4.0
-"""Standard deviations from which a direction is told to have moved: by chance one in 16,000 does."""
-
-TERMS, FAINT = 6, 0.1
-"""Parameters that are named of a direction, at most, and the least weight of one."""
+SUSPECTS = 5
+"""Parameters that are named, at most, where the calibration does not hold."""
 
 
 def in_force(directory: ModelDir, model: Model) -> Saved:
@@ -134,14 +131,14 @@ class Change:
     ----------
     z
         (k,): its components, each of unit variance if nothing has changed.
-    directions
-        (k, n): along which directions of the fitted parameters, in scales, normalised.
+    signatures
+        (k, n): what a change of each fitted parameter, by its scale, would make of them.
     squares
         Sums of squares of the whitened residual, frozen and free.
     """
 
     z: Array
-    directions: Array
+    signatures: Array
     squares: tuple[float, float]
 
     @property
@@ -179,18 +176,22 @@ class Held:
         n = len(self.change.z)
         return float(stats.chi2.sf(self.change.chi2, n)) if n else 1.0
 
-    def moved(self) -> list[dict[str, Any]]:
-        """Directions of the parameters in which the instrument changed, the surest first; weights in sheet errors."""
-        columns = self.comparison.fitted.calibration.columns
+    def suspects(self) -> list[dict[str, Any]]:
+        """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
+        if self.holds:
+            return []
         found = []
-        for k in np.argsort(-np.abs(self.change.z)):
-            if abs(self.change.z[k]) < MOVED:
-                break
-            w = self.change.directions[k]
-            largest = np.argsort(-np.abs(w), kind="stable")[:TERMS]
-            terms = [{"name": columns[n].label, "weight": float(w[n])} for n in largest if abs(w[n]) >= FAINT]
-            found.append({"z": float(self.change.z[k]), "terms": terms})
-        return found
+        for c, signature in zip(
+            self.comparison.fitted.calibration.columns, self.change.signatures.T, strict=True
+        ):
+            power = float(signature @ signature)
+            if not power > 1.0:
+                continue  # the flight does not tell this one
+            along = float(signature @ self.change.z)
+            share = along**2 / power / self.change.chi2
+            value = along / power * c.scale / c.unit_factor
+            found.append({"name": c.label, "change": value, "unit": c.unit, "share": share})
+        return sorted(found, key=lambda r: -r["share"])[:SUSPECTS]
 
     @property
     def holds(self) -> bool:
@@ -224,7 +225,7 @@ class Held:
             "p_value": self.p_value,
             "samples": self.comparison.fitted.calibration.rows,
             "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
-            "moved": self.moved(),
+            "suspects": self.suspects(),
             "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
             "drift": self.drift(),
         }
@@ -260,13 +261,11 @@ def changed(f: Fitted, root: Array) -> Change:
     """
     n = f.n_base
     T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
-    U, s, Vt = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
+    U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
     told = s**2 >= INFORMED
-    z = (U.T @ T[:n, n])[told] / np.sqrt(1.0 + s[told] ** 2)
-    directions = Vt[told] @ root.T
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    both = (U.T @ T[:n])[told] / np.sqrt(1.0 + s[told] ** 2)[:, None]
     total = float(np.sum(T[:, n] ** 2))
-    return Change(z=z, directions=directions, squares=(total, float(T[n, n] ** 2)))
+    return Change(z=both[:, n], signatures=both[:, :n], squares=(total, float(T[n, n] ** 2)))
 
 
 def sentence(h: Held) -> str:
