@@ -10,7 +10,7 @@ import click
 
 from ragg_runtime import progress
 from ragg_runtime.cli import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
-from ragg_runtime.errors import printable
+from ragg_runtime.errors import UserError, printable
 from ragg_runtime.workflow import Loaded
 
 if TYPE_CHECKING:
@@ -86,6 +86,26 @@ def compensate(
     _emit(c.as_json() | {"output": str(output)} | origin, json_file, texts_after.compensated(c, output, read))
 
 
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("folder", type=DIRECTORY, metavar="DIR")
+@click.option(
+    "--c", "form", flag_value="c", help="A C17 program: make -C DIR; ragg_model < MOTION.csv > OUT.csv."
+)
+def export(model_dir: Path, folder: Path, form: str | None) -> None:
+    """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
+    from ragg_runtime import workflow_after
+
+    if form is None:
+        raise UserError("say what to export", expected="--c", remedy="see: ragg export --help")
+    m = _load(model_dir)
+    if m.directory.calibration is not None:
+        _calibration_notes(m)
+    for place in workflow_after.export(m, folder, form):
+        click.echo(f"written: {place}")
+    click.echo(f"with {workflow_after.contents(m).origin}")
+
+
 def compare_frozen(
     m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
 ) -> None:
@@ -128,5 +148,5 @@ def _calibration_notes(m: Loaded) -> list[str]:
     return odd
 
 
-COMMANDS = (calibrate, compensate)
+COMMANDS = (calibrate, compensate, export)
 """What the command line registers."""

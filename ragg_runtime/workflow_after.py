@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -22,6 +22,9 @@ from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import Series
+from ragg_runtime.export.contents import Contents, nominal
+from ragg_runtime.export.folder import write_folder
+from ragg_runtime.export.program import c_program
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.model_dir import CALIBRATION, ModelDir, Step, replace_model_dir
@@ -168,6 +171,30 @@ def compensate(
     if saved is not None:
         result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
     return Compensation(name=m.name, result=result, series=tuple(kept))
+
+
+def contents(m: Loaded) -> Contents:
+    """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
+    if m.directory.calibration is None:
+        return nominal(m.name, m.model, m.instrument)
+    saved = saved_calibration(m)
+    return Contents(
+        name=m.name,
+        model=m.model,
+        instrument=m.instrument,
+        p=saved.p,
+        origin=f"calibrated {saved.time} on {', '.join(saved.flights)}",
+        calibration=saved.as_json(),
+    )
+
+
+def export(m: Loaded, folder: Path, form: str) -> list[Path]:
+    """Write the model into a folder, as ``c``; the files."""
+    return write_folder(folder, FORMS[form](contents(m)))
+
+
+FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType({"c": c_program})
+"""Form of an export -> its files."""
 
 
 def columns(part: Series, flight: Flight, number: int) -> dict[str, NDArray[Any]]:
