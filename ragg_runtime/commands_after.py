@@ -99,8 +99,6 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     if form is None:
         raise UserError("say what to export", expected="--c", remedy="see: ragg export --help")
     m = _load(model_dir)
-    if m.directory.calibration is not None:
-        _calibration_notes(m)
     for place in workflow_after.export(m, folder, form):
         click.echo(f"written: {place}")
     click.echo(f"with {workflow_after.contents(m).origin}")

@@ -22,7 +22,9 @@ from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import Series
-from ragg_runtime.export.contents import Contents, nominal
+from ragg_runtime.errors import UserError
+from ragg_runtime.evaluate import vector
+from ragg_runtime.export.contents import Contents
 from ragg_runtime.export.folder import write_folder
 from ragg_runtime.export.program import c_program
 from ragg_runtime.flight import Flight, read_flight
@@ -175,16 +177,22 @@ def compensate(
 
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
-    if m.directory.calibration is None:
-        return nominal(m.name, m.model, m.instrument)
-    saved = saved_calibration(m)
+    saved, origin = None, "values of model.toml, not calibrated"
+    if m.directory.calibration is not None:
+        try:
+            saved = saved_calibration(m)
+            origin = f"calibrated {saved.time} on {', '.join(saved.flights)}"
+        except UserError as error:
+            origin = f"values of model.toml: {error.what}"
+    folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
     return Contents(
         name=m.name,
         model=m.model,
         instrument=m.instrument,
-        p=saved.p,
-        origin=f"calibrated {saved.time} on {', '.join(saved.flights)}",
-        calibration=saved.as_json(),
+        p=vector(m.model, m.instrument) if saved is None else saved.p,
+        sources=folded or extend.exact_c(m.instrument),
+        origin=origin,
+        calibration=None if saved is None else saved.as_json(),
     )
 
 

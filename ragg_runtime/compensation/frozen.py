@@ -180,7 +180,7 @@ class Held:
         """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
         if self.holds:
             return []
-        found = []
+        found: list[dict[str, Any]] = []
         for c, signature in zip(
             self.comparison.fitted.calibration.columns, self.change.signatures.T, strict=True
         ):

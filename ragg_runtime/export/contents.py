@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.evaluate import EOTVOS, GRADIENTS, Record, vector
+from ragg_runtime.evaluate import EOTVOS, GRADIENTS, Record
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.instrument import PARAMETER, Instrument
 from ragg_runtime.load import Chain, Model
@@ -56,6 +56,8 @@ class Contents:
         As loaded.
     p
         (size,) SI.
+    sources
+        The model in C, header and source: file name -> text.
     origin
         Where the values come from, in a sentence.
     calibration
@@ -66,6 +68,7 @@ class Contents:
     model: Model
     instrument: Instrument
     p: Array
+    sources: Mapping[str, str]
     origin: str
     calibration: Mapping[str, Any] | None
 
@@ -161,15 +164,3 @@ def unit_of(column: str) -> str:
 def is_gradient(column: str) -> bool:
     """Whether a column is a gravity gradient: zero where it is not recorded."""
     return column in GRADIENTS
-
-
-def nominal(name: str, model: Model, instrument: Instrument) -> Contents:
-    """A model with the values of its model.toml."""
-    return Contents(
-        name=name,
-        model=model,
-        instrument=instrument,
-        p=vector(model, instrument),
-        origin="values of model.toml, not calibrated",
-        calibration=None,
-    )

@@ -32,7 +32,7 @@ NOTHING, ZERO = -1, -2
 
 def c_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs, with a test."""
-    name = "folded" if "folded.c" in c.model.sources else "chain"
+    name = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
     motion, G = c.example()
     makefile = _packaged("Makefile").replace("@MODEL@", name)
     return {
@@ -40,8 +40,7 @@ def c_program(c: Contents) -> dict[str, str]:
         "README.txt": _readme(c),
         "main.c": _packaged("main.c"),
         "compare.c": _packaged("compare.c"),
-        f"{name}.c": c.model.sources[f"{name}.c"],
-        f"{name}.h": c.model.sources[f"{name}.h"],
+        **c.sources,
         "values.h": _values(c, name),
         "test/motion.csv": _table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()}),
         "test/G_out.csv": _table({"time": motion["time"], "G_out": G}),
