@@ -90,7 +90,7 @@ def instructions() -> int:
     """Arithmetic of the generated C, a sample, with FMA counted once."""
     import re
 
-    from ragg_runtime.load import packaged
+    from ragg_runtime.model.model import packaged
 
     text = packaged().sources["folded.c"]
     loops = [text[text.index(f"static void {name}(") :].split("\n}\n")[0] for name in ("disc", "block")]

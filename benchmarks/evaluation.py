@@ -43,7 +43,7 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
     """(t, inputs, p): Tables V and VI of the paper, at random; t from START s on."""
     import numpy as np
 
-    from ragg_runtime.load import packaged
+    from ragg_runtime.model.model import packaged
 
     draw = np.random.default_rng(5)
     arcsec, per_g, g = math.pi / 648000, 1e-6 / 9.8, 9.8
@@ -62,7 +62,7 @@ def instrument_and_motion(n: int) -> tuple[Any, Any, Any]:
 def contenders(p: Any) -> tuple[dict[str, Callable[[Any, Any, Any], object]], dict[str, str]]:
     """Name -> (t, inputs, out) -> anything; and what is missing, with the reason."""
     from benchmarks import rivals
-    from ragg_runtime.load import packaged
+    from ragg_runtime.model.model import packaged
 
     compiled, blocks = packaged().compiled("c"), packaged().compiled("numpy")
     ours = {
@@ -183,7 +183,7 @@ def threads(t: Any, x: Any, p: Any, cores: int) -> list[Row]:
     """One thread against as many as there are cores, streaming."""
     import numpy as np
 
-    from ragg_runtime.load import packaged
+    from ragg_runtime.model.model import packaged
 
     c, out = packaged().compiled("c"), np.empty(len(t))
     times = interleaved(

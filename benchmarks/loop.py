@@ -20,12 +20,12 @@ REPEATS = 3
 
 def run() -> list[Row]:
     """Wall-clock and processor times."""
-    from ragg_runtime import workflow
-    from ragg_runtime.simulate import simulated
+    from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow.simulate import simulated
 
     rows: list[Row] = []
     with tempfile.TemporaryDirectory() as folder:
-        m = workflow.new(Path(folder) / "model")
+        m = loop.new(Path(folder) / "model")
         flight = simulated(
             m.instrument, ["thermal-scale:dK1_dT=0/0/6e-8/0"], seed=1, duration=1800.0, rate=16.0
         )
@@ -40,12 +40,12 @@ def run() -> list[Row]:
         def add() -> None:
             nonlocal added
             added += 1
-            copy = workflow.new(Path(folder) / f"copy-{added}")
-            workflow.add(copy, "thermal-scale", [flight])
+            copy = loop.new(Path(folder) / f"copy-{added}")
+            loop.add(copy, "thermal-scale", [flight])
 
-        rows += timed("compare", lambda: workflow.compare(m, [flight]), None)
-        rows += timed("diagnose", lambda: workflow.diagnose(m, [flight]), 5.0)
-        rows += timed("diagnose, gradient unknown", lambda: workflow.diagnose(m, [unknown]), 5.0)
+        rows += timed("compare", lambda: loop.compare(m, [flight]), None)
+        rows += timed("diagnose", lambda: loop.diagnose(m, [flight]), 5.0)
+        rows += timed("diagnose, gradient unknown", lambda: loop.diagnose(m, [unknown]), 5.0)
         rows += timed("add", add, 10.0)
     return rows
 

@@ -35,42 +35,46 @@ def run() -> list[Row]:
     import statsmodels.api as sm
     from scipy.linalg import toeplitz
 
-    from ragg_runtime import compare, design, workflow
-    from ragg_runtime.evidence import likelihood, work
+    from ragg_runtime.base.threads import one_thread
+    from ragg_runtime.evidence import selection
+    from ragg_runtime.evidence.selection import field_of
+    from ragg_runtime.fit import columns as columns_
+    from ragg_runtime.fit import columns as design
+    from ragg_runtime.fit import fitted, observation, prepared, square_root
     from ragg_runtime.flight import write_flight
-    from ragg_runtime.simulate import simulated
-    from ragg_runtime.threads import one_thread
+    from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow.simulate import simulated
 
     rows: list[Row] = []
     hidden = ["thermal-scale:dK1_dT=0/0/6e-8/0"]
     with tempfile.TemporaryDirectory() as folder:
-        m = workflow.new(Path(folder) / "model")
+        m = loop.new(Path(folder) / "model")
         path = Path(folder) / "hour.parquet"
         write_flight(simulated(m.instrument, hidden, seed=1, duration=3600.0, rate=100.0), path)
 
         def diagnose() -> None:
-            found = workflow.diagnose(m, workflow.read_flights(m, [path])).found
+            found = loop.diagnose(m, loop.read_flights(m, [path])).found
             if found != ("thermal-scale",):
                 raise RuntimeError(f"the diagnosis is wrong: {found}")
 
         rows += timed("diagnose an hour at 100 Hz, reading it included", diagnose, 20.0, repeats=1)
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
         rows.append(Row("peak memory", memory, "MB", "of the process, all imports in", better="lower"))
-        (flight,) = workflow.read_flights(m, [path])
-        f = compare.fit(m.model, m.instrument, [compare.observe(flight, m.instrument)])
+        (flight,) = loop.read_flights(m, [path])
+        f = fitted.fit(m.model, m.instrument, [observation.observe(flight, m.instrument)])
 
-    candidates = likelihood.grouped(design.candidate_columns(f.model, f.instrument))
-    tested = compare.testable_effects(f)
+    candidates = columns_.grouped(design.candidate_columns(f.model, f.instrument))
+    tested = selection.testable_effects(f)
     columns = np.concatenate([*f.flown[0].each(lambda p: p.white)], axis=1)
     edges = f.flown[0].edges
-    fitted_rows = np.concatenate([np.arange(edges[b], edges[b + 1]) for b in compare.FITTED_BLOCKS])
+    fitted_rows = np.concatenate([np.arange(edges[b], edges[b + 1]) for b in fitted.FITTED_BLOCKS])
     places = {e: [n for n, _ in candidates[e]] for e in tested}
 
     @one_thread
     def ours() -> None:
-        blocks = tuple(design.triangle(columns[:, a:b]) for a, b in pairwise(edges))
+        blocks = tuple(square_root.triangle(columns[:, a:b]) for a, b in pairwise(edges))
         again = replace(f, triangles=(blocks,))
-        again.field(tested).tests()
+        field_of(again, tested).tests()
         for e in tested:
             again.coefficients(places[e])
             again.coefficients(places[e], held_out=True)
@@ -123,7 +127,7 @@ def run() -> list[Row]:
         ]
 
     short = simulated(m.instrument, hidden, seed=1, duration=300.0, rate=16.0)
-    f = compare.fit(m.model, m.instrument, [compare.observe(short, m.instrument)])
+    f = fitted.fit(m.model, m.instrument, [observation.observe(short, m.instrument)])
     (piece,) = f.flown[0].each(lambda p: p)
     X, y = piece.columns[:, 0, :], piece.residual[0]
     n = X.shape[1]
@@ -133,7 +137,7 @@ def run() -> list[Row]:
     sm.GLS(y, X[: f.n_base].T, sigma=sigma).fit()
     whole = time.process_time() - start
     start = time.process_time()
-    work.blocks(f.flown[0].released())
+    prepared.blocks(f.flown[0].released())
     streamed = time.process_time() - start
     return [
         *rows,

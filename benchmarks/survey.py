@@ -37,13 +37,13 @@ def _idle() -> float:
 
 def run() -> list[Row]:
     """Wall-clock times in turn, and their ratio."""
-    from ragg_runtime import workflow
     from ragg_runtime.flight import write_flight
-    from ragg_runtime.simulate import simulated
+    from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow.simulate import simulated
 
     free = free_processors()
     with tempfile.TemporaryDirectory() as folder:
-        m = workflow.new(Path(folder) / "model")
+        m = loop.new(Path(folder) / "model")
         files = []
         for k in range(FLIGHTS):
             hidden = ["thermal-scale:dK1_dT=0/0/6e-8/0"] if k % 4 == 0 else []
@@ -55,7 +55,7 @@ def run() -> list[Row]:
         for _ in range(REPEATS):
             for jobs, spent in times.items():
                 start = time.perf_counter()
-                found = workflow.survey(m, files, jobs=jobs)
+                found = loop.survey(m, files, jobs=jobs)
                 spent.append(time.perf_counter() - start)
                 results.add(repr(found.records))
     if len(results) != 1:

@@ -21,7 +21,7 @@ from derive.stages import Geometry, Motion, SensedForce
 from derive.symbols import symbol
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 Kind = Literal["deterministic", "step", "random", "output"]
 

@@ -21,7 +21,7 @@ from derive.stages import SensedForce
 from derive.symbols import MOTION, symbol
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 LONGEST = 500
 """Longest expression, characters."""

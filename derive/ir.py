@@ -17,12 +17,7 @@ from sympy.polys.rings import PolyElement
 from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
-from derive.propagation import (
-    COEFFICIENT_PARAMETERS,
-    MOTION_NUMBERS,
-    Collected,
-    motion_numbers,
-)
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, symbol
 from derive.tape import Program, simplify

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.stages import Geometry, skew
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def small_rotation(vector: sp.Matrix, name: str, c: Context) -> sp.Matrix:

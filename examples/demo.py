@@ -6,7 +6,7 @@ import argparse
 import shutil
 from pathlib import Path
 
-from ragg_runtime import demo
+from ragg_runtime.cli import demo
 
 FLIGHT = Path(__file__).parent / "demo-flight.parquet"
 

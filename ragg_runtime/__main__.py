@@ -1,5 +1,5 @@
 """``python -m ragg_runtime`` is ``ragg``."""
 
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
 
 main()

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ragg_runtime import progress
-from ragg_runtime.cli import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
-from ragg_runtime.errors import UserError, printable
-from ragg_runtime.workflow import Loaded
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.main import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
+from ragg_runtime.workflow.loop import Loaded
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
@@ -24,15 +24,17 @@ if TYPE_CHECKING:
 @_json
 def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
-    from ragg_runtime import texts, texts_after, workflow, workflow_after
+    from ragg_runtime import texts_after, workflow_after
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow.read_flights(m, flights)
+    read = loop.read_flights(m, flights)
     _progress("calibrating")
     with progress.shown("compare", sum(map(len, read))):
         kept = workflow_after.calibrate(m, read, save)
-    origin = texts.origin(kept.loaded, read, _command())
+    origin = terminal.origin(kept.loaded, read, _command())
     _emit(kept.as_json() | origin, json_file, texts_after.calibrated(kept, read))
 
 
@@ -71,7 +73,8 @@ def compensate(
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
-    from ragg_runtime import texts, texts_after, workflow_after
+    from ragg_runtime import texts_after, workflow_after
+    from ragg_runtime.cli import terminal
     from ragg_runtime.flight.source import format_of
 
     format_of(output)
@@ -82,7 +85,7 @@ def compensate(
     _progress("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = workflow_after.compensate(m, read, calibration, demodulator, output)
-    origin = texts.origin(m, read, _command()) | {"notes": [*odd, *texts.notes(m, read)]}
+    origin = terminal.origin(m, read, _command()) | {"notes": [*odd, *terminal.notes(m, read)]}
     _emit(c.as_json() | {"output": str(output)} | origin, json_file, texts_after.compensated(c, output, read))
 
 
@@ -108,12 +111,14 @@ def compare_frozen(
     m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
 ) -> None:
     """``ragg compare --frozen``."""
-    from ragg_runtime import texts, texts_after, workflow, workflow_after
+    from ragg_runtime import texts_after, workflow_after
+    from ragg_runtime.cli import terminal
     from ragg_runtime.compensation.frozen import sentence
+    from ragg_runtime.workflow import loop
 
     odd = _calibration_notes(m)
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow.read_flights(m, flights)
+    read = loop.read_flights(m, flights)
     _progress("comparing with the calibration that was kept")
     with progress.shown("compare", sum(map(len, read))):
         h = workflow_after.compare_frozen(m, read)
@@ -125,14 +130,16 @@ def compare_frozen(
             h.comparison,
             title=f"{m.name}, frozen, and {', '.join(x.name for x in read)}",
             command=_command(),
-            sources=workflow.sources(m, read),
-            notes=[sentence(h), *odd, *texts.notes(m, read)],
+            sources=loop.sources(m, read),
+            notes=[sentence(h), *odd, *terminal.notes(m, read)],
         )
 
     _write_report(report_file, page)
-    origin = texts.origin(m, read, _command())
+    origin = terminal.origin(m, read, _command())
     _emit(
-        h.as_json() | origin | {"notes": [*odd, *texts.notes(m, read)]}, json_file, texts_after.held(h, read)
+        h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
+        json_file,
+        texts_after.held(h, read),
     )
 
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime import display
+from ragg_runtime.cli.terminal import compared, errors_table
 from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
-from ragg_runtime.texts import compared, errors_table
+from ragg_runtime.wording import notebook
 from ragg_runtime.workflow_after import Compensation, Kept
 
 MOVED = 3.0
@@ -29,7 +29,7 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
         *errors_table(rows, floor, flights),
         "" if c.converged else "\nThe fit has NOT converged: do not rely on these values.",
         f"the record determines {seen} of {of} directions of the parameters; the sheet alone says the others:",
-        *(f"  {display.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),
+        *(f"  {notebook.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),
     ]
     if found["drift"]:
         lines.append("\neach flight alone:")
@@ -84,7 +84,7 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
         for channel in ("inline", "cross"):
             numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
             sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
-            a, b, n, s, p = (display.number(v) for v in (*numbers, *sizes))
+            a, b, n, s, p = (notebook.number(v) for v in (*numbers, *sizes))
             lines.append(f"  {channel:8} {a:>12} {b:>10} {n:>10} {'':9} {s:>10} {p:>10}")
         lines.append("  removed (rms inline, cross, Eo):")
         lines += [

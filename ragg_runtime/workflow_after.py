@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import display, extend
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
@@ -22,16 +22,18 @@ from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import Series
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import vector
 from ragg_runtime.export.contents import Contents
 from ragg_runtime.export.folder import write_folder
 from ragg_runtime.export.program import c_program
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
-from ragg_runtime.model_dir import CALIBRATION, ModelDir, Step, replace_model_dir
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
+from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import examined
-from ragg_runtime.workflow import Loaded
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.loop import Loaded
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class Kept:
         )
 
     def _repr_html_(self) -> str:
-        return display.calibration(self.as_json(), [o.name for o in self.calibrated.fitted.observations])
+        return notebook.calibration(self.as_json(), [o.name for o in self.calibrated.fitted.observations])
 
     def as_json(self) -> dict[str, Any]:
         return self.calibrated.as_json() | {"saved": self.saved}
@@ -79,9 +81,9 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight]) -> Loaded:
 
 def _code(d: ModelDir) -> Any:
     """The code of a model directory, unchanged if it is what is derived for it, else derived anew."""
-    if d.generated is not None and extend.departure(d.instrument, d.generated) is None:
+    if d.generated is not None and derive.departure(d.instrument, d.generated) is None:
         return d.generated
-    return extend.files_of(d.instrument)
+    return derive.files_of(d.instrument)
 
 
 def saved_calibration(m: Loaded) -> Saved:
@@ -111,7 +113,7 @@ class Compensation:
         return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
 
     def _repr_html_(self) -> str:
-        return display.compensation(self.as_json())
+        return notebook.compensation(self.as_json())
 
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)
@@ -190,7 +192,7 @@ def contents(m: Loaded) -> Contents:
         model=m.model,
         instrument=m.instrument,
         p=vector(m.model, m.instrument) if saved is None else saved.p,
-        sources=folded or extend.exact_c(m.instrument),
+        sources=folded or derive.exact_c(m.instrument),
         origin=origin,
         calibration=None if saved is None else saved.as_json(),
     )

@@ -17,16 +17,21 @@ from numpy.typing import NDArray
 from benchmarks.diagnosis import inject, outside, peers
 from benchmarks.diagnosis.inject import Bench, Hidden
 from benchmarks.diagnosis.plan import STRENGTH, Spec, scenario_of
-from ragg_runtime import compare, diagnose, extend, load
-from ragg_runtime.compare import Fitted
-from ragg_runtime.diagnose import Diagnosis
-from ragg_runtime.evaluate import output, record, vector
+from ragg_runtime.diagnosis import diagnose
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit import fitted as fitted_
+from ragg_runtime.fit import observation
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument import EffectSetting, Instrument
-from ragg_runtime.load import Model
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import output, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import record
+from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario
 from ragg_runtime.reference.simulate import Simulation
-from ragg_runtime.units import RawQuantity
 
 Array = NDArray[np.float64]
 
@@ -89,7 +94,7 @@ def _flown(spec: Spec) -> dict[str, object]:
     p = prepared(spec)
     model, sheet = load.packaged(), p.scenario.sheet
     begin = time.perf_counter()
-    d = diagnose.diagnose(model, sheet, [p.flight], lambda m, ids: extend.with_effects(sheet, m, ids))
+    d = diagnose.diagnose(model, sheet, [p.flight], lambda m, ids: derive.with_effects(sheet, m, ids))
     seconds = time.perf_counter() - begin
     c = peers.columns(d.fitted)
     return {
@@ -136,7 +141,7 @@ def prepared(spec: Spec) -> Prepared:
     plain = s.simulate(record_gradient=spec.gradient[1] == "recorded")
     flight = _with_sensor_noise(spec, s, plain)
     model = load.packaged()
-    bench = Bench(compare.fit(model, s.sheet, [compare.observe(flight, s.sheet)]), plain)
+    bench = Bench(fitted_.fit(model, s.sheet, [observation.observe(flight, s.sheet)]), plain)
     hidden: tuple[Hidden, ...] = ()
     untestable: tuple[str, ...] = ()
     term = None
@@ -235,8 +240,8 @@ def _errors(p: Prepared, d: Diagnosis) -> dict[str, object]:
     def fitted(ids: Sequence[str], instants: Mapping[str, float]) -> tuple[float, float]:
         ids = [e for e in ids if _kind(model, e) in ("deterministic", "step")]
         instrument = _with_instants(sheet, {e: t for e, t in instants.items() if e in ids})
-        extended = extend.with_effects(sheet, model, ids) if ids else _plain(model)
-        return scored(compare.fit(extended, instrument, d.fitted.observations))
+        extended = derive.with_effects(sheet, model, ids) if ids else _plain(model)
+        return scored(fitted_.fit(extended, instrument, d.fitted.observations))
 
     oracle = fitted([h.effect for h in p.hidden], steps)
     same = set(d.found) == {h.effect for h in p.hidden} and not steps

@@ -19,13 +19,13 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design, gradient
-from ragg_runtime.compare import Fitted
-from ragg_runtime.design import Column
-from ragg_runtime.evidence import work
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import prepared, unknown_gradient
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.reference.effects import CATALOGUE
 from ragg_runtime.reference.simulate import Simulation
-from ragg_runtime.whiten import filtered
+from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
 
@@ -89,7 +89,7 @@ class Bench:
     def basis(self, given: Sequence[int]) -> Array:
         """(rows, k): orthonormal basis of base and ``given`` candidate columns."""
         f = self.fitted
-        return work.projector(f.triangles[0], f.n_base, given).basis(self.piece)
+        return prepared.projector(f.triangles[0], f.n_base, given).basis(self.piece)
 
     def of(self, effect: str) -> list[int]:
         """Positions of an effect's columns among the candidates."""
@@ -103,7 +103,7 @@ class Bench:
         """A change of G_out (N,) V as a row of the fit, base and unknown gradient projected out."""
         valid = self.piece.observation.record.valid
         row = filtered(np.where(valid, series, 0.0)[None], self.noise.filters[0])[:, valid]
-        gradient.project(row, self.piece.windows)
+        unknown_gradient.project(row, self.piece.windows)
         return self.projected(row)[0]
 
     def block(self, effect: str, instant: float | None = None) -> Array:

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design
-from ragg_runtime.compare import Fitted
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.fitted import Fitted
 
 Array = NDArray[np.float64]
 

@@ -26,10 +26,7 @@ from derive.audit.compare import (
     select,
 )
 from derive.audit.printed import ANALYTICAL
-from derive.audit.reading import (
-    generators,
-    model_reader,
-)
+from derive.audit.reading import generators, model_reader
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,

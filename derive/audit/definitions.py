@@ -12,14 +12,7 @@ from derive import stages
 from derive.audit.compare import Rational, Reading, compare, read
 from derive.audit.conventions import Score
 from derive.audit.printed import MOTION, TRANSDUCER
-from derive.audit.reading import (
-    ANGLE_RING,
-    RATE_RING,
-    generators,
-    motion_reader,
-    ring_of,
-    transducer_reader,
-)
+from derive.audit.reading import ANGLE_RING, RATE_RING, generators, motion_reader, ring_of, transducer_reader
 from derive.propagation import motion_numbers
 from derive.stages import PAPER
 from derive.symbols import SECOND_ORDER, symbol

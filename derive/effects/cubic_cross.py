@@ -10,7 +10,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 MONOMIALS: tuple[str, ...] = ("iio", "iip", "ioo", "iop", "ipp", "ooo", "oop", "opp", "ppp")
 """All monomials of third degree in f_i, f_o, f_p but f_i^3, which is the effect ``cubic-input``."""

@@ -10,7 +10,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

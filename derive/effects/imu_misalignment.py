@@ -11,7 +11,7 @@ from derive.rotation import small_rotation
 from derive.stages import Motion
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:

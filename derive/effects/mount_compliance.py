@@ -10,7 +10,7 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:

@@ -9,7 +9,7 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
 

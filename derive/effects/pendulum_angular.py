@@ -10,7 +10,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:

@@ -10,7 +10,7 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 REFERENCE_PASCAL = sp.Integer(101325)
 """Pressure at which the test sheet's null bias holds; another one is absorbed by K0."""

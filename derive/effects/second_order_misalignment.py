@@ -8,7 +8,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def second_order(q: SensedForce, f: SensedForce, p: Values, c: Context) -> SensedForce:

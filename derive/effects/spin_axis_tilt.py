@@ -11,7 +11,7 @@ from derive.rotation import lean
 from derive.stages import Geometry
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def geometry(g: Geometry, p: Values, c: Context) -> Geometry:

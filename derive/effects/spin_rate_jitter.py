@@ -9,7 +9,7 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def disc_angle(p: Values, c: Context) -> sp.Expr:

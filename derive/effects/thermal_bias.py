@@ -11,7 +11,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.effects.thermal_scale import REFERENCE_KELVIN
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 
 def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:

@@ -10,7 +10,7 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 REFERENCE_KELVIN = sp.Rational(29315, 100)
 """Temperature at which the test sheet's scale factor holds; another one is absorbed by K1."""

@@ -10,7 +10,7 @@ from derive.effect import Effect, EffectParameter, Values
 from derive.stages import SensedForce, misalignment_matrix
 
 if TYPE_CHECKING:
-    from derive.chain import Context
+    from derive.context import Context
 
 COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 

@@ -13,7 +13,7 @@ import sympy as sp
 
 from derive.propagation import MOTION_NUMBERS, motion_numbers
 from derive.symbols import MOTION
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 Vector = tuple[float, float, float]
 

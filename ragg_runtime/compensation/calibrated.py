@@ -11,18 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
-from ragg_runtime import calibrate, compare
-from ragg_runtime.compare import Fitted
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.design import Column, join
-from ragg_runtime.diagnose import PATTERNS, ParameterValue, parameter_values
-from ragg_runtime.evaluate import vector
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.parameters import PATTERNS, ParameterValue, parameter_values
+from ragg_runtime.fit import calibrate
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.fit.square_root import join, with_prior
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.metrics import Error
-from ragg_runtime.segments import ROWS
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 
@@ -79,7 +82,7 @@ def converged(f: Fitted) -> bool:
     said = getattr(f.calibration, "converged", None)
     if said is not None:
         return bool(said)
-    normal = calibrate.with_prior(join([t for x in f.triangles for t in _base(x, f.n_base)]), f.to_nominal)
+    normal = with_prior(join([t for x in f.triangles for t in _base(x, f.n_base)]), f.to_nominal)
     gain, size = normal.gain(normal.step), float(np.max(np.abs(normal.step)))
     return gain < calibrate.SETTLED[0] or size < calibrate.SETTLED[1]
 
@@ -90,7 +93,7 @@ def _base(triangles: Sequence[Array], n: int) -> list[Array]:
 
 def alone(f: Fitted, flight: int) -> tuple[Array, Array]:
     """What one of the flights says by itself (with the sheet), in scales: step from here, and root of its covariance."""
-    normal = calibrate.with_prior(join(_base(f.triangles[flight], f.n_base)), f.to_nominal)
+    normal = with_prior(join(_base(f.triangles[flight], f.n_base)), f.to_nominal)
     return normal.step, inverse(normal.R)
 
 
@@ -189,7 +192,7 @@ class Calibrated:
                 "calibrated": self.error.as_json(),
                 "holdout": self.holdout.as_json(),
             },
-            "noise_floor": {"rms_Eo": compare.noise_floor(self.fitted)},
+            "noise_floor": {"rms_Eo": noise_floor(self.fitted)},
             "directions": dict(zip(("seen", "fitted"), self.directions, strict=True)),
             "parameters": parameters,
             "combinations": combinations,
@@ -199,9 +202,9 @@ class Calibrated:
 
 def calibrated(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Calibrated:
     """Fit a model to flights and hold it against held-out time."""
-    f = compare.fit(model, instrument, [compare.observe(x, instrument) for x in flights])
+    f = fit(model, instrument, [observe(x, instrument) for x in flights])
     half, _ = f.coefficients((), held_out=True)
-    whole, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), half])
+    whole, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), half])
     return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)
 
 

@@ -10,23 +10,26 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare, progress
-from ragg_runtime.calibrate import Calibration, spread
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
 from ragg_runtime.compensation.calibrated import converged, information, inverse
 from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.schedule import Stretch
 from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
-from ragg_runtime.design import Observation
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import EOTVOS, GRADIENTS, scale_factor
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import fit
+from ragg_runtime.fit.noise import spread
+from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.score import finite
+from ragg_runtime.fit.segments import ROWS, Segment
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import MANY, Model
-from ragg_runtime.metrics import finite
-from ragg_runtime.segments import ROWS, Segment
-from ragg_runtime.threads import mapped, one_thread
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.record import GRADIENTS
 
 Array = NDArray[np.float64]
 Kind = Literal["frozen", "self", "crossed"]
@@ -71,7 +74,7 @@ def prepared(
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(without_gradients(x) for x in flights)
-    observations = tuple(compare.observe(x, instrument) for x in flights)
+    observations = tuple(observe(x, instrument) for x in flights)
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     lengths = [len(o.record.time) for o in observations]
     validity: dict[str, tuple[float, float]] = {}
@@ -83,7 +86,7 @@ def prepared(
         stretches = [schedule.whole(c, root, n) for n in lengths]
         settled, validity = saved.converged, dict(saved.validity)
     else:
-        f = compare.fit(model, instrument, observations)
+        f = fit(model, instrument, observations)
         c, settled = f.calibration, converged(f)
         root = inverse(information(f))
         stretches = (

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.compensation.series import Segment, Setting
-from ragg_runtime.evaluate import unit_factor
-from ragg_runtime.instrument import PARAMETERS, Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.units import units
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.units import units
+from ragg_runtime.model.evaluate import unit_factor
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 

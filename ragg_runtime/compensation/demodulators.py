@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.demodulate import low_pass
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.signals.demodulate import low_pass
 
 Array = NDArray[np.float64]
 

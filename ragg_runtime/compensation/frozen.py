@@ -10,21 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime import calibrate, compare
-from ragg_runtime.calibrate import Calibration
-from ragg_runtime.compare import Comparison, Fitted
+from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import calibrated
 from ragg_runtime.compensation.saved import Saved, read
-from ragg_runtime.design import Observation, base_columns, join
-from ragg_runtime.errors import UserError, did_you_mean
-from ragg_runtime.evaluate import scale_factor, vector
+from ragg_runtime.diagnosis import comparison as compare
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.columns import base_columns
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.linearise import Point
+from ragg_runtime.fit.noise import estimate_noise
+from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.square_root import join
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.metrics import Error
-from ragg_runtime.model_dir import CALIBRATION, ModelDir
-from ragg_runtime.passes import Noise, Point
-from ragg_runtime.threads import one_thread
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir
+from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -112,7 +117,7 @@ def calibration(
     columns = base_columns(model, instrument)
     half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
-    noise: list[Noise] = [calibrate.estimate_noise(at, o) for o in observations]
+    noise: list[Noise] = [estimate_noise(at, o) for o in observations]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),
@@ -234,7 +239,7 @@ class Held:
 
 def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
     """Hold a saved calibration against flights."""
-    observations = [compare.observe(x, instrument) for x in flights]
+    observations = [observe(x, instrument) for x in flights]
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     f = compare.about(model, instrument, observations, calibration(saved, model, instrument, observations))
     free, _ = f.coefficients(())

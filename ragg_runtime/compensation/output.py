@@ -15,7 +15,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from ragg_runtime.atomic import replacing
+from ragg_runtime.base.files import replacing
 from ragg_runtime.flight.source import format_of
 
 UNITS: Mapping[str, str] = MappingProxyType(

@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import calibrate
-from ragg_runtime.calibrate import Calibration
-from ragg_runtime.compare import Fitted
 from ragg_runtime.compensation.calibrated import inverse
-from ragg_runtime.design import join
-from ragg_runtime.segments import BLOCKS, block_edges
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.segments import BLOCKS, block_edges
+from ragg_runtime.fit.square_root import join, with_prior
 
 Array = NDArray[np.float64]
 
@@ -60,7 +59,7 @@ def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
         stretches = []
         for b in range(BLOCKS):
             others = [t for x, ts in enumerate(all_of) for y, t in enumerate(ts) if (x, y) != (k, b)]
-            normal = calibrate.with_prior(join(others), f.to_nominal)
+            normal = with_prior(join(others), f.to_nominal)
             p = c.p.copy()
             p[c.index] += normal.step * scale
             stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.compensation.schedule import Stretch, within
-from ragg_runtime.design import Observation
-from ragg_runtime.evaluate import EOTVOS, GRADIENTS, Record, scale_factor
-from ragg_runtime.load import Chain
-from ragg_runtime.native import Evaluator
-from ragg_runtime.passes import as_output
+from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.model.model import Chain
+from ragg_runtime.model.native import Evaluator
+from ragg_runtime.model.record import GRADIENTS, Record
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.compensation.demodulators import Demodulator
-from ragg_runtime.design import Observation
-from ragg_runtime.gradient import spin_frequency
-from ragg_runtime.passes import Noise, output_weights
-from ragg_runtime.timeseries import runs
+from ragg_runtime.fit.observation import Observation, output_weights
+from ragg_runtime.fit.unknown_gradient import spin_frequency
+from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 

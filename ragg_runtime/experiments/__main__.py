@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments.command import experiment
 from ragg_runtime.experiments.page import DEFAULT, page
 

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime import provenance
-from ragg_runtime.atomic import write_text
+from ragg_runtime.base.files import write_text
 from ragg_runtime.experiments.result import Result
+from ragg_runtime.model_dir import provenance
 
 _JSON = click.option(
     "--json", "json_file", type=click.Path(), metavar="FILE", help="Write the result as JSON (- is stdout)."

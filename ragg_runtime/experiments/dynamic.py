@@ -14,13 +14,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.evaluate import EOTVOS
 from ragg_runtime.experiments import paper, result
 from ragg_runtime.experiments.dynamic_checks import conditions, missing_angle, motion_variants
 from ragg_runtime.experiments.models import Channels, channels, error, over_turns
 from ragg_runtime.experiments.regular import TURNS, WITH_MASS, regular_run
 from ragg_runtime.experiments.result import Json, Row, Table, judge
 from ragg_runtime.experiments.vartheta_x import LARGEST, Reach
+from ragg_runtime.model.evaluate import EOTVOS
 from ragg_runtime.reference import Simulation
 
 Array = NDArray[np.float64]

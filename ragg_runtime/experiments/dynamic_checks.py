@@ -13,8 +13,8 @@ from ragg_runtime.experiments.models import ANGLES_DROPPED, error, output, over_
 from ragg_runtime.experiments.regular import WITH_MASS, regular_run
 from ragg_runtime.experiments.result import Cell, Table
 from ragg_runtime.experiments.vartheta_x import LARGEST, Reach, draws, response, smallest_angles, with_angles
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.masses import G, PointMass
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.reference.gravity import G, PointMass
 
 Array = NDArray[np.float64]
 

@@ -10,10 +10,10 @@ from typing import Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.demodulate import demodulate
-from ragg_runtime.evaluate import EOTVOS
-from ragg_runtime.instrument import Instrument
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import EOTVOS
 from ragg_runtime.reference import Simulation, disc_angle
+from ragg_runtime.signals.demodulate import demodulate
 
 Array = NDArray[np.float64]
 

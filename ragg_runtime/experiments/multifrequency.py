@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from ragg_runtime.experiments import paper, result
 from ragg_runtime.experiments.models import Channels, channels, output
 from ragg_runtime.experiments.result import Json, Row, Table, judge
-from ragg_runtime.masses import Gradient, Gravity, PointMass, gradient_series
 from ragg_runtime.reference import Simulation, simulate, still
+from ragg_runtime.reference.gravity import Gradient, Gravity, PointMass, gradient_series
 from ragg_runtime.reference.instruments import perfect
 
 Array = NDArray[np.float64]

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.masses import Gravity, PointMass
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, simulate
 from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.gravity import Gravity, PointMass
 from ragg_runtime.reference.instruments import table_v
 from ragg_runtime.reference.rotation import Rotations
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments import paper, result
 from ragg_runtime.experiments.models import Channels, channels, error
 from ragg_runtime.experiments.result import Json, Row, Table, judge

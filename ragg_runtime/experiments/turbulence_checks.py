@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.demodulate import low_pass
-from ragg_runtime.evaluate import EOTVOS
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.models import ANGLES_DROPPED, channels, error, output, over_turns
 from ragg_runtime.experiments.regular import regular_run
 from ragg_runtime.experiments.result import Cell, Table
 from ragg_runtime.experiments.turbulent import Derivative, turbulent_run
 from ragg_runtime.experiments.vartheta_x import LARGEST, Reach, draws, response, with_angles
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.noise import Noise
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import EOTVOS
 from ragg_runtime.reference import Simulation
+from ragg_runtime.reference.accelerometer_noise import Noise
+from ragg_runtime.signals.demodulate import low_pass
 
 Array = NDArray[np.float64]
 

@@ -14,12 +14,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.paper import Turbulent
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.noise import Noise
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference import Motion, Simulation, instants, simulate
+from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.instruments import table_v
 from ragg_runtime.reference.rotation import Rotations

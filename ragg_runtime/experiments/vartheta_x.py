@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.instrument import Instrument
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference.instruments import table_v
 
 Array = NDArray[np.float64]

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.evaluate import EOTVOS, GRADIENTS, Record
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
-from ragg_runtime.instrument import PARAMETER, Instrument
-from ragg_runtime.load import Chain, Model
-from ragg_runtime.parameters import DISC_UNITS
-from ragg_runtime.units import units
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
+from ragg_runtime.instrument.units import units
+from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.record import GRADIENTS, Record
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ragg_runtime.atomic import write_text
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import write_text
 
 MARK = ".ragg-export"
 """The file by which a folder is known as that of an export; what an earlier one wrote is replaced file by file."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.export.contents import Contents, is_gradient, unit_of
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
-from ragg_runtime.timeseries import WINDOW, weights
+from ragg_runtime.signals.derivative import WINDOW, weights
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -26,8 +26,8 @@ from ragg_runtime.flight.record import (
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
-from ragg_runtime.timeseries import differentiate, runs
-from ragg_runtime.units import Units, units
+from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.signals.derivative import differentiate, runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such

@@ -13,7 +13,7 @@ from typing import IO
 import pyarrow as pa
 import pyarrow.csv
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.arrow import floats
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import Batch, Column, Source, columns_of

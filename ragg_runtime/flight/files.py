@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.atomic import replacing
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import replacing
 from ragg_runtime.flight.assemble import layout
 from ragg_runtime.flight.csv_file import open_csv, write_csv
 from ragg_runtime.flight.netcdf_file import open_netcdf, write_netcdf
@@ -17,8 +17,8 @@ from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
 from ragg_runtime.flight.spool import spooled
-from ragg_runtime.timeseries import WINDOW
-from ragg_runtime.units import Units, units
+from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.signals.derivative import WINDOW
 
 IN_MEMORY = 48 << 20
 """Most memory, bytes, that the columns of a flight may take; those of a longer one are laid down on disk."""

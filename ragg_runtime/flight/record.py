@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ragg_runtime.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

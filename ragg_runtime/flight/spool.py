@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.memory import give_back
 from ragg_runtime.flight.record import Array, Flight, Mask
-from ragg_runtime.memory import give_back
 
 NOTES = 12
 """Most notes that are kept of the parts of a flight."""

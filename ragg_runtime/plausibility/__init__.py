@@ -1,8 +1,8 @@
 """Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them."""
 
-from ragg_runtime.plausibility.checks import check_settings
+from ragg_runtime.model.settings import check_settings
 from ragg_runtime.plausibility.examine import examined
-from ragg_runtime.plausibility.likely import Likely, likely
+from ragg_runtime.plausibility.identify import Likely, likely
 from ragg_runtime.plausibility.spikes import spikes
 
 __all__ = ["Likely", "check_settings", "examined", "likely", "spikes"]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, VOLTAGES
 from ragg_runtime.flight.spool import let_go
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.timeseries import differentiate
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
@@ -71,27 +71,6 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
-
-
-def check_settings(model: Model, instrument: Instrument) -> None:
-    """UserError if model.toml gives an effect a parameter that it does not have, or one of a wrong dimension."""
-    for e in model.effects:
-        setting = instrument.effect(e.id)
-        if setting is None:
-            continue
-        names = {q.name: q for q in e.parameters}
-        for name in setting.values:
-            if name not in names:
-                raise UserError(
-                    f"the effect {e.id} has no parameter {name!r}",
-                    where=at(instrument.path, "effects", e.id),
-                    expected="one of " + ", ".join(names),
-                    remedy=did_you_mean(name, names),
-                )
-            q = names[name]
-            where = str(instrument.path) if instrument.path else None
-            si_unit = instrument.units.base_unit(q.unit)
-            setting.si(name, si_unit, instrument.g0, shared=q.shared, where=where)
 
 
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:

@@ -7,16 +7,16 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.evaluate import disc_angle
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.flight.sampling import JITTER_NOTED
 from ragg_runtime.flight.spool import let_go
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.plausibility.linear import explain
-from ragg_runtime.plausibility.rows import CHUNK, Picker
-from ragg_runtime.timeseries import differentiate
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import disc_angle
+from ragg_runtime.plausibility.quick_fit import explain
+from ragg_runtime.plausibility.subsample import CHUNK, Picker
+from ragg_runtime.signals.derivative import differentiate
 
 BETTER = 1.1
 """Factor by which the model's residual must fall for jittering instants to be taken otherwise than they stand."""

@@ -7,20 +7,20 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import scale_factor
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.model import Model
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
-from ragg_runtime.plausibility.likely import Likely, derived_rates, likely
-from ragg_runtime.plausibility.linear import explain
-from ragg_runtime.plausibility.rows import CHUNK, Picker, picker
+from ragg_runtime.plausibility.identify import Likely, derived_rates, likely
+from ragg_runtime.plausibility.quick_fit import explain
 from ragg_runtime.plausibility.spikes import glitches, spikes, told
-from ragg_runtime.timeseries import differentiate
+from ragg_runtime.plausibility.subsample import CHUNK, Picker, picker
+from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight.record import VOLTAGES
-from ragg_runtime.plausibility.rows import Rows
-from ragg_runtime.units import Units
+from ragg_runtime.instrument.units import Units
+from ragg_runtime.plausibility.subsample import Rows
 
 Array = NDArray[np.float64]
 

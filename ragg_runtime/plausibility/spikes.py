@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ragg_runtime.timeseries import runs
+from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, optimize
 
-from ragg_runtime.demodulate import low_pass
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.load import Model
-from ragg_runtime.plausibility.linear import Explained, explain
-from ragg_runtime.plausibility.rows import Picker
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
+from ragg_runtime.plausibility.quick_fit import Explained, explain
+from ragg_runtime.plausibility.subsample import Picker
+from ragg_runtime.signals.demodulate import low_pass
 
 Array = NDArray[np.float64]
 

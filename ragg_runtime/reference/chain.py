@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.masses import Gravity
 from ragg_runtime.reference.angle import disc_angle
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
 from ragg_runtime.reference.geometry import Mount, mount
+from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import Rotations, frame_rotation, spin
 
 if TYPE_CHECKING:
-    from ragg_runtime.instrument import Instrument
+    from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.instrument import Instrument
+from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 

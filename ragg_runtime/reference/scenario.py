@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import Gradient, Gravity
-from ragg_runtime.noise import Noise, eotvos_noise
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.gravity import Gradient, Gravity
 from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
 from ragg_runtime.reference.motion import Motion, Signal, Sinusoids
 from ragg_runtime.reference.rotation import Rotations
@@ -22,7 +22,7 @@ from ragg_runtime.reference.simulate import Simulation, simulate
 from ragg_runtime.reference.turbulence import SHAPES, turbulence
 
 if TYPE_CHECKING:
-    from ragg_runtime.instrument import Instrument
+    from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 

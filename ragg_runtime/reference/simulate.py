@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import COMPONENTS, Gravity
-from ragg_runtime.noise import Noise
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
 from ragg_runtime.reference.effects.geometry import random_angle
 from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.effects.sensing import record_motion
+from ragg_runtime.reference.gravity import COMPONENTS, Gravity
 from ragg_runtime.reference.motion import Motion
 from ragg_runtime.reference.rotation import Rotations
 
 if TYPE_CHECKING:
     from ragg_runtime.flight import Flight
-    from ragg_runtime.instrument import Instrument
+    from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 

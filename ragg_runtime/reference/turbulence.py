@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft, next_fast_len, rfftfreq
 
-from ragg_runtime.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.reference.motion import Recorded
 
 Array = NDArray[np.float64]

@@ -5,21 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ragg_runtime.compare import Comparison
-from ragg_runtime.diagnose import Diagnosis
-from ragg_runtime.report import (
-    barcharts,
-    budget,
-    diagnose_page,
-    figures,
-    page,
-    panels,
-    parameters,
-    series,
-    words,
-)
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.report import barcharts, budget, diagnose_page, figures, page, panels, parameters, series
 from ragg_runtime.report.barcharts import Step
 from ragg_runtime.report.page import Origin
+from ragg_runtime.wording import numbers
 
 STEPS = 14
 """Latest steps of a history that are drawn."""
@@ -74,10 +65,10 @@ def add_html(
 def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Comparison) -> str:
     """What was done and what it did to the error."""
     last = history[-1] if history else {}
-    what = words.clean(str(last.get("effect", ""))) or "the effect"
+    what = numbers.clean(str(last.get("effect", ""))) or "the effect"
     done = {"add": "added", "remove": "removed"}.get(str(last.get("action", "add")), "changed")
     a, b, n = (
-        words.number(x) for x in (before.calibrated.rms_Eo, after.calibrated.rms_Eo, after.noise_floor)
+        numbers.number(x) for x in (before.calibrated.rms_Eo, after.calibrated.rms_Eo, after.noise_floor)
     )
     fell = after.calibrated.rms_Eo < 0.995 * before.calibrated.rms_Eo
     rose = after.calibrated.rms_Eo > 1.005 * before.calibrated.rms_Eo
@@ -90,9 +81,9 @@ def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Co
 
 def lead(before: Comparison, after: Comparison) -> list[str]:
     said = [
-        f"Inline {words.number(before.calibrated.inline_Eo_per_rtHz)} → {words.number(after.calibrated.inline_Eo_per_rtHz)},"
-        f" cross {words.number(before.calibrated.cross_Eo_per_rtHz)} → {words.number(after.calibrated.cross_Eo_per_rtHz)}"
-        f" Eo/√Hz; held out {words.number(before.holdout.rms_Eo)} → {words.number(after.holdout.rms_Eo)} Eo."
+        f"Inline {numbers.number(before.calibrated.inline_Eo_per_rtHz)} → {numbers.number(after.calibrated.inline_Eo_per_rtHz)},"
+        f" cross {numbers.number(before.calibrated.cross_Eo_per_rtHz)} → {numbers.number(after.calibrated.cross_Eo_per_rtHz)}"
+        f" Eo/√Hz; held out {numbers.number(before.holdout.rms_Eo)} → {numbers.number(after.holdout.rms_Eo)} Eo."
     ]
     if after.holdout.rms_Eo > before.holdout.rms_Eo:
         said.append("On held-out time the error does not fall: the step is not confirmed by this record.")
@@ -128,7 +119,7 @@ def _steps(history: Sequence[Mapping[str, Any]]) -> list[Step]:
         if start == start and not abs(start - last) <= 0.02 * start:
             label = "as it was" if not steps else "same model,\nother flights"
             steps.append(Step(label, start, _value(entry.get("before"), "holdout"), strong=False))
-        sign = {"add": "+", "remove": words.MINUS}.get(str(entry.get("action", "")), "")
+        sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")
         label = f"{sign} {entry.get('effect') or entry.get('action', '')}".strip()
         if end == end:
             steps.append(Step(label, end, _value(entry.get("after"), "holdout")))
@@ -153,9 +144,9 @@ def _history_table(history: Sequence[Mapping[str, Any]]) -> list[dict[str, str]]
             "time": str(h.get("time", "")),
             "action": str(h.get("action", "")),
             "effect": str(h.get("effect") or "–"),
-            "before": words.number(_value(h.get("before"), "calibrated")),
-            "after": words.number(_value(h.get("after"), "calibrated")),
-            "holdout": words.number(_value(h.get("after"), "holdout")),
+            "before": numbers.number(_value(h.get("before"), "calibrated")),
+            "after": numbers.number(_value(h.get("after"), "calibrated")),
+            "holdout": numbers.number(_value(h.get("after"), "holdout")),
         }
         for h in history
     ]
@@ -188,9 +179,9 @@ def _budget(after: Comparison) -> dict[str, Any]:
     table = [
         {
             "label": r.label,
-            "rms": words.number(r.rms),
-            "inline": words.number(r.inline),
-            "cross": words.number(r.cross),
+            "rms": numbers.number(r.rms),
+            "inline": numbers.number(r.inline),
+            "cross": numbers.number(r.cross),
             "strong": r.strong,
         }
         for r in rows

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from ragg_runtime.report import draw, words
+from ragg_runtime.report import draw
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -76,7 +77,7 @@ def lying(bars: Sequence[Bar], name: str, label: str, unit: str, threshold: floa
             ax.set_xlim(0.0, 1.12 * max(shown))
         halo = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
         for k, b in enumerate(bars):
-            text = words.number(b.value) if np.isfinite(b.value) else "certain"
+            text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
             ax.annotate(
                 text,
                 (shown[k], y[k]),
@@ -89,7 +90,7 @@ def lying(bars: Sequence[Bar], name: str, label: str, unit: str, threshold: floa
         if threshold is not None:
             ax.axvline(threshold, color=draw.NOISE, linestyle="--", linewidth=1.0, label="needed for a claim")
             draw.legend(ax, 1)
-        ax.set_yticks(y, [words.short(b.label, 56) for b in bars])
+        ax.set_yticks(y, [numbers.short(b.label, 56) for b in bars])
         ax.set_ylim(-0.6, len(bars) - 0.4)
         draw.no_ticks(ax, "y")
         ax.set_xlabel(unit)
@@ -128,7 +129,7 @@ def loop(steps: Sequence[Step], noise: float, name: str, label: str) -> str:
         for k, s in enumerate(steps):
             if np.isfinite(s.error):
                 ax.annotate(
-                    words.number(s.error),
+                    numbers.number(s.error),
                     (k, s.error),
                     xytext=(0, 4),
                     textcoords="offset points",
@@ -144,12 +145,12 @@ def loop(steps: Sequence[Step], noise: float, name: str, label: str) -> str:
             color=draw.NOISE,
             linestyle="--",
             linewidth=1.2,
-            label=f"noise floor {words.number(noise)} Eo",
+            label=f"noise floor {numbers.number(noise)} Eo",
         )
         draw.legend(ax, 2)
         length = 28 if len(steps) < 6 else 16
         ax.set_xticks(
-            x, ["\n".join(words.short(part, length) for part in s.label.split("\n")) for s in steps]
+            x, ["\n".join(numbers.short(part, length) for part in s.label.split("\n")) for s in steps]
         )
         ax.set_xlim(-0.6, max(len(steps), 4) - 0.4)
         draw.no_ticks(ax, "x")
@@ -201,7 +202,7 @@ def budget(rows: Sequence[Contribution], noise: float, name: str, label: str) ->
         ax.axvline(noise, color=draw.NOISE, linestyle="--", linewidth=1.0, label="noise before demodulation")
         ax.set_xlim(low, top * 2.0)
         draw.log_ticks(ax, "x")
-        ax.set_yticks(y, [words.short(r.label, 56) for r in rows])
+        ax.set_yticks(y, [numbers.short(r.label, 56) for r in rows])
         ax.set_ylim(-0.6, len(rows) - 0.4)
         draw.no_ticks(ax, "y")
         ax.set_xlabel("contribution, Eo")

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compare import Fitted
-from ragg_runtime.evaluate import output, unit_factor
-from ragg_runtime.instrument import PARAMETERS
-from ragg_runtime.metrics import error
-from ragg_runtime.report import words
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.score import error
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.model.evaluate import output, unit_factor
 from ragg_runtime.report.barcharts import Contribution
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -47,9 +47,9 @@ def _groups(f: Fitted) -> list[tuple[str, Array, bool]]:
             continue
         without = p.copy()
         without[places[q.name]] = np.mean(p[places[q.name]]) if q.relative else 0.0
-        text = "".join(f"_{piece}" if lowered else piece for piece, lowered in words.symbol(q.symbol))
+        text = "".join(f"_{piece}" if lowered else piece for piece, lowered in numbers.symbol(q.symbol))
         kind = "imbalance of the " if q.relative else ""
-        groups.append((f"{text}  {kind}{words.unit(q.description)}", without, False))
+        groups.append((f"{text}  {kind}{numbers.unit(q.description)}", without, False))
     for e in f.model.effects:
         without = p.copy()
         for parameter in e.parameters:

@@ -6,9 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ragg_runtime.compare import Comparison
-from ragg_runtime.report import figures, page, panels, parameters, series, words
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.report import figures, page, panels, parameters, series
 from ragg_runtime.report.page import Origin
+from ragg_runtime.wording import numbers
 
 
 def compare_html(
@@ -52,7 +53,7 @@ def compare_html(
 
 def headline(c: Comparison) -> str:
     """Calibrated error against noise floor, adequate or not, in one sentence."""
-    error, noise = words.number(c.calibrated.rms_Eo), words.number(c.noise_floor)
+    error, noise = numbers.number(c.calibrated.rms_Eo), numbers.number(c.noise_floor)
     if c.adequate:
         return (
             f"The model is adequate: calibrated, it leaves {error} Eo, which is the noise of this record"
@@ -67,7 +68,7 @@ def headline(c: Comparison) -> str:
         )
     return (
         f"The model is not adequate: calibrated, it leaves {error} Eo where the noise is {noise} Eo;"
-        f" {words.number(math.sqrt(excess), 2)} Eo of it are not noise."
+        f" {numbers.number(math.sqrt(excess), 2)} Eo of it are not noise."
     )
 
 
@@ -79,27 +80,28 @@ def lead(c: Comparison) -> list[str]:
     said = []
     if math.isfinite(c.calibrated.inline_Eo):
         said.append(
-            f"In the demodulated channels the residual is {words.number(c.calibrated.inline_Eo_per_rtHz)} Eo/√Hz"
-            f" inline and {words.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross;"
-            f" the noise alone would give {words.number(noise.inline_Eo_per_rtHz)} and"
-            f" {words.number(noise.cross_Eo_per_rtHz)}."
+            f"In the demodulated channels the residual is {numbers.number(c.calibrated.inline_Eo_per_rtHz)} Eo/√Hz"
+            f" inline and {numbers.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross;"
+            f" the noise alone would give {numbers.number(noise.inline_Eo_per_rtHz)} and"
+            f" {numbers.number(noise.cross_Eo_per_rtHz)}."
         )
     found = c.terms()
     if found:
         t = found[0]
         z = abs(float(str(t["z"])))
         said.append(
-            f"The clearest trace is {words.harmonic(str(t['harmonic']))} × {words.product(str(t['term']))}"
-            f" ({words.number(z)} standard deviations)."
+            f"The clearest trace is {numbers.harmonic(str(t['harmonic']))} × {numbers.product(str(t['term']))}"
+            f" ({numbers.number(z)} standard deviations)."
         )
     blocks = c.by_time()
     if blocks and float(str(blocks[0]["over_noise"])) > 1.15:
         b = blocks[0]
         digits = 0 if float(str(b["to_s"])) - float(str(b["from_s"])) > 10.0 else 1
-        where = f" of {words.clean(str(b['flight']))}" if len(f.flown) > 1 else ""
+        where = f" of {numbers.clean(str(b['flight']))}" if len(f.flown) > 1 else ""
         said.append(
-            f"The worst stretch is from {words.fixed(float(str(b['from_s'])), digits)} to {words.fixed(float(str(b['to_s'])), digits)} s"
-            f"{where}, with {words.number(float(str(b['rms_Eo'])))} Eo."
+            f"The worst stretch is from {numbers.fixed(float(str(b['from_s'])), digits)} "
+            f"to {numbers.fixed(float(str(b['to_s'])), digits)} s"
+            f"{where}, with {numbers.number(float(str(b['rms_Eo'])))} Eo."
         )
     if not c.adequate:
         said.append("The command ragg diagnose looks for the physical effect that would account for it.")

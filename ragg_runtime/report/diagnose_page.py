@@ -8,14 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.compare import Fitted
-from ragg_runtime.diagnose import Diagnosis, Ranked
-from ragg_runtime.evidence import search
-from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters, series, words
+from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence import selection
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters, series
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.effect_values import Value, Values
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.parameters import Row
+from ragg_runtime.wording import numbers
 
 SHOWN_BARS = 12
 
@@ -48,7 +50,7 @@ def diagnose_html(
         "combined": effect_rows(d, parameters.by_combination),
         "patterns": [name for name, _ in parameters.PATTERNS],
         "not_testable": [(n.effect, n.why) for n in d.not_testable],
-        "next_motion": [words.clean(p.in_words()) for p in d.next_motion],
+        "next_motion": [numbers.clean(p.in_words()) for p in d.next_motion],
         "sizes": sizes(d),
         "digest": f.model.digest,
     }
@@ -57,14 +59,14 @@ def diagnose_html(
 
 def headline(d: Diagnosis) -> str:
     """The verdict in one sentence."""
-    before, after, noise = (words.number(x) for x in (d.before.rms_Eo, d.after.rms_Eo, d.noise_floor))
+    before, after, noise = (numbers.number(x) for x in (d.before.rms_Eo, d.after.rms_Eo, d.noise_floor))
     if d.verdict == "adequate":
         return (
             f"Nothing is missing that this record could show: the calibrated model leaves {before} Eo,"
             f" and the noise is {noise} Eo."
         )
     if d.verdict == "missing-effect":
-        names = words.listed([words.clean(e) for e in d.found])
+        names = numbers.listed([numbers.clean(e) for e in d.found])
         if d.after.rms_Eo >= d.before.rms_Eo * (1.0 - 1e-6):
             return f"The model lacks {names}, which the data show; its error stays {before} Eo."
         it = "it" if len(d.found) == 1 else "them"
@@ -87,16 +89,16 @@ def lead(d: Diagnosis) -> list[str]:
                 v = Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
             clear = sorted((x for x in v.values if abs(x.z) > 3.0), key=lambda x: -abs(x.z))[:3]
             if clear:
-                sizes_ = words.listed([f"{_named(x)} = {x.text}" for x in clear])
-                said.append(f"{words.clean(r.effect)}: {sizes_}{_instead(v)}.")
+                sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear])
+                said.append(f"{numbers.clean(r.effect)}: {sizes_}{_instead(v)}.")
     for main, others in groups(d):
         said.append(
-            f"This record cannot tell {main} from {words.listed(others, 'or')}: treat them as one finding."
+            f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
         )
     if d.verdict == "unexplained" and d.ranking and claimed(d, d.ranking[0]):
         best = d.ranking[0]
         said.append(
-            f"Of the known effects, {words.clean(best.effect)} comes nearest ({words.number(d.after.rms_Eo)} Eo with"
+            f"Of the known effects, {numbers.clean(best.effect)} comes nearest ({numbers.number(d.after.rms_Eo)} Eo with"
             " what was tried), but it is not claimed: what remains shows that the cause is another one."
         )
     if d.verdict == "adequate":
@@ -108,14 +110,14 @@ def lead(d: Diagnosis) -> list[str]:
 
 def _named(v: Value) -> str:
     both = f"{v.of} of {v.name}" if v.of[:1] in ("D", "Σ") else f"{v.name} of {v.of}"
-    return words.clean(both if v.of else v.name)
+    return numbers.clean(both if v.of else v.name)
 
 
 def _instead(v: Values) -> str:
     """Accelerometers that would do as well, in words."""
     if not v.instead:
         return ""
-    return f"; {words.listed([f'{_named(x)} = {x.text}' for x in v.instead], 'or')} would do as well"
+    return f"; {numbers.listed([f'{_named(x)} = {x.text}' for x in v.instead], 'or')} would do as well"
 
 
 def claimed(d: Diagnosis, r: Ranked) -> bool:
@@ -125,7 +127,7 @@ def claimed(d: Diagnosis, r: Ranked) -> bool:
 
 def threshold(d: Diagnosis) -> float:
     """Logarithm of the p-value below which one of all tested effects is significant."""
-    return float(np.log(search.FAMILY / max(1, len(d.ranking))))
+    return float(np.log(selection.FAMILY / max(1, len(d.ranking))))
 
 
 def errors(d: Diagnosis) -> list[dict[str, Any]]:
@@ -137,7 +139,7 @@ def errors(d: Diagnosis) -> list[dict[str, Any]]:
         ),
     ]
     if d.after != d.before:
-        what = words.listed([words.clean(e) for e in d.found]) or "the best known effects"
+        what = numbers.listed([numbers.clean(e) for e in d.found]) or "the best known effects"
         rows.append(panels.error_row(f"with {what}", d.after, "calibrated again"))
         if d.final is not None:
             rows.append(
@@ -158,13 +160,13 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
                 "title": effect.title if effect else "",
                 "found": r.effect in d.found,
                 "significant": claimed(d, r),
-                "p": words.probability(r.log_p),
-                "log10_p": words.number(r.log_p / math.log(10.0)),
-                "delta_bic": words.number(r.delta_bic),
-                "after": words.number(r.after.rms_Eo),
-                "holdout": words.number(r.after_holdout.rms_Eo),
-                "inline": words.number(r.after.inline_Eo_per_rtHz),
-                "cross": words.number(r.after.cross_Eo_per_rtHz),
+                "p": numbers.probability(r.log_p),
+                "log10_p": numbers.number(r.log_p / math.log(10.0)),
+                "delta_bic": numbers.number(r.delta_bic),
+                "after": numbers.number(r.after.rms_Eo),
+                "holdout": numbers.number(r.after_holdout.rms_Eo),
+                "inline": numbers.number(r.after.inline_Eo_per_rtHz),
+                "cross": numbers.number(r.after.cross_Eo_per_rtHz),
                 "fitted": effect_values.values(d.fitted, r) if claimed(d, r) or r.effect in d.found else None,
                 "twins": list(r.indistinguishable_from),
             }
@@ -187,7 +189,7 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     svg = barcharts.lying(bars, key, "evidence for each effect", unit, level, log)
     caption = (
         "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
-        f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * search.FAMILY:.0f} records"
+        f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * selection.FAMILY:.0f} records"
         " of a hundred."
     )
     if len(d.ranking) > SHOWN_BARS:
@@ -198,7 +200,7 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
 def groups(d: Diagnosis) -> list[tuple[str, list[str]]]:
     """(found effect, those that the record cannot tell from it)."""
     return [
-        (words.clean(r.effect), [words.clean(e) for e in r.indistinguishable_from])
+        (numbers.clean(r.effect), [numbers.clean(e) for e in r.indistinguishable_from])
         for r in d.ranking
         if r.indistinguishable_from and r.effect in d.found
     ]
@@ -226,8 +228,8 @@ def unexplained(d: Diagnosis) -> dict[str, Any]:
     f = d.final or d.fitted
     rows = panels.terms(d.terms(), d.after.rms_Eo)
     return {
-        "share": words.percent(d.remainder_share),
-        "p": words.probability(d.remainder.log_p),
+        "share": numbers.percent(d.remainder_share),
+        "p": numbers.probability(d.remainder.log_p),
         "terms": rows,
         "figures": page.figures(panels.remainder_figures(f, d.coefficients, rows, "remainder")),
     }
@@ -239,7 +241,9 @@ def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
     for effect, text in d.sizes:
         name, _, size = text.partition(" = ")
         number, _, unit = size.partition(" ")
-        found.setdefault(effect, []).append(f"{name} = {words.with_unit(words.number(float(number)), unit)}")
+        found.setdefault(effect, []).append(
+            f"{name} = {numbers.with_unit(numbers.number(float(number)), unit)}"
+        )
     return list(found.items())
 
 

@@ -16,7 +16,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter
 
-from ragg_runtime.report import words
+from ragg_runtime.wording import numbers
 
 INK = "#1a1a1a"
 QUIET = "#6b7075"
@@ -113,7 +113,7 @@ def svg(made: Figure, name: str, label: str) -> str:
     body = re.sub(r"<[^>]*>", lambda tag: _own(tag[0], name), body)
     body = re.sub(r"<!--.*?-->", "", body, flags=re.DOTALL)
     body = re.sub(r"\n\s*", "\n", body)
-    return f'<svg {view[0]} role="img" aria-label="{html.escape(words.clean(label))}">{body}'
+    return f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}">{body}'
 
 
 def _own(tag: str, name: str) -> str:
@@ -141,7 +141,7 @@ def log_ticks(axes: Axes, which: str) -> None:
     axis.set_minor_locator(
         LogLocator(10.0, tuple(range(2, 10)), numticks=40) if decades < 1e6 else FixedLocator([])
     )
-    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else words.number(v, 1)))
+    axis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}" if 1e-4 < v < 1e5 else numbers.number(v, 1)))
     axis.set_minor_formatter(NullFormatter())
 
 

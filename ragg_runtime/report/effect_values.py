@@ -13,14 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import design
-from ragg_runtime.compare import Fitted
-from ragg_runtime.design import Column
-from ragg_runtime.diagnose import Ranked
-from ragg_runtime.evidence import likelihood, search
-from ragg_runtime.report import words
+from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.evidence import likelihood_ratio, selection
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.posterior import Posterior, posterior
 from ragg_runtime.report.parameters import PATTERNS, SEEN, UNSEEN, gains
-from ragg_runtime.report.posterior import Posterior, posterior
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ def _name(c: Column) -> str:
 
 
 def _plain(name: str, value: float, unit: str) -> Value:
-    return Value(name, "", words.with_unit(words.number(value, 4), unit), 0.0)
+    return Value(name, "", numbers.with_unit(numbers.number(value, 4), unit), 0.0)
 
 
 def _fit(f: Fitted, own: Sequence[tuple[int, Column]]) -> Posterior:
@@ -102,7 +103,7 @@ def _single(f: Fitted, own: Sequence[tuple[int, Column]]) -> list[Value]:
 def _value(c: Column, of: str, weights: Array, fitted: Posterior) -> Value:
     factor = c.scale / c.unit_factor
     v, s = float(weights @ fitted.value), fitted.std(weights)
-    text = words.with_unit(words.plus_minus(v * factor, s * factor), c.unit)
+    text = numbers.with_unit(numbers.plus_minus(v * factor, s * factor), c.unit)
     return Value(_name(c), of, text, v / s if s > 0.0 else 0.0)
 
 
@@ -134,16 +135,16 @@ def _instead(
     f: Fitted, effect: str, columns: Sequence[tuple[int, Column]], own: Sequence[tuple[int, Column]]
 ) -> list[Value]:
     """Other accelerometers that account for the same, within what separates rivals."""
-    field = f.field([effect])
+    field = field_of(f, [effect])
     mine = {c.accelerometer for _, c in own}
     names = {_name(c) for _, c in own}
 
     def chi2(block: Sequence[tuple[int, Column]]) -> float:
-        return likelihood.explained(field.P, [n for n, _ in block], field.floor)[0]
+        return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
 
     found = []
     for a in (1, 2, 3, 4):
         other = [(n, c) for n, c in columns if c.accelerometer == a and _name(c) in names]
-        if a not in mine and other and chi2(own) - chi2(other) < search.INDISTINGUISHABLE:
+        if a not in mine and other and chi2(own) - chi2(other) < selection.INDISTINGUISHABLE:
             found += _single(f, other)
     return found

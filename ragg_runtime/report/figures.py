@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.transforms import blended_transform_factory
 from numpy.typing import NDArray
 
-from ragg_runtime.report import draw, words
+from ragg_runtime.report import draw
 from ragg_runtime.report.series import Envelope, Spectrum, envelope, runs
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ def in_time(panels: Sequence[TimePanel], name: str, label: str) -> str:
             upper.set_ylabel("residual, Eo")
             upper.tick_params(labelbottom=False)
             if len(panels) > 1:
-                upper.set_title(words.short(p.name, 70))
+                upper.set_title(numbers.short(p.name, 70))
             upper.legend(loc="upper right", ncols=3, borderaxespad=0.0)
             _steps(lower, p)
             lower.set_ylabel("rms, Eo")
@@ -95,7 +96,7 @@ def in_blocks(panels: Sequence[TimePanel], name: str, label: str) -> str:
             ax.set_ylabel("rms, Eo")
             ax.set_xlim(p.edges[0], p.edges[-1])
             if len(panels) > 1:
-                ax.set_title(words.short(p.name, 70))
+                ax.set_title(numbers.short(p.name, 70))
             draw.legend(ax, 3)
         axes[-1].set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)
@@ -160,7 +161,7 @@ def spectra(panels: Sequence[SpectrumPanel], name: str, label: str) -> str:
             for k in range(1, 5):
                 if f[0] < k * p.spin < f[-1]:
                     ax.axvline(k * p.spin, color=draw.QUIET, linewidth=0.6, linestyle=":", zorder=0.5)
-                    text = words.harmonic(f"x {k}")[2:].removesuffix("t")
+                    text = numbers.harmonic(f"x {k}")[2:].removesuffix("t")
                     ax.annotate(
                         text,
                         (k * p.spin, 1.0),
@@ -175,7 +176,7 @@ def spectra(panels: Sequence[SpectrumPanel], name: str, label: str) -> str:
             draw.log_ticks(ax, "y")
             ax.set_ylabel("residual, Eo/√Hz")
             if len(panels) > 1:
-                ax.set_title(words.short(p.name, 60))
+                ax.set_title(numbers.short(p.name, 60))
             draw.legend(ax, 3)
         axes[-1].set_xlabel("frequency of G_out before demodulation, Hz")
         return draw.svg(fig, name, label)
@@ -210,7 +211,7 @@ def channels(panels: Sequence[ChannelPanel], name: str, label: str) -> str:
             reach = 1.15 * max(float(np.nanmax(np.abs(p.value))), p.noise if np.isfinite(p.noise) else 0.0)
             ax.set_ylim(-reach, reach)
             ax.set_xlim(np.nanmin(p.time), np.nanmax(p.time))
-            ax.set_title(words.short(p.title, 90))
+            ax.set_title(numbers.short(p.title, 90))
             ax.set_ylabel("Eo")
         axes[-1].set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)

@@ -12,7 +12,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from ragg_runtime.report import words
+from ragg_runtime.wording import numbers
 
 LIBRARIES = ("numpy", "scipy", "sympy", "matplotlib", "jinja2")
 """What a report's numbers and looks depend on."""
@@ -40,8 +40,8 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters["number"] = words.number
-    made.filters["unit"] = words.unit
+    made.filters["number"] = numbers.number
+    made.filters["unit"] = numbers.unit
     return made
 
 
@@ -60,7 +60,7 @@ def render(template: str, origin: Origin, context: Mapping[str, Any]) -> str:
             **context,
         )
     )
-    return words.clean(text)
+    return numbers.clean(text)
 
 
 def figure(drawn: str, caption: str) -> dict[str, Any]:

@@ -8,13 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime import compare
-from ragg_runtime.compare import Comparison, Fitted
-from ragg_runtime.demodulate import CUTOFF, WIDTH
-from ragg_runtime.metrics import Error
-from ragg_runtime.report import barcharts, draw, series, words
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.score import Error
+from ragg_runtime.report import barcharts, draw, series
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.figures import ChannelPanel, Line, SpectrumPanel, TimePanel
+from ragg_runtime.signals.demodulate import CUTOFF, WIDTH
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 Residuals = Sequence[Array]
@@ -73,7 +75,7 @@ def spectrum_panels(
 def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> list[ChannelPanel]:
     """Inline and cross residual of each flight that is long enough for the demodulator."""
     found = []
-    series_of = compare.demodulated(f, residuals)
+    series_of = comparison.demodulated(f, residuals)
     for n in chosen:
         time, *both = series_of[n]
         w = f.flown[n]
@@ -91,12 +93,14 @@ def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> li
 
 def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
-    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in compare.harmonic_errors(f, coefficients)}
+    rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
     noise = series.harmonic_noise(f) if rows else {}
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
     seconds = sum(float(w.observation.record.time[-1]) for w in f.flown)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
-    return [Bar(words.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows]
+    return [
+        Bar(numbers.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows
+    ]
 
 
 def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, Any]]:
@@ -105,11 +109,11 @@ def terms(rows: Sequence[Mapping[str, Any]], rms_Eo: float) -> list[dict[str, An
     for t in rows:
         found.append(
             {
-                "label": f"{words.harmonic(t['harmonic'])} × {words.product(t['term'])}",
-                "coefficient": words.plus_minus(float(t["coefficient"]), float(t["std"])),
-                "unit": words.unit_of_term(str(t["unit"])),
-                "z": words.number(abs(float(t["z"])), 3),
-                "share": words.percent(float(t["share"])),
+                "label": f"{numbers.harmonic(t['harmonic'])} × {numbers.product(t['term'])}",
+                "coefficient": numbers.plus_minus(float(t["coefficient"]), float(t["std"])),
+                "unit": numbers.unit_of_term(str(t["unit"])),
+                "z": numbers.number(abs(float(t["z"])), 3),
+                "share": numbers.percent(float(t["share"])),
                 "rms": float(np.sqrt(float(t["share"]))) * rms_Eo,
             }
         )
@@ -123,7 +127,7 @@ def term_bars(rows: Sequence[Mapping[str, Any]]) -> list[Bar]:
 
 def error_row(label: str, e: Error | None, note: str = "") -> dict[str, Any]:
     """A row of the table of errors; ``None`` gives dashes."""
-    cells = [words.number(getattr(e, k)) if e is not None else words.ABSENT for k in ERROR_COLUMNS]
+    cells = [numbers.number(getattr(e, k)) if e is not None else numbers.ABSENT for k in ERROR_COLUMNS]
     return {"label": label, "cells": cells, "note": note}
 
 
@@ -139,7 +143,7 @@ def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> E
 
 
 def holdout_before(f: Fitted) -> Error:
-    """Held-out error of the model without further effects, as :func:`ragg_runtime.compare.compare` makes it."""
+    """Held-out error of the model without further effects, as :func:`ragg_runtime.diagnosis.comparison.compare` makes it."""
     half, _ = f.coefficients((), held_out=True)
     return f.score([f.vector(half)])[0].held_out
 
@@ -151,18 +155,18 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
     valid = sum(int(np.sum(r.valid)) for r in records)
     duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
     kind = OUTPUTS.get(f.observations[0].kind, f.observations[0].kind)
-    used = f"{words.fixed(samples, 0)} at {words.number(records[0].rate, 4)} Hz"
+    used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
-        used += f", {words.fixed(samples - valid, 0)} of them not usable"
-    effects = words.listed([e.id for e in f.model.effects]) or "none: the paper’s instrument"
+        used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
+    effects = numbers.listed([e.id for e in f.model.effects]) or "none: the paper’s instrument"
     return [
-        ("flights", words.listed([words.clean(o.name) for o in f.observations])),
-        ("duration", words.seconds(duration)),
+        ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),
+        ("duration", numbers.seconds(duration)),
         ("samples", used),
         ("output", kind),
         ("effects in the model", effects),
-        ("k_ggi", f"{words.number(f.k_ggi, 4)} V/Eo"),
-        ("spin", f"{words.number(f.instrument.spin_frequency, 4)} Hz"),
+        ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
+        ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),
     ]
 
 

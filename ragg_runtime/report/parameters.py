@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compare import Fitted
-from ragg_runtime.design import Column
-from ragg_runtime.evaluate import named, vector
-from ragg_runtime.instrument import PARAMETER
-from ragg_runtime.report import words
-from ragg_runtime.report.posterior import posterior
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.posterior import posterior
+from ragg_runtime.instrument.parameters import PARAMETER
+from ragg_runtime.model.evaluate import named, vector
+from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -116,13 +116,13 @@ def symbol_of(f: Fitted, column: Column) -> Symbol:
     """The written symbol of a calibrated parameter."""
     if column.effect is None:
         q = PARAMETER[column.name]
-        return Symbol(words.symbol(q.symbol), q.name, q.description)
+        return Symbol(numbers.symbol(q.symbol), q.name, q.description)
     name = column.name.split(".", 1)[1]
     effect = f.model.effect(column.effect)
     for p in effect.parameters if effect else ():
         if p.name == name:
-            return Symbol(words.symbol(p.latex), column.name, p.meaning)
-    return Symbol(((words.clean(name), False),), column.name, "")
+            return Symbol(numbers.symbol(p.latex), column.name, p.meaning)
+    return Symbol(((numbers.clean(name), False),), column.name, "")
 
 
 def _names(f: Fitted) -> dict[str, list[int]]:
@@ -150,9 +150,13 @@ def by_accelerometer(f: Fitted) -> list[Row]:
             q = c.columns[n]
             value, std = c.p[c.index[n]] / q.unit_factor, ratio[n] * q.scale / q.unit_factor
             cells.append(
-                Cell(words.plus_minus(value, std), words.plain(nominal[n] / q.unit_factor), _state(ratio[n]))
+                Cell(
+                    numbers.plus_minus(value, std),
+                    numbers.plain(nominal[n] / q.unit_factor),
+                    _state(ratio[n]),
+                )
             )
-        rows.append(Row(symbol_of(f, first), words.unit(first.unit), tuple(cells)))
+        rows.append(Row(symbol_of(f, first), numbers.unit(first.unit), tuple(cells)))
     return rows
 
 
@@ -176,8 +180,8 @@ def by_combination(f: Fitted) -> list[Row]:
             ratio = fitted.std(a) / float(np.linalg.norm(a))
             value = float(u @ c.p[c.index[positions]]) / first.unit_factor
             before = float(u @ nominal[positions]) / first.unit_factor
-            cells.append(Cell(words.plus_minus(value, std), words.rounded(before, std), _state(ratio)))
-        rows.append(Row(symbol_of(f, first), words.unit(first.unit), tuple(cells)))
+            cells.append(Cell(numbers.plus_minus(value, std), numbers.rounded(before, std), _state(ratio)))
+        rows.append(Row(symbol_of(f, first), numbers.unit(first.unit), tuple(cells)))
     return rows
 
 
@@ -285,16 +289,16 @@ def _formula(f: Fitted, directions: Sequence[_Direction], v: Array) -> tuple[Pie
         ratio = factor / first[0]
         text = ""
         if abs(abs(ratio) - 1.0) > 0.05 or d.column.unit != first[1]:
-            text = words.number(abs(ratio), 2)
+            text = numbers.number(abs(ratio), 2)
             if d.column.unit != first[1]:
                 text += f" {_quotient(first[1], d.column.unit)}"
-        sign = words.MINUS if ratio < 0 else "+" if pieces else ""
+        sign = numbers.MINUS if ratio < 0 else "+" if pieces else ""
         pieces.append(Piece(sign, text, d.pattern, symbol_of(f, d.column)))
     return tuple(pieces)
 
 
 def _quotient(a: str, b: str) -> str:
-    top, bottom = words.unit(a) or "1", words.unit(b)
+    top, bottom = numbers.unit(a) or "1", numbers.unit(b)
     if not bottom:
         return top
     return f"{top}/({bottom})" if "/" in bottom or "·" in bottom else f"{top}/{bottom}"

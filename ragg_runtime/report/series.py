@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.compare import Fitted
-from ragg_runtime.demodulate import low_pass
-from ragg_runtime.design import noise_gain
-from ragg_runtime.evidence.work import Flown
-from ragg_runtime.segments import BLOCKS
-from ragg_runtime.terms import harmonics
-from ragg_runtime.whiten import stretches
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.observation import noise_gain
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.lack_of_fit.dictionary import harmonics
+from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.derivative import stretches
 
 Array = NDArray[np.float64]
 
@@ -135,7 +135,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
 
 
 def harmonic_noise(f: Fitted) -> dict[str, float]:
-    """The same at every harmonic of :func:`ragg_runtime.compare.harmonic_errors`, Eo."""
+    """The same at every harmonic of :func:`ragg_runtime.diagnosis.comparison.harmonic_errors`, Eo."""
     spin = f.instrument.spin_frequency
     works = [w for w in f.flown if _long(w)]
     found = {}

@@ -7,6 +7,7 @@ the file that an interrupted survey continues from, ``summary`` what the flights
 
 from __future__ import annotations
 
-from ragg_runtime.survey.run import Survey, survey
+from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.run import survey
 
 __all__ = ["Survey", "survey"]

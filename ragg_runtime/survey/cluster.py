@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey.local import ATTEMPTS, lost
 from ragg_runtime.survey.task import Job, Record, examine, fingerprint
 

@@ -18,8 +18,8 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.memory import reuse_memory
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.memory import reuse_memory
 from ragg_runtime.survey.task import Job, Record, examine
 
 ATTEMPTS = 3

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.progress import SPELL
+from ragg_runtime.base.progress import SPELL
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.survey.task import Record
 

@@ -4,54 +4,16 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Generator, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
-from ragg_runtime import display
-from ragg_runtime.errors import UserError
-from ragg_runtime.survey import cluster, local, summary
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
-from ragg_runtime.survey.summary import Summary
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Job, Record, job
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
-
-
-@dataclass(frozen=True)
-class Survey:
-    """The result: one record a flight, in the order of the flights' names, and their summary.
-
-    ``records`` are JSON: ``flight``, ``file`` and either ``error`` (``kind``, ``message``) or what
-    :func:`ragg_runtime.survey.task.examine` tells of a flight.
-    """
-
-    records: tuple[Record, ...]
-
-    @property
-    def done(self) -> tuple[Record, ...]:
-        """Records of the flights that could be diagnosed."""
-        return tuple(r for r in self.records if "verdict" in r)
-
-    @property
-    def failed(self) -> tuple[Record, ...]:
-        """Records of the others."""
-        return tuple(r for r in self.records if "verdict" not in r)
-
-    @cached_property
-    def summary(self) -> Summary:
-        return summary.summarised(self.records)
-
-    def _repr_html_(self) -> str:
-        from ragg_runtime.survey import text
-
-        return display.survey(
-            self.records, text.counted(self.summary.counts), text.recommended(self, "MODEL_DIR")
-        )
-
-    def as_json(self) -> dict[str, object]:
-        return {**self.summary.as_json(), "flights": list(self.records)}
 
 
 def survey(

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from ragg_runtime.evidence.search import FAMILY
+from ragg_runtime.evidence.selection import FAMILY
 
 FALSE_ALARMS = 0.05
 """Share of flights without any effect that may seem to have one: what the diagnosis promises to stay below."""

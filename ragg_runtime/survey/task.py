@@ -25,23 +25,22 @@ import threadpoolctl
 from numpy.typing import NDArray
 
 import ragg_runtime
-from ragg_runtime import compare, extend
-from ragg_runtime.compare import Fitted
-from ragg_runtime.diagnose import (
-    Diagnosis,
-    ParameterValue,
-    diagnose_fitted,
-    parameter_values,
-    visible_combinations,
-)
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import vector
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import alone
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.diagnose import diagnose_fitted
+from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.instrument import Instrument, parse_instrument
-from ragg_runtime.load import Model
-from ragg_runtime.metrics import finite
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model_dir import derive
 from ragg_runtime.plausibility import examined
-from ragg_runtime.threads import alone
 
 Array = NDArray[np.float64]
 
@@ -152,7 +151,7 @@ _deriving = threading.RLock()
 @lru_cache(maxsize=8)
 def _parsed(text: str, path: str) -> tuple[Instrument, Model]:
     instrument = parse_instrument(text, Path(path))
-    return instrument, extend.model_of(instrument)
+    return instrument, derive.model_of(instrument)
 
 
 def _model(text: str, path: str) -> tuple[Instrument, Model]:
@@ -189,11 +188,11 @@ _one_thread = _Limit()
 def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
     def extended(m: Model, ids: Sequence[str]) -> Model:
         with _deriving:
-            return extend.with_effects(instrument, m, ids)
+            return derive.with_effects(instrument, m, ids)
 
-    f = compare.fit(model, instrument, [compare.observe(flight, instrument)])
+    f = fit(model, instrument, [observe(flight, instrument)])
     p = vector(model, instrument)
-    held_out, nominal = f.score([_held_out(f)], lambda x: compare.nominal_residual(f, p, x)[None], 1)
+    held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)
     held = held_out.held_out.as_json()
     record: Record = {

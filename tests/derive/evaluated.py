@@ -15,7 +15,7 @@ from derive.effect import Effect
 from derive.stages import Order
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, symbol
 from derive.tape import Program, simplify
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 
 Array = NDArray[np.float64]
 

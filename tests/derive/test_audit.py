@@ -20,12 +20,7 @@ from derive.audit.compare import (
     read,
     select,
 )
-from derive.audit.conventions import (
-    CHOSEN,
-    OPTIONS,
-    derive_with,
-    score,
-)
+from derive.audit.conventions import CHOSEN, OPTIONS, derive_with, score
 from derive.audit.definitions import derived_transducer, expanded_transducer
 from derive.audit.printed import ANALYTICAL, PRINTED, SIMPLIFIED, TRANSDUCER, Equation
 from derive.audit.reading import NotReadable, model_reader, transducer_reader

@@ -29,14 +29,7 @@ from derive.propagation import (
     from_generic,
     motion_numbers,
 )
-from derive.simplify import (
-    DYNAMIC_EXPERIMENT,
-    PAPER_ENVELOPE,
-    Envelope,
-    certified_bound,
-    dropped,
-    simplified,
-)
+from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, dropped, simplified
 from derive.simplify.bound import root_up, round_up
 from derive.symbols import ANGLES, MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS
 

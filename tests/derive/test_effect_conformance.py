@@ -21,13 +21,13 @@ from derive.effects import catalogue
 from derive.stages import EXACT, PAPER, Order
 from derive.symbols import ACCELEROMETER, DISC, MOTION
 from derive.tape import simplify
-from ragg_runtime.instrument import Instrument
-from ragg_runtime.masses import Gradient
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.units import units
 from ragg_runtime.reference import CATALOGUE, Motion, Sinusoids, disc_angle, simulate
 from ragg_runtime.reference.geometry import mount
+from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import table_v
 from ragg_runtime.reference.rotation import frame_rotation, spin
-from ragg_runtime.units import units
 
 Array = NDArray[np.float64]
 Record = tuple[Mapping[str, Array], Array]

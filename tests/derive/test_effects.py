@@ -11,7 +11,8 @@ import sympy as sp
 from evaluated import G0, LIKE_REFERENCE, base_derivatives, place, signatures, voltage
 from numpy.typing import NDArray
 
-from derive.chain import Context, recorded_motion
+from derive.chain import recorded_motion
+from derive.context import Context
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.effects.near_mass import EFFECT as NEAR_MASS
@@ -19,7 +20,7 @@ from derive.rotation import small_rotation
 from derive.stages import EXACT, PAPER, Order
 from derive.symbols import ACCELEROMETER, MOTION
 from derive.tape import Tape
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import pytest
 import sympy
 
 from derive import everything, pipeline
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
 
 
 def project(root: Path, version: str, code: str) -> Path:

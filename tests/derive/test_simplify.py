@@ -28,7 +28,7 @@ from derive.simplify import (
 from derive.simplify.critical import Condition
 from derive.simplify.page import category, page
 from derive.symbols import ANGLES, SECOND_ORDER
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 
 G = 9.8
 Key = tuple[int, tuple[int, ...], tuple[int, ...]]

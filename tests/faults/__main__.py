@@ -10,7 +10,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from ragg_runtime.cli import main as command_line
+from ragg_runtime.cli.main import main as command_line
 
 from . import surveys
 from .injected import Fault, run

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
-from ragg_runtime.model_dir import load_model_dir
-from ragg_runtime.simulate import simulated
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 from .injected import Fault, run
 
@@ -49,7 +49,7 @@ class Place:
 
 def made(base: Path) -> Place:
     """The place of all trials, in a folder that exists."""
-    m = workflow.new(base / "model")
+    m = loop.new(base / "model")
     flights = []
     for seed in (1, 2):
         flights.append(base / f"{seed}.parquet")

@@ -11,13 +11,14 @@ from pathlib import Path
 import pytest
 
 from derive import everything
-from ragg_runtime import transaction, workflow
-from ragg_runtime.atomic import clear_stale, temporary_name, write_text
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
-from ragg_runtime.lock import locked
-from ragg_runtime.model_dir import load_model_dir
-from ragg_runtime.publish import publish, settle
+from ragg_runtime.base import transaction
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import clear_stale, temporary_name, write_text
+from ragg_runtime.base.lock import locked
+from ragg_runtime.cli.main import main
+from ragg_runtime.cli.publish import publish, settle
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
 
 from . import surveys
 from .injected import Fault, run
@@ -53,7 +54,7 @@ def test_a_survey_continues_after_its_disc_was_full(tmp_path: Path) -> None:
 
 def test_two_processes_on_one_model(tmp_path: Path) -> None:
     """Both add an effect at once: each is done, or told that it was not; what is there is whole."""
-    model = workflow.new(tmp_path / "model").directory.path
+    model = loop.new(tmp_path / "model").directory.path
     (tmp_path / "scratch").mkdir()
     for _ in range(3):
         children = []
@@ -67,17 +68,17 @@ def test_two_processes_on_one_model(tmp_path: Path) -> None:
         assert set(codes.values()) <= {0, 2}
         done = [e for e, code in codes.items() if code == 0]
         assert done, "neither of them was done"
-        m = workflow.load(model)
+        m = loop.load(model)
         assert sorted(e.id for e in m.model.effects) == sorted(done)
         for effect in done:
-            m = workflow.remove(m, effect)
+            m = loop.remove(m, effect)
         assert model_state(model) == "plain"
 
 
 def test_derive_waits_for_another_and_says_so_in_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ragg_runtime.publish._PATIENCE", 0.05)
+    monkeypatch.setattr("ragg_runtime.cli.publish._PATIENCE", 0.05)
     with locked(tmp_path, 0.0), pytest.raises(UserError, match="another command is deriving there"):
         publish(tmp_path, {"a": {"x": "1"}}, ())
     assert list(tmp_path.iterdir()) == []
@@ -132,7 +133,7 @@ def test_files_of_killed_commands_do_not_add_up(tmp_path: Path) -> None:
 
 
 def test_links_and_pipes_in_generated_are_not_followed(tmp_path: Path) -> None:
-    m = workflow.add(workflow.new(tmp_path / "model"), "lag").loaded.directory
+    m = loop.add(loop.new(tmp_path / "model"), "lag").loaded.directory
     generated = m.path / "generated"
     os.mkfifo(generated / "pipe")
     (generated / "all").symlink_to("/")
@@ -143,8 +144,8 @@ def test_links_and_pipes_in_generated_are_not_followed(tmp_path: Path) -> None:
     (generated / "c").rmdir()
     generated.rmdir()
     generated.symlink_to("/")
-    found = workflow.load(m.path)
+    found = loop.load(m.path)
     assert [e.id for e in found.model.effects] == ["lag"]
-    workflow.remove(found, "lag")
+    loop.remove(found, "lag")
     assert sorted(p.name for p in m.path.iterdir()) == ["history.json", "model.toml"]
     assert Path("/").exists()

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive import everything, tree
-from ragg_runtime import extend, workflow
-from ragg_runtime.cli import main
-from ragg_runtime.model_dir import load_model_dir
+from ragg_runtime.cli.main import main
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.workflow import loop
 from tests.derived import derived
 
 from .injected import NOBODY, Ended, Fault, run
@@ -63,9 +64,9 @@ def warm() -> None:
             base.mkdir()
             main(command.arguments(command.prepare(base)))
     for effects in ([], [EFFECT]):
-        instrument = workflow.parse_instrument(_sheet(effects))
-        extend.model_of(instrument)
-        extend.files_of(instrument)
+        instrument = loop.parse_instrument(_sheet(effects))
+        derive.model_of(instrument)
+        derive.files_of(instrument)
 
 
 @contextlib.contextmanager
@@ -85,7 +86,7 @@ def _model(effects: Sequence[str]) -> Callable[[Path], Path]:
     def make(base: Path) -> Path:
         sheet = base / "sheet.toml"
         sheet.write_text(_sheet(effects), "utf-8")
-        workflow.new(base / "model", sheet)
+        loop.new(base / "model", sheet)
         sheet.unlink()
         return base / "model"
 
@@ -97,7 +98,7 @@ def model_state(place: Path) -> str:
     found = load_model_dir(place)
     effects = [e.id for e in found.instrument.effects]
     assert effects in ([], [EFFECT]), effects
-    files = extend.files_of(found.instrument)
+    files = derive.files_of(found.instrument)
     if found.generated is None:
         assert not files, "generated/ is missing"
     else:
@@ -117,7 +118,7 @@ def _project(base: Path) -> Path:
 
 def project_state(root: Path) -> str:
     """As ``ragg derive --check`` sees it, after it has finished what was begun."""
-    from ragg_runtime.publish import settle
+    from ragg_runtime.cli.publish import settle
 
     settle(root)
     assert (root / "docs" / "mine.md").read_text() == "mine\n"

@@ -16,12 +16,12 @@ from derive.emit.printers import to_c, to_numpy
 from derive.expression import ExpressionError, from_expression
 from derive.stages import SensedForce
 from derive.symbols import symbol
-from ragg_runtime import extend
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import read_flight
-from ragg_runtime.instrument import parse_instrument, read_instrument
-from ragg_runtime.model_toml import add_effect, remove_effect, set_parameters
-from ragg_runtime.units import RawQuantity
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
+from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model_dir import derive
 
 Outcome = str
 """``read`` or ``refused``."""
@@ -60,7 +60,7 @@ def model_toml(data: bytes) -> Outcome:
     try:
         instrument = read_instrument(path)
         instrument = dataclasses.replace(instrument, effects_folder=None)  # Python is not fuzzed
-        known = extend.known(instrument)
+        known = derive.known(instrument)
         for setting in instrument.effects:
             effect = known.get(setting.id)
             for q in effect.parameters:
@@ -112,7 +112,7 @@ TARGETS: Mapping[str, Callable[[bytes], Outcome]] = {
     f.__name__: f for f in (expression, model_toml, edited_toml, flight_csv, flight_parquet, flight_netcdf)
 }
 
-_LAG = extend.EffectSetting("lag")
+_LAG = derive.EffectSetting("lag")
 _folder: Path | None = None
 
 

@@ -18,7 +18,7 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from generated import analytical, chain, folded, signatures, simplified
-from ragg_runtime.units import units
+from ragg_runtime.instrument.units import units
 from tests.generated import compiled, draws
 from tests.generated.draws import Array
 

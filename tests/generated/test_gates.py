@@ -22,7 +22,7 @@ from derive import everything, tree
 from derive.propagation import collect, motion_numbers
 from derive.symbols import MOTION, symbol
 from generated import analytical, chain, folded
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
 from tests.derived import derived
 from tests.generated import compiled, draws
 from tests.generated import fifty_digits as fifty

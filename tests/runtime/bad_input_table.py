@@ -24,11 +24,11 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.model_toml import model_text
+from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.workflow import loop
 
 Arrays = Mapping[str, np.ndarray]
 
@@ -80,7 +80,7 @@ def record(hidden: bool = False, voltages: bool = False) -> Flight:
 def _template() -> Path:
     folder = Path(tempfile.mkdtemp(prefix="bad-input-"))
     (folder / "sheet.toml").write_text(model_text(good().sheet))
-    workflow.new(folder / "model", folder / "sheet.toml")
+    loop.new(folder / "model", folder / "sheet.toml")
     return folder / "model"
 
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from bad_input_table import blank, flown, inside, jittered, kept, motion, outputs, same, stage, struck, timed
 
-from ragg_runtime import workflow
-from ragg_runtime.diagnose import Diagnosis
+from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
+from ragg_runtime.workflow import loop
 
 AWKWARD: dict[str, Callable[[Flight], Flight]] = {
     "clean": same,
@@ -29,8 +29,8 @@ def diagnosed(change: Callable[[Flight], Flight], place: Path, hidden: bool) -> 
     stage(place)
     with inside(place):
         flown(change, "flight.parquet", hidden=hidden, derived=True)()
-        m = workflow.load("model")
-        return workflow.diagnose(m, workflow.read_flights(m, ["flight.parquet"]))
+        m = loop.load("model")
+        return loop.diagnose(m, loop.read_flights(m, ["flight.parquet"]))
 
 
 @pytest.mark.parametrize("name", sorted(AWKWARD))
@@ -60,8 +60,8 @@ def test_what_was_done_stands_in_the_notes_and_in_the_mask(tmp_path: Path) -> No
     stage(tmp_path)
     with inside(tmp_path):
         flown(outputs(struck), "flight.parquet")()
-        m = workflow.load("model")
-        (x,) = workflow.read_flights(m, ["flight.parquet"])
+        m = loop.load("model")
+        (x,) = loop.read_flights(m, ["flight.parquet"])
         clean = dataclasses.replace(x, notes=())
     struck_at = np.flatnonzero(struck(np.arange(len(x)) * 1.0) != np.arange(len(x)))
     assert np.flatnonzero(~x.valid).tolist() == struck_at.tolist()

@@ -13,7 +13,9 @@ import pytest
 from benchmarks.diagnosis import __main__ as command
 from benchmarks.diagnosis import fly, inject, outside, peers, plan, score, table
 from benchmarks.diagnosis.inject import Bench
-from ragg_runtime import compare, load
+from ragg_runtime.fit import fitted as fitted_
+from ragg_runtime.fit import observation
+from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import Scenario, scenario
 
 
@@ -21,7 +23,7 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 def flown() -> tuple[Scenario, Bench]:
     s = scenario(7, duration=240.0, trim="table-v", red_corner=0.1)
     sim = s.simulate()
-    fitted = compare.fit(load.packaged(), s.sheet, [compare.observe(sim.flight(), s.sheet)])
+    fitted = fitted_.fit(model.packaged(), s.sheet, [observation.observe(sim.flight(), s.sheet)])
     return s, Bench(fitted, sim)
 
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.signal import freqz
 
-from ragg_runtime.demodulate import demodulate, low_pass
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import Gradient
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import disc_angle, simulate, still
+from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect
+from ragg_runtime.signals.demodulate import demodulate, low_pass
 
 RATE = 16.0
 

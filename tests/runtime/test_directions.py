@@ -8,10 +8,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ragg_runtime import compare, load
-from ragg_runtime.evidence import work
-from ragg_runtime.evidence.directions import Directions
-from ragg_runtime.evidence.omnibus import Scores
+from ragg_runtime.fit import fitted, observation, prepared
+from ragg_runtime.lack_of_fit.omnibus import Scores
+from ragg_runtime.lack_of_fit.whitened_terms import Directions
+from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 
 
@@ -26,8 +26,8 @@ def scores_of(gradient_known: bool, samples: int) -> Scores:
     flight = dataclasses.replace(
         flight, time=flight.time[:samples], channels=channels, outputs=outputs, valid=flight.valid[:samples]
     )
-    f = compare.fit(load.packaged(), s.sheet, [compare.observe(flight, s.sheet)])
-    return Scores(f.flown[0], work.projector(f.triangles[0], f.n_base, ()))
+    f = fitted.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
+    return Scores(f.flown[0], prepared.projector(f.triangles[0], f.n_base, ()))
 
 
 @pytest.mark.parametrize("samples", [5000, 5001])

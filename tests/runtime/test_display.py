@@ -17,9 +17,11 @@ import numpy as np
 import pytest
 
 from examples import first_notebook
-from ragg_runtime import display, texts, workflow
+from ragg_runtime.cli import terminal
 from ragg_runtime.survey import Survey
-from ragg_runtime.workflow import Added
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.loop import Added
 
 EXAMPLES = Path(first_notebook.__file__).parent
 HOSTILE = "<script>alert(1)</script>&\x1b[2J\u202e"
@@ -29,11 +31,11 @@ class Result:
     """The demonstration, step by step."""
 
     def __init__(self, folder: Path) -> None:
-        self.model = workflow.new(folder / "model")
-        self.flights = workflow.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
-        self.before = workflow.compare(self.model, self.flights)
-        self.diagnosis = workflow.diagnose(self.model, self.flights)
-        self.step: Added = workflow.add(self.model, self.diagnosis.found[0], self.flights)
+        self.model = loop.new(folder / "model")
+        self.flights = loop.read_flights(self.model, [EXAMPLES / "demo-flight.parquet"])
+        self.before = loop.compare(self.model, self.flights)
+        self.diagnosis = loop.diagnose(self.model, self.flights)
+        self.step: Added = loop.add(self.model, self.diagnosis.found[0], self.flights)
 
 
 @pytest.fixture(scope="module")
@@ -70,9 +72,9 @@ def shown(x: Any) -> str:
 
 def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
     for x, said in (
-        (result.before, texts.compared(result.before, result.flights)),
-        (result.diagnosis, texts.diagnosed(result.diagnosis, Path("m"))),
-        (result.step, texts.added(result.step)),
+        (result.before, terminal.compared(result.before, result.flights)),
+        (result.diagnosis, terminal.diagnosed(result.diagnosis, Path("m"))),
+        (result.step, terminal.added(result.step)),
     ):
         text = shown(x)
         sentences = [
@@ -91,23 +93,23 @@ def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
 
 
 def test_every_verdict_has_its_words() -> None:
-    assert display.verdict("missing-effect", ["lag", "arm-sag"]) == "MISSING: lag and arm-sag"
-    assert display.verdict("adequate", []).startswith("ADEQUATE")
-    assert display.verdict("unexplained", []).startswith("UNEXPLAINED")
+    assert notebook.verdict("missing-effect", ["lag", "arm-sag"]) == "MISSING: lag and arm-sag"
+    assert notebook.verdict("adequate", []).startswith("ADEQUATE")
+    assert notebook.verdict("unexplained", []).startswith("UNEXPLAINED")
     with pytest.raises(KeyError):
-        display.verdict("fine", [])
+        notebook.verdict("fine", [])
 
 
 def test_what_cannot_be_said_is_a_dash() -> None:
-    assert [display.number(x) for x in (None, float("nan"), float("inf"), 12345.6)] == [
+    assert [notebook.number(x) for x in (None, float("nan"), float("inf"), 12345.6)] == [
         "-",
         "-",
         "-",
         "1.235e+04",
     ]
-    assert display.p_value(-4000.0, 0.0) == "1e-4000"
-    assert display.p_value(None, 0.0) == display.p_value(float("-inf"), 0.0) == "certain"
-    assert display.p_value(-0.3, 0.5) == "0.5"
+    assert notebook.p_value(-4000.0, 0.0) == "1e-4000"
+    assert notebook.p_value(None, 0.0) == notebook.p_value(float("-inf"), 0.0) == "certain"
+    assert notebook.p_value(-0.3, 0.5) == "0.5"
 
 
 def hostile(x: Any) -> Any:
@@ -135,12 +137,12 @@ def test_names_of_strangers_are_escaped(result: Result) -> None:
     }
     steps = hostile([s.as_json() for s in result.step.loaded.directory.history])
     pages = [
-        display.comparison(hostile(result.before.as_json()), [HOSTILE]),
-        display.diagnosis(hostile(result.diagnosis.as_json())),
-        display.diagnosis(unexplained),
-        display.added(hostile(result.step.as_json()), [HOSTILE], 4.0, True),
-        display.model(HOSTILE, [HOSTILE], steps),
-        display.survey(records, HOSTILE, [HOSTILE]),
+        notebook.comparison(hostile(result.before.as_json()), [HOSTILE]),
+        notebook.diagnosis(hostile(result.diagnosis.as_json())),
+        notebook.diagnosis(unexplained),
+        notebook.added(hostile(result.step.as_json()), [HOSTILE], 4.0, True),
+        notebook.model(HOSTILE, [HOSTILE], steps),
+        notebook.survey(records, HOSTILE, [HOSTILE]),
     ]
     for page in pages:
         assert "<script" not in page

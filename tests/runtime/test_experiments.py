@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.command import experiment
 from ragg_runtime.experiments.dynamic import Dynamic, dynamic
@@ -26,8 +26,8 @@ from ragg_runtime.experiments.turbulence import Turbulence, turbulence
 from ragg_runtime.experiments.turbulence_checks import _noise_for, statistics
 from ragg_runtime.experiments.turbulent import gaussian, turbulent_motion, turbulent_run
 from ragg_runtime.experiments.vartheta_x import response, smallest_angles, with_angles
-from ragg_runtime.masses import G
 from ragg_runtime.reference import simulate, still
+from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.instruments import perfect, table_v
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ import xarray
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, files, iter_flight_chunks, read_flight, write_flight
 
 G0 = 9.8

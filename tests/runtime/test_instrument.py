@@ -11,16 +11,18 @@ import tomlkit
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.instrument import (
-    PARAMETERS,
-    EffectSetting,
-    Instrument,
-    parse_instrument,
-    read_instrument,
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.edit_toml import (
+    add_effect,
+    model_text,
+    remove_effect,
+    set_parameters,
+    write_instrument,
 )
-from ragg_runtime.model_toml import add_effect, model_text, remove_effect, set_parameters, write_instrument
-from ragg_runtime.units import RawQuantity
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
+from ragg_runtime.instrument.units import RawQuantity
 
 TEXT = """# The maker's test sheet.
 effects = []  # none yet

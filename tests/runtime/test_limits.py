@@ -9,10 +9,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import files, read_flight
-from ragg_runtime.history import read_history
-from ragg_runtime.instrument import read_instrument
+from ragg_runtime.instrument.read_toml import read_instrument
+from ragg_runtime.model_dir.history import read_history
 
 UNITS = {
     "time": "s",

@@ -15,16 +15,20 @@ import numpy as np
 import pytest
 
 from derive.expression import ExpressionError, from_expression
-from ragg_runtime import extend, load, workflow
-from ragg_runtime.cli import main
-from ragg_runtime.compare import compare
-from ragg_runtime.demodulate import demodulate
-from ragg_runtime.diagnose import Diagnosis, diagnose
+from ragg_runtime.cli.main import main
+from ragg_runtime.diagnosis.comparison import compare
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.model_toml import write_instrument
-from ragg_runtime.noise import Noise
+from ragg_runtime.instrument.edit_toml import write_instrument
+from ragg_runtime.model import model as load
+from ragg_runtime.model_dir import derive
+from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.whiten import estimate, filtered
+from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.noise_spectrum import estimate
+from ragg_runtime.workflow import loop
 
 G0 = 9.8
 ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
@@ -37,7 +41,7 @@ def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> t
 
 def diagnosed(s: Scenario, *flights: Flight) -> Diagnosis:
     def extended(model: load.Model, ids: Any) -> load.Model:
-        return extend.with_effects(s.sheet, model, ids)
+        return derive.with_effects(s.sheet, model, ids)
 
     return diagnose(load.packaged(), s.sheet, flights, extended)
 
@@ -289,7 +293,7 @@ def test_bad_input_is_one_message(
     words: tuple[str, ...], message: str, flight_files: tuple[Path, Path], tmp_path: Path
 ) -> None:
     sheet, flight = flight_files
-    workflow.new(tmp_path / "m", sheet)
+    loop.new(tmp_path / "m", sheet)
     place = {"MODEL": str(tmp_path / "m"), "FLIGHT": str(flight)}
     done = ragg(*(place.get(w, w) for w in words))
     assert done.returncode == 2
@@ -320,6 +324,6 @@ def test_hostile_expressions_are_refused(text: str) -> None:
 def test_an_expression_is_derived_like_any_effect() -> None:
     e = from_expression("mine", "transducer", "K * f_i**2 * temperature", {"K": {"unit": "ug/g^2/K"}})
     assert e.channels == ("temperature",)
-    model, files = extend.derived((e,), ())
+    model, files = derive.derived((e,), ())
     assert [x.id for x in model.effects] == ["mine"]
     assert "temperature" in files["chain.py"]

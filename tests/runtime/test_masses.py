@@ -8,9 +8,9 @@ from decimal import Decimal, getcontext
 import numpy as np
 import pytest
 
-from ragg_runtime import masses
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import (
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.reference import gravity
+from ragg_runtime.reference.gravity import (
     G,
     Gradient,
     PointMass,
@@ -57,7 +57,7 @@ def test_gradient_is_what_a_small_step_sees() -> None:
 
 
 @pytest.mark.parametrize("source", [PointMass(486.0, SITES[1]), Prisms([[1, 2, -1, 1, 0.5, 2]], [2700.0])])
-def test_gradient_is_traceless_outside(source: masses.Gravity) -> None:
+def test_gradient_is_traceless_outside(source: gravity.Gravity) -> None:
     xx, _, _, yy, _, zz = source.gradient(T0)[:, 0]
     assert abs(xx + yy + zz) < 1e-12 * (abs(xx) + abs(yy) + abs(zz))
 
@@ -154,7 +154,7 @@ def test_bad_sources_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing(name: str, *args: object) -> object:
         raise ImportError(name)
 
-    masses._prism_kernel.cache_clear()
+    gravity._prism_kernel.cache_clear()
     monkeypatch.setattr(importlib, "import_module", missing)
     with pytest.raises(UserError, match="bodies"):
         Prisms([[1, 2, 0, 1, 0, 1]], [1.0]).gradient(T0)

@@ -17,15 +17,24 @@ import pytest
 
 from derive.effects import catalogue
 from derive.pipeline import derive_model
-from ragg_runtime import compare
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
-from ragg_runtime.evaluate import vector
-from ragg_runtime.load import MANY, Model, from_files, packaged
-from ragg_runtime.native import BuildError, Compiled, Interpreted, NativeWarning, backends, build, evaluator
-from ragg_runtime.native.arguments import cut
-from ragg_runtime.native.compiler import COMMON, Built, find_compiler, private_folder
-from ragg_runtime.passes import Point, linearised
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.fit import observation
+from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import MANY, Model, from_files, packaged
+from ragg_runtime.model.native import (
+    BuildError,
+    Compiled,
+    Interpreted,
+    NativeWarning,
+    backends,
+    build,
+    evaluator,
+)
+from ragg_runtime.model.native.arguments import cut
+from ragg_runtime.model.native.compiler import COMMON, Built, find_compiler, private_folder
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
@@ -116,11 +125,11 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
         if off:
             monkeypatch.setenv("RAGG_NATIVE", "off")
         model = replace(packaged())  # evaluators of its own
-        o = compare.observe(flight, s.sheet)
+        o = observation.observe(flight, s.sheet)
         at = Point(model, s.sheet, vector(model, s.sheet), with_candidates=True)
         columns = linearised(at, o)
         assert {e.backend for e in model.evaluators.values()} == {"numpy" if off else "c"}
-        found.append((columns, compare.compare(model, s.sheet, [flight])))
+        found.append((columns, comparison.compare(model, s.sheet, [flight])))
     (c, by_c), (n, by_numpy) = found
     size = np.max(np.abs(n), axis=2, keepdims=True)
     assert np.sum(size > 0.0) > 150

@@ -7,11 +7,17 @@ import dataclasses
 import numpy as np
 import pytest
 
-from ragg_runtime import compare, load, next_motion, workflow
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import next_motion
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit import fitted as fitted_
+from ragg_runtime.fit import observation
 from ragg_runtime.flight import Flight
+from ragg_runtime.model import model
 from ragg_runtime.reference.motion import Signal, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.workflow import loop
 
 
 @pytest.fixture(scope="module")
@@ -20,15 +26,15 @@ def flown() -> tuple[Scenario, Flight]:
     return s, s.simulate({"lag": {"tau": [2e-9, 0, 0, 0]}}).flight()
 
 
-def fitted(s: Scenario, *flights: Flight) -> compare.Fitted:
-    return compare.fit(load.packaged(), s.sheet, [compare.observe(x, s.sheet) for x in flights])
+def fitted(s: Scenario, *flights: Flight) -> fitted_.Fitted:
+    return fitted_.fit(model.packaged(), s.sheet, [observation.observe(x, s.sheet) for x in flights])
 
 
 def test_effects_that_act_alike_are_not_promised_apart(flown: tuple[Scenario, Flight]) -> None:
     """K_iii of one accelerometer and K_ooo of its neighbour weigh the same force: no motion splits them."""
     s = scenario(53, duration=600.0)
     f = fitted(s, s.simulate({"cubic-input": {"K_iii": [4e-8, 0, 0, 0]}}).flight())
-    field = f.field(compare.testable_effects(f))
+    field = field_of(f, selection.testable_effects(f))
     for p in next_motion.proposals(f, field, [("cubic-input", "cubic-cross")]):
         assert not p.separates
         assert "act alike" in p.in_words()
@@ -37,7 +43,7 @@ def test_effects_that_act_alike_are_not_promised_apart(flown: tuple[Scenario, Fl
 def test_a_larger_motion_promises_more(flown: tuple[Scenario, Flight]) -> None:
     s, flight = flown
     f = fitted(s, flight)
-    field = f.field(compare.testable_effects(f))
+    field = field_of(f, selection.testable_effects(f))
     pairs = [("lag", "time-offset")]
     small = next_motion.proposals(f, field, pairs, {"a": 0.05, "omega": 1e-4})
     (large,) = next_motion.proposals(f, field, pairs, {"a": 0.5, "omega": 1e-3})
@@ -63,7 +69,7 @@ def test_the_promise_is_kept_when_the_motion_is_flown(flown: tuple[Scenario, Fli
     """A flight of the independent reference with that motion, fitted together with the first one."""
     s, flight = flown
     f = fitted(s, flight)
-    field = f.field(compare.testable_effects(f))
+    field = field_of(f, selection.testable_effects(f))
     (p,) = next_motion.proposals(f, field, [("lag", "time-offset")])
     sine = Sinusoids(0.0, (p.amplitude,), (p.frequency,), (0.0,))
     group, axis = p.axis.split("_")
@@ -72,8 +78,8 @@ def test_the_promise_is_kept_when_the_motion_is_flown(flown: tuple[Scenario, Fli
     moved = dataclasses.replace(s, motion=dataclasses.replace(s.motion, **{group: tuple(parts)}), seed=99)
     shaken = moved.simulate({"lag": {"tau": [2e-9, 0, 0, 0]}}).flight()
     both = fitted(s, flight, shaken)
-    field = both.field(compare.testable_effects(both))
-    signal = next_motion._signal(f, f.field(compare.testable_effects(f)), "lag")
+    field = field_of(both, selection.testable_effects(both))
+    signal = next_motion._signal(f, field_of(f, selection.testable_effects(f)), "lag")
     kept = next_motion._separation(both.whole, both.n_base, field, signal, "time-offset")
     # the turbulence that is there as well tells more
     assert p.then * 0.7 < kept < p.then * 3.0
@@ -81,10 +87,10 @@ def test_the_promise_is_kept_when_the_motion_is_flown(flown: tuple[Scenario, Fli
 
 
 def test_limits_are_read_with_units(tmp_path_factory: pytest.TempPathFactory) -> None:
-    m = workflow.new(tmp_path_factory.mktemp("limits") / "m")
-    found = workflow.motion_limits(m, ["a=100mg"])
+    m = loop.new(tmp_path_factory.mktemp("limits") / "m")
+    found = loop.motion_limits(m, ["a=100mg"])
     assert found["a"] == pytest.approx(0.98)
     assert found["omega"] == next_motion.LIMITS["omega"]
     for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg"):
         with pytest.raises(UserError):
-            workflow.motion_limits(m, [wrong])
+            loop.motion_limits(m, [wrong])

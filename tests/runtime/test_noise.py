@@ -7,11 +7,11 @@ import pytest
 from scipy import stats
 from scipy.signal import welch
 
-from ragg_runtime.demodulate import demodulate
-from ragg_runtime.errors import UserError
-from ragg_runtime.noise import Noise, eotvos_noise
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import disc_angle, simulate, still
+from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perfect
+from ragg_runtime.signals.demodulate import demodulate
 
 RATE = 16.0
 MODELS = [Noise(omega_T=2e-14), Noise(1e-15, 1.0, 0.0), Noise(3e-16, 1.7, 1e-15), Noise(1e-15, 0.0, 1e-15)]

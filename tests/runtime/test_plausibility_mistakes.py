@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime import load
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
+from ragg_runtime.model import model
 from ragg_runtime.plausibility import examined, likely
-from ragg_runtime.plausibility.linear import explain, shrunken
-from ragg_runtime.plausibility.rows import picker
+from ragg_runtime.plausibility.quick_fit import explain, shrunken
+from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
 
 G0 = 9.8
-MODEL = load.packaged()
+MODEL = model.packaged()
 
 
 def flown(

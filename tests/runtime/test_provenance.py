@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import cli, main
+from ragg_runtime.cli.main import cli, main
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 DAY = re.compile(r"20\d\d-\d\d-\d\d")
 
@@ -28,7 +28,7 @@ DAY = re.compile(r"20\d\d-\d\d-\d\d")
 def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A model and a flight of a few minutes."""
     folder = tmp_path_factory.mktemp("provenance")
-    m = workflow.new(folder / "model")
+    m = loop.new(folder / "model")
     flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
     write_flight(flight, folder / "flight.parquet")
     return folder
@@ -71,7 +71,7 @@ def test_own_effects_are_named_by_their_digest(
     place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     (tmp_path / "own").mkdir()
-    workflow.new(tmp_path / "model")
+    loop.new(tmp_path / "model")
     toml = tmp_path / "model" / "model.toml"
     toml.write_text('effects_folder = "../own"\n' + toml.read_text("utf-8"), "utf-8")
     first = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
@@ -83,7 +83,7 @@ def test_own_effects_are_named_by_their_digest(
 def test_a_change_names_the_state_before_and_after(
     place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    workflow.new(tmp_path / "model")
+    loop.new(tmp_path / "model")
     toml = tmp_path / "model" / "model.toml"
     digests = [hashlib.sha256(toml.read_bytes()).hexdigest()]
     for arguments in (["add", "model", "lag"], ["remove", "model", "lag"]):
@@ -103,7 +103,7 @@ def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatc
         assert hashlib.sha256((place / path).read_bytes()).hexdigest() in page
     for library in ("numpy", "scipy", "sympy"):
         assert f"{library} {version(library)}" in page
-    assert workflow.load(place / "model").model.digest in page
+    assert loop.load(place / "model").model.digest in page
 
 
 def test_every_command_that_gives_json_goes_through_one_door() -> None:
@@ -139,5 +139,5 @@ def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
 def _environment() -> dict[str, str]:
     import os
 
-    root = str(Path(workflow.__file__).parents[1])
+    root = str(Path(loop.__file__).parents[1])
     return {**os.environ, "PYTHONPATH": root}

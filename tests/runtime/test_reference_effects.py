@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import Gradient, PointMass
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import CATALOGUE, Motion, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.effects import resolve
 from ragg_runtime.reference.effects.force import third_order_tensor, vibration
+from ragg_runtime.reference.gravity import Gradient, PointMass
 from ragg_runtime.reference.instruments import perfect, trimmed
 from ragg_runtime.reference.motion import recorded_motion
 
@@ -139,7 +139,7 @@ def test_several_effects_at_once() -> None:
 
 
 def test_noise_does_not_change_with_the_effects() -> None:
-    from ragg_runtime.noise import Noise
+    from ragg_runtime.reference.accelerometer_noise import Noise
 
     noise = Noise(omega_T=1e-18)
     plain = run(noise=noise, seed=3)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import Gradient
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, disc_angle, instants, simulate, still
 from ragg_runtime.reference.geometry import mount
+from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect, table_v, trimmed
 from ragg_runtime.reference.rotation import about, by_vector, frame_rotation
 

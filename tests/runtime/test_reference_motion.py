@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.motion import Recorded, Signal, Sinusoids, recorded_motion
 
 ENVELOPE = Sinusoids(1.0, [0.5], [0.02], [0.3])

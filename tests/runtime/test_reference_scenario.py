@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.signal import welch
 
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.reference.turbulence import SHAPES, turbulence
 

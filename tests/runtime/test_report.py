@@ -17,12 +17,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ragg_runtime import compare, diagnose, extend, load, report
-from ragg_runtime.demodulate import demodulate
-from ragg_runtime.evaluate import output, record, vector, voltages
-from ragg_runtime.instrument import EffectSetting, Instrument
-from ragg_runtime.report import barcharts, budget, draw, effect_values, panels, parameters, series, words
-from ragg_runtime.units import RawQuantity
+from ragg_runtime import report
+from ragg_runtime.diagnosis import comparison as compare
+from ragg_runtime.diagnosis import diagnose, result
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import output, vector, voltages
+from ragg_runtime.model.record import record
+from ragg_runtime.model_dir import derive
+from ragg_runtime.report import barcharts, budget, draw, effect_values, panels, parameters, series
+from ragg_runtime.signals.demodulate import demodulate
+from ragg_runtime.wording import numbers
 
 RATE = 16.0
 UG = 9.8e-6
@@ -85,7 +91,7 @@ def flight(
     model = load.packaged()
     if effect is not None:
         true = true.with_effects((effect,))
-        model = extend.with_effects(true, model, [effect.id])
+        model = derive.with_effects(true, model, [effect.id])
     time, channels = motion(samples, seed)
     made = SimpleNamespace(
         time=time, channels=channels, outputs={}, rate=RATE, valid=np.ones(samples, bool), name=name
@@ -102,13 +108,13 @@ CUBIC = EffectSetting("cubic-input", {"K_iii": RawQuantity((0.0, 0.0, 4.0, 0.0),
 @dataclass(frozen=True, eq=False)
 class Case:
     comparison: compare.Comparison
-    diagnosis: diagnose.Diagnosis
+    diagnosis: result.Diagnosis
     flight: Any
 
 
 def case(made: Any) -> Case:
     model, known = load.packaged(), instrument()
-    d = diagnose.diagnose(model, known, [made], lambda m, ids: extend.with_effects(known, m, ids))
+    d = diagnose.diagnose(model, known, [made], lambda m, ids: derive.with_effects(known, m, ids))
     return Case(compare.compare(model, known, [made]), d, made)
 
 
@@ -250,8 +256,8 @@ def test_users_own_matplotlib_settings_do_not_matter(clean: Case) -> None:
 def test_clean_flight_is_adequate_in_words(clean: Case) -> None:
     said = Page(pages(clean)["compare"]).text
     assert "The model is adequate" in said
-    assert words.number(clean.comparison.calibrated.rms_Eo) in said
-    assert words.number(clean.comparison.nominal.rms_Eo) in said
+    assert numbers.number(clean.comparison.calibrated.rms_Eo) in said
+    assert numbers.number(clean.comparison.nominal.rms_Eo) in said
     said = Page(pages(clean)["diagnose"]).text
     assert "Nothing is missing" in said
     assert "smaller than" in said
@@ -284,12 +290,12 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     assert "no known effect accounts for" in page.text
     assert "The model lacks" not in page.text
     best = d.terms()[0]
-    assert words.product(str(best["term"])) in page.text
+    assert numbers.product(str(best["term"])) in page.text
 
 
 def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
     known = instrument()
-    extended = extend.with_effects(known, load.packaged(), ["cubic-input"])
+    extended = derive.with_effects(known, load.packaged(), ["cubic-input"])
     after = compare.compare(extended, known, [cubic.flight])
     before = cubic.comparison
     history = [
@@ -302,7 +308,7 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
         }
     ]
     said = Page(report.add_html(history, before, after, **ORIGIN)).text
-    a, b = words.number(before.calibrated.rms_Eo), words.number(after.calibrated.rms_Eo)
+    a, b = numbers.number(before.calibrated.rms_Eo), numbers.number(after.calibrated.rms_Eo)
     assert f"With cubic-input added, the error falls from {a} to {b} Eo" in said
     rows = {c.label: c for c in budget.contributions(after.fitted)}
     # what the effect contributes is more than what the calibration of the others left of it
@@ -321,14 +327,14 @@ def test_what_a_record_sees_of_the_parameters_is_what_the_paper_derives(clean: C
         assert "K0" in unseen[pattern]
     assert "K0" not in unseen.get("D1234", set())
     groups = {frozenset((p.pattern, p.symbol.name) for p in g.members): g for g in v.groups}
-    for pattern, sign in (("Σ", words.MINUS), ("D1234", "+")):
+    for pattern, sign in (("Σ", numbers.MINUS), ("D1234", "+")):
         group = groups[frozenset({(pattern, "K2"), (pattern, "K5")})]
         assert group.unseen == 1
         assert [p.sign for p in group.seen[0]] == ["", sign]
         assert [p.factor for p in group.seen[0]] == ["", ""]
     # a larger radius is the same as a larger scale factor: R / K1 = 0.1 m / (10 mA/g)
     radius = groups[frozenset({("Σ", "dR"), ("Σ", "K1")})].seen[0]
-    assert radius[1].factor.startswith(f"10{words.THIN}000")
+    assert radius[1].factor.startswith(f"10{numbers.THIN}000")
     assert 0 < v.determined < v.total
 
 
@@ -338,7 +344,7 @@ def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
     K0 = rows["K0"].cells[patterns.index("D1234")]
     assert K0.state == "seen"
     # the flight's biases are 1 ug above the test sheet in all four: D1234 stays 10 + 2 - 5 - 8 = -1 ug
-    value = float(K0.value.split(words.THIN)[0].split("(")[0].replace(words.MINUS, "-"))
+    value = float(K0.value.split(numbers.THIN)[0].split("(")[0].replace(numbers.MINUS, "-"))
     assert value == pytest.approx(-1.0, abs=0.05)
     assert rows["K0"].cells[patterns.index("Σ")].state == "unseen"
 
@@ -473,45 +479,45 @@ FINITE = st.floats(-1e30, 1e30, allow_nan=False).filter(lambda x: x == 0 or abs(
 
 def read(text: str) -> float:
     """A printed number, read back."""
-    plain = text.replace(words.MINUS, "-")
-    mantissa, _, exponent = plain.partition(f"{words.THIN}×{words.THIN}10")
+    plain = text.replace(numbers.MINUS, "-")
+    mantissa, _, exponent = plain.partition(f"{numbers.THIN}×{numbers.THIN}10")
     digits = exponent.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
-    return float(mantissa.replace(words.THIN, "")) * 10.0 ** int(digits or 0)
+    return float(mantissa.replace(numbers.THIN, "")) * 10.0 ** int(digits or 0)
 
 
 @given(FINITE, st.integers(1, 7))
 def test_number_reads_back_to_its_digits(x: float, digits: int) -> None:
-    assert read(words.number(x, digits)) == pytest.approx(x, rel=0.51 * 10.0 ** (1 - digits), abs=0.0)
+    assert read(numbers.number(x, digits)) == pytest.approx(x, rel=0.51 * 10.0 ** (1 - digits), abs=0.0)
 
 
 @given(FINITE, st.floats(1e-20, 1e20))
 def test_value_and_uncertainty_read_back(value: float, std: float) -> None:
     assume(1e-6 < abs(value) / std < 1e9)
-    shown = words.rounded(value, std)
+    shown = numbers.rounded(value, std)
     assert read(shown) == pytest.approx(value, abs=0.06 * std * (1 + 1e-6))
-    assert words.plus_minus(value, std).lstrip("(").startswith(shown.split(words.THIN + "×")[0])
+    assert numbers.plus_minus(value, std).lstrip("(").startswith(shown.split(numbers.THIN + "×")[0])
 
 
 def test_numbers_a_reader_expects() -> None:
-    assert words.number(float("nan")) == "–"
-    assert words.number(107234.0) == "107\u202f000"
-    assert words.number(-0.00041) == "−4.10\u202f×\u202f10⁻⁴"
-    assert words.plus_minus(4.0061e-8, 3.1e-10) == "(4.006\u202f±\u202f0.031)\u202f×\u202f10⁻⁸"
-    assert words.plus_minus(40.0045, 5e-8) == "40.004500000(50)"
-    assert words.probability(-768 * math.log(10)) == "10⁻⁷⁶⁸"
-    assert words.probability(math.log(0.05)) == "0.050"
-    assert words.unit("ug/g^2") == "µg/g²"
-    assert words.unit_of_term("V/(m/s^2*m/s^2*K)") == "V/((m/s²)²·K)"
-    assert words.unit_of_term("V/(rad/s)") == "V/(rad/s)"
-    assert words.symbol(r"\partial_T K_{1}") == (("∂", False), ("T", True), ("K", False), ("1", True))
-    assert words.product("a_x*omegadot_y*d_a_z") == "a_x · dω_y/dt · da_z/dt"
-    assert words.harmonic("sin 1") == "sin Ωt"
+    assert numbers.number(float("nan")) == "–"
+    assert numbers.number(107234.0) == "107\u202f000"
+    assert numbers.number(-0.00041) == "−4.10\u202f×\u202f10⁻⁴"
+    assert numbers.plus_minus(4.0061e-8, 3.1e-10) == "(4.006\u202f±\u202f0.031)\u202f×\u202f10⁻⁸"
+    assert numbers.plus_minus(40.0045, 5e-8) == "40.004500000(50)"
+    assert numbers.probability(-768 * math.log(10)) == "10⁻⁷⁶⁸"
+    assert numbers.probability(math.log(0.05)) == "0.050"
+    assert numbers.unit("ug/g^2") == "µg/g²"
+    assert numbers.unit_of_term("V/(m/s^2*m/s^2*K)") == "V/((m/s²)²·K)"
+    assert numbers.unit_of_term("V/(rad/s)") == "V/(rad/s)"
+    assert numbers.symbol(r"\partial_T K_{1}") == (("∂", False), ("T", True), ("K", False), ("1", True))
+    assert numbers.product("a_x*omegadot_y*d_a_z") == "a_x · dω_y/dt · da_z/dt"
+    assert numbers.harmonic("sin 1") == "sin Ωt"
 
 
 @given(st.text())
 def test_cleaned_text_can_be_written_and_drawn(text: str) -> None:
-    words.clean(text).encode("utf-8")
-    line = words.short(text, 30)
+    numbers.clean(text).encode("utf-8")
+    line = numbers.short(text, 30)
     assert len(line) <= 30
     assert "\n" not in line
 

@@ -8,12 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ragg_runtime import calibrate, compare, load, metrics, passes
-from ragg_runtime.diagnose import diagnose
-from ragg_runtime.evidence import work
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit import calibrate, fitted, observation, passes, prepared, score
+from ragg_runtime.fit.segments import BLOCKS, segments
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
+from ragg_runtime.lack_of_fit import remainder
+from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import Scenario, scenario
-from ragg_runtime.segments import BLOCKS, segments
 
 G0 = 9.8
 
@@ -45,19 +49,19 @@ def test_the_division_leaves_no_trace(
         valid = np.ones(len(flight.time), dtype=bool)
         valid[4000:4130] = False
         flight = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
-    o = compare.observe(flight, s.sheet)
-    noise = compare.fit(load.packaged(), s.sheet, [o]).calibration.noise
-    whole = compare.fit(load.packaged(), s.sheet, [o], noise)
-    for module in (passes, work):
+    o = observation.observe(flight, s.sheet)
+    noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
+    whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
+    for module in (passes, prepared):
         monkeypatch.setattr(module, "ROWS", 1700)
     monkeypatch.setattr(calibrate, "WHITE_SEGMENTS", 1000)
     assert len(passes.flight_segments(o)) > 5
-    parts = compare.fit(load.packaged(), s.sheet, [o], noise)
+    parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
     moved = (parts.calibration.p - whole.calibration.p)[whole.calibration.index] / scale
     assert np.max(np.abs(moved)) < 1e-5  # along what the record hardly sees; nothing in the figures
-    effects = compare.testable_effects(whole)
-    expected, found = (f.field(effects).tests() for f in (whole, parts))
+    effects = selection.testable_effects(whole)
+    expected, found = (field_of(f, effects).tests() for f in (whole, parts))
     for e in effects:
         assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-6, abs=1e-6)
     zero = np.zeros(whole.size)
@@ -68,7 +72,7 @@ def test_the_division_leaves_no_trace(
     np.testing.assert_allclose(
         parts.residuals(np.zeros(parts.n_base))[0], whole.residuals(zero[: whole.n_base])[0], atol=1e-9
     )
-    a, b = compare.remainder(whole), compare.remainder(parts)
+    a, b = remainder.remainder(whole), remainder.remainder(parts)
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
 
@@ -104,12 +108,12 @@ def test_the_diagnosis_of_a_flight_on_disk_is_the_same_to_the_last_digit(
     s, flight = flown
     path = tmp_path / "flight.parquet"
     write_flight(flight, path)
-    for module in (passes, work, compare):
+    for module in (passes, prepared, observation):
         monkeypatch.setattr(module, "ROWS", 4000)
     said = []
     for most in (1 << 30, 100_000):
         monkeypatch.setattr(files, "IN_MEMORY", most)
-        d = diagnose(load.packaged(), s.sheet, [read_flight(path, G0)])
+        d = diagnose(model.packaged(), s.sheet, [read_flight(path, G0)])
         assert d.found == ("thermal-scale",)
         said.append(json.dumps(d.as_json()))
     assert said[0] == said[1]
@@ -123,13 +127,13 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
     found = {}
     for name, valid in (("whole", np.ones(len(flight.time), dtype=bool)), ("scattered", scattered)):
         x = Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units)
-        found[name] = compare.compare(load.packaged(), s.sheet, [x]).scored
+        found[name] = comparison.compare(model.packaged(), s.sheet, [x]).scored
     for part in ("whole", "held_out"):
         a, b = getattr(found["whole"], part), getattr(found["scattered"], part)
         assert b.inline_Eo == pytest.approx(a.inline_Eo, rel=0.1)
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    heard = metrics.heard(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    heard = score.heard(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not heard[460:500].any()  # windows with more than half of the gap
     assert heard[:400].all() and heard[560:].all()

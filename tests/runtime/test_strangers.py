@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
-from ragg_runtime.simulate import simulated
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 NAME = "\x1b[31m<script>alert(1)\u202e&\"'"
 
@@ -26,7 +26,7 @@ def test_a_flight_with_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    m = workflow.new("model")
+    m = loop.new("model")
     write_flight(simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0), "plain.parquet")
     shutil.move("plain.parquet", f"{NAME}.parquet")
     main(["compare", "model", f"{NAME}.parquet", "--json", "out.json", "--report", "out.html"])
@@ -45,7 +45,7 @@ def test_an_error_about_such_a_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    workflow.new("model")
+    loop.new("model")
     Path(f"{NAME}.csv").write_text(f"time [s],{NAME}[x [g]\n0,0\n", "utf-8")
     with pytest.raises(SystemExit) as end:
         main(["compare", "model", f"{NAME}.csv"])
@@ -57,15 +57,15 @@ def test_an_error_about_such_a_name(
 
 @pytest.mark.parametrize("identifier", ["../../etc", "a/b", "..", "", "lag\x00", "C:\\x", "-x", "a" * 300])
 def test_ids_with_path_parts_are_unknown(tmp_path: Path, identifier: str) -> None:
-    m = workflow.new(tmp_path / "model")
+    m = loop.new(tmp_path / "model")
     before = sorted(tmp_path.rglob("*"))
-    for attempt in (workflow.add, workflow.remove):
+    for attempt in (loop.add, loop.remove):
         with pytest.raises(UserError):
             attempt(m, identifier)
     line = f'effects = [{{ id = {json.dumps(identifier)}, stage = "transducer", add = "K*f_i", K = {{ unit = "ug" }} }}]'
     toml = (tmp_path / "model" / "model.toml").read_text("utf-8").replace("effects = []", line)
     (tmp_path / "evil.toml").write_text(toml, "utf-8")
     with pytest.raises(UserError):
-        workflow.new(tmp_path / "second", tmp_path / "evil.toml")
+        loop.new(tmp_path / "second", tmp_path / "evil.toml")
     (tmp_path / "evil.toml").unlink()
     assert sorted(tmp_path.rglob("*")) == before

@@ -18,16 +18,16 @@ import numpy as np
 import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, make, without_effect
 
-from ragg_runtime import workflow
-from ragg_runtime.cli import main
-from ragg_runtime.errors import UserError
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
+from ragg_runtime.report.survey_page import survey_html
+from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import Survey, local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.journal import lines_of
-from ragg_runtime.survey.page import survey_html
 from ragg_runtime.survey.task import Job, Record, examine, job
-from ragg_runtime.survey.text import surveyed
+from ragg_runtime.workflow import loop
 
 Flights = tuple[Path, list[Path]]
 
@@ -39,7 +39,7 @@ def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
 
 @pytest.fixture(scope="module")
 def whole(flights: Flights) -> Survey:
-    return workflow.survey(workflow.load(flights[0]), flights[1], jobs=2)
+    return loop.survey(loop.load(flights[0]), flights[1], jobs=2)
 
 
 def records_of(whole: Survey, files: list[Path]) -> str:
@@ -65,16 +65,16 @@ def _interruptible() -> None:
 
 
 def test_every_flight_has_its_own_figures(flights: Flights, whole: Survey) -> None:
-    m = workflow.load(flights[0])
+    m = loop.load(flights[0])
     assert [r["flight"] for r in whole.records] == sorted(p.name for p in flights[1])
     found = [r["flight"] for r in whole.done if "thermal-scale" in r["found"]]
     assert set(WITH_EFFECT) <= set(found)
     for name in WITH_EFFECT:
         record = next(r for r in whole.done if r["flight"] == name)
-        d = workflow.diagnose(m, workflow.read_flights(m, [flights[0].parent / name]))
+        d = loop.diagnose(m, loop.read_flights(m, [flights[0].parent / name]))
         assert (record["verdict"], record["found"]) == (d.verdict, list(d.found))
         assert record["error"]["after"]["rms_Eo"] == pytest.approx(d.after.rms_Eo, rel=1e-9)
-        c = workflow.compare(m, workflow.read_flights(m, [flights[0].parent / name]))
+        c = loop.compare(m, loop.read_flights(m, [flights[0].parent / name]))
         assert record["error"]["nominal"]["rms_Eo"] == pytest.approx(c.nominal.rms_Eo, rel=1e-9)
         assert record["error"]["holdout"]["rms_Eo"] == pytest.approx(c.holdout.rms_Eo, rel=1e-9)
         assert record["error"]["after"]["rms_Eo"] < 0.5 * record["error"]["calibrated"]["rms_Eo"]
@@ -96,8 +96,8 @@ def test_a_flight_that_cannot_be_read_is_reported_and_stops_nothing(flights: Fli
 
 def test_a_flight_with_a_likely_mistake_is_told_as_elsewhere(flights: Flights, tmp_path: Path) -> None:
     """Where a flight is diagnosed, here or on a cluster, ``examine`` is what looks at it."""
-    m = workflow.load(flights[0])
-    (good,) = workflow.read_flights(m, flights[1][1:2])
+    m = loop.load(flights[0])
+    (good,) = loop.read_flights(m, flights[1][1:2])
     bad = dataclasses.replace(good, outputs={"G_out": 1e3 * good.outputs["G_out"]})
     write_flight(bad, tmp_path / "millivolts.parquet")
     toml = flights[0] / "model.toml"
@@ -132,8 +132,8 @@ def test_provenance_names_every_flight(
 
 
 def test_the_number_of_workers_changes_no_bit(flights: Flights, whole: Survey) -> None:
-    m = workflow.load(flights[0])
-    again = workflow.survey(m, list(reversed(flights[1])), jobs=1)
+    m = loop.load(flights[0])
+    again = loop.survey(m, list(reversed(flights[1])), jobs=1)
     assert json.dumps(again.as_json()) == json.dumps(whole.as_json())
 
 
@@ -148,8 +148,8 @@ def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights,
             for pid in pids:
                 os.kill(pid, signal.SIGKILL)
 
-    m, files = workflow.load(flights[0]), without_effect(flights[1])
-    again = workflow.survey(m, files, jobs=2, progress=kill_one)
+    m, files = loop.load(flights[0]), without_effect(flights[1])
+    again = loop.survey(m, files, jobs=2, progress=kill_one)
     assert len(killed) == 2
     assert json.dumps(list(again.records)) == records_of(whole, files)
     assert not multiprocessing.active_children()
@@ -188,7 +188,7 @@ def test_a_worker_that_cannot_be_started_is_one_message(
 ) -> None:
     monkeypatch.setattr(local, "_begin", unimportable)
     with pytest.raises(UserError, match="__main__"):
-        workflow.survey(workflow.load(flights[0]), flights[1], jobs=1)
+        loop.survey(loop.load(flights[0]), flights[1], jobs=1)
 
 
 def wait_for_records(file: Path, count: int, process: subprocess.Popen[str]) -> None:
@@ -276,64 +276,64 @@ def test_an_interrupted_survey_without_results_file_keeps_what_is_done(
 
 
 def test_results_of_something_else_are_refused(flights: Flights, whole: Survey, tmp_path: Path) -> None:
-    m = workflow.load(flights[0])
+    m = loop.load(flights[0])
     kept = tmp_path / "kept.jsonl"
     for text in ("time,a_x\n1,2\n", '{"kind": "another"}\n', "[1, 2]\n", "no line end"):
         kept.write_text(text)
         with pytest.raises(UserError, match="not a results file"):
-            workflow.survey(m, flights[1], jobs=1, resume=kept)
+            loop.survey(m, flights[1], jobs=1, resume=kept)
         assert kept.read_text() == text
     head = {"kind": "ragg survey", "model": "0" * 64, "program": {}}
     kept.write_text(json.dumps(head) + "\n")
     with pytest.raises(UserError, match=r"another model\.toml"):
-        workflow.survey(m, flights[1], jobs=1, resume=kept)
+        loop.survey(m, flights[1], jobs=1, resume=kept)
     with pytest.raises(UserError, match="cannot be written"):
-        workflow.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
+        loop.survey(m, flights[1], jobs=1, resume=tmp_path / "no-folder" / "x.jsonl")
 
 
 def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     flights: Flights, tmp_path: Path
 ) -> None:
-    m = workflow.load(flights[0])
+    m = loop.load(flights[0])
     kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a.parquet", "b.parquet"))
     one.write_bytes(flights[1][1].read_bytes())
     two.write_bytes(flights[1][2].read_bytes())
-    first = workflow.survey(m, [one, two], jobs=1, resume=kept)
+    first = loop.survey(m, [one, two], jobs=1, resume=kept)
     two.write_bytes(flights[1][4].read_bytes())
     seen: list[str] = []
 
     def note(done: int, total: int, record: Record | None) -> None:
         seen.append(f"{done}/{total}" if record is None else record["flight"])
 
-    second = workflow.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
+    second = loop.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
     assert seen == ["1/2", "b.parquet"]
     assert second.records[0] == first.records[0]
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
 
 def test_two_surveys_do_not_write_to_one_file(flights: Flights, tmp_path: Path) -> None:
-    m = workflow.load(flights[0])
+    m = loop.load(flights[0])
     kept = tmp_path / "kept.jsonl"
     refused: list[str] = []
 
     def second(done: int, total: int, record: Record | None) -> None:
         if record is None:
             with pytest.raises(UserError) as error:
-                workflow.survey(m, flights[1], jobs=1, resume=kept)
+                loop.survey(m, flights[1], jobs=1, resume=kept)
             refused.append(error.value.message)
 
-    workflow.survey(m, flights[1][1:2], jobs=1, resume=kept, progress=second)
+    loop.survey(m, flights[1][1:2], jobs=1, resume=kept, progress=second)
     assert "another survey" in refused[0]
 
 
 def test_bad_use_is_one_message(flights: Flights) -> None:
-    m = workflow.load(flights[0])
+    m = loop.load(flights[0])
     with pytest.raises(UserError, match="needs flights"):
-        workflow.survey(m, [])
+        loop.survey(m, [])
     with pytest.raises(UserError, match="or on a cluster"):
-        workflow.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
+        loop.survey(m, flights[1], jobs=1, scheduler="tcp://127.0.0.1:1")
     with pytest.raises(UserError, match="needs a worker"):
-        workflow.survey(m, flights[1], jobs=0)
+        loop.survey(m, flights[1], jobs=0)
 
 
 def test_the_report_and_the_text_escape_what_strangers_wrote(whole: Survey) -> None:

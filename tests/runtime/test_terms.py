@@ -11,18 +11,23 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from derive.expression import from_expression
-from ragg_runtime import compare, extend, ingredients, load, suggestion
-from ragg_runtime import diagnose as diagnose_module
-from ragg_runtime.diagnose import Diagnosis, diagnose
-from ragg_runtime.evaluate import Record
-from ragg_runtime.evidence import omnibus, work
-from ragg_runtime.evidence.omnibus import Scores
-from ragg_runtime.evidence.search import Choice
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis import diagnose as diagnose_module
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.selection import Choice, field_of
+from ragg_runtime.fit import fitted, observation, prepared
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument import EffectSetting
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.lack_of_fit import as_effect, features, omnibus, remainder
+from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
+from ragg_runtime.lack_of_fit.omnibus import Scores
+from ragg_runtime.model import model as load
+from ragg_runtime.model.record import Record
+from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.reference.simulate import Simulation
-from ragg_runtime.terms import Dictionary, Term
 
 Array = NDArray[np.float64]
 
@@ -62,14 +67,14 @@ def test_turning_forces_and_their_derivatives(
     r, exact = smooth
     f, h, t = _force(exact, axis), 1e-4, r.time
     inner = slice(50, -50)
-    np.testing.assert_allclose(ingredients.series(axis, r), f(t), atol=1e-12)
+    np.testing.assert_allclose(features.series(axis, r), f(t), atol=1e-12)
     first = (f(t + h) - f(t - h)) / (2 * h)
     second = (f(t + h) - 2 * f(t) + f(t - h)) / h**2
-    np.testing.assert_allclose(ingredients.series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
-    np.testing.assert_allclose(ingredients.series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
-    np.testing.assert_allclose(ingredients.series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
+    np.testing.assert_allclose(features.series(f"d_{axis}", r)[inner], first[inner], atol=1e-5)
+    np.testing.assert_allclose(features.series(f"d2_{axis}", r)[inner], second[inner], atol=1e-4)
+    np.testing.assert_allclose(features.series(f"abs({axis})", r), np.abs(f(t)), atol=1e-12)
     clear = np.abs(f(t)) > 1e-9
-    np.testing.assert_array_equal(ingredients.series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
+    np.testing.assert_array_equal(features.series(f"sign({axis})", r)[clear], np.sign(f(t))[clear])
 
 
 def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
@@ -77,7 +82,7 @@ def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
 ) -> None:
     """A2 is half a turn on, A3 a quarter, A4 three quarters: no further terms are needed for them."""
     r, _ = smooth
-    f = {n: ingredients.series(n, r) for n in ("f_i", "f_o")}
+    f = {n: features.series(n, r) for n in ("f_i", "f_o")}
     for turns, force, expected in (
         (0.50, "f_i", -f["f_i"]),
         (0.25, "f_i", -f["f_o"]),
@@ -86,7 +91,7 @@ def test_forces_of_the_other_accelerometers_are_these_up_to_sign_and_exchange(
         (0.75, "f_o", -f["f_i"]),
     ):
         turned = dataclasses.replace(r, wide={**r.wide, "spin_angle": r.phi + 2 * np.pi * turns})
-        np.testing.assert_allclose(ingredients.series(force, turned), expected, atol=1e-12)
+        np.testing.assert_allclose(features.series(force, turned), expected, atol=1e-12)
 
 
 def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_taken_up(
@@ -99,10 +104,10 @@ def test_relaxations_are_those_of_the_differential_equation_wherever_they_are_ta
     expected = (np.sin(w * t) - w * T * np.cos(w * t) + w * T * np.exp(-t / T)) / (1 + (w * T) ** 2)
     np.testing.assert_allclose(x, np.sin(w * t), atol=1e-12)
     name = "slow(a_z, 5 s)"
-    at_once = ingredients.Relaxations([name], r)
+    at_once = features.Relaxations([name], r)
     whole = at_once.advance(r)[name]
     np.testing.assert_allclose(whole, expected, atol=3e-3)  # of a signal held over a sample
-    parts = ingredients.Relaxations([name], r)
+    parts = features.Relaxations([name], r)
     pieces = [slice(0, 700), slice(700, 2500), slice(2500, 6000)]
     np.testing.assert_allclose(
         np.concatenate([parts.advance(r.part(s))[name] for s in pieces]), whole, rtol=1e-12, atol=1e-15
@@ -128,8 +133,8 @@ def test_what_a_record_lacks_makes_no_term(
 def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
     s = scenario(71, duration=300.0)
-    f = compare.fit(load.packaged(), s.sheet, [compare.observe(s.simulate({}).flight(), s.sheet)])
-    projector = work.projector(f.triangles[0], f.n_base, ())
+    f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
+    projector = prepared.projector(f.triangles[0], f.n_base, ())
     scores = Scores(f.flown[0], projector)
     (piece,) = f.flown[0].each(lambda p: p)
     Q = projector.basis(piece)
@@ -205,7 +210,7 @@ CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
 
 def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
     return diagnose(
-        load.packaged(), s.sheet, [flight], lambda model, ids: extend.with_effects(s.sheet, model, ids)
+        load.packaged(), s.sheet, [flight], lambda model, ids: derive.with_effects(s.sheet, model, ids)
     )
 
 
@@ -235,7 +240,7 @@ def test_the_line_that_is_offered_takes_what_is_left_away() -> None:
         expression={"stage": "transducer", "add": "K_x*f_i**4", "params": {"K_x": {"unit": unit}}},
     )
     sheet = dataclasses.replace(s.sheet, effects=(mine,))
-    after = compare.compare(extend.model_of(sheet), sheet, [flight])
+    after = comparison.compare(derive.model_of(sheet), sheet, [flight])
     assert not d.remainder.log_p > -20
     assert after.remainder.log_p > np.log(0.05)
     assert after.calibrated.rms_Eo == pytest.approx(after.noise_floor, rel=0.01)
@@ -261,16 +266,16 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
     channels: tuple[str, ...], text: str, needs: list[str]
 ) -> None:
     term = Term("const", channels)
-    line = suggestion.line(term, {"temperature": 293.25, "roll": -0.5}, "m/s^2")
+    line = as_effect.line(term, {"temperature": 293.25, "roll": -0.5}, "m/s^2")
     assert line is not None
     assert f'add = "{text}"' in line
-    assert suggestion.columns(term) == needs
+    assert as_effect.columns(term) == needs
     e = from_expression("my-effect", "transducer", text, {"K_x": {"unit": "m/s^2"}})
     assert set(e.channels) == {n.split()[0] for n in needs} | ({"temperature", "roll"} & set(channels))
 
 
 def test_a_channel_of_an_odd_name_is_offered_in_no_expression() -> None:
-    assert suggestion.line(Term("const", ("f_i", 'x"] evil')), {}, "m/s^2") is None
+    assert as_effect.line(Term("const", ("f_i", 'x"] evil')), {}, "m/s^2") is None
 
 
 def test_one_term_that_explains_more_than_several_effects_takes_their_place() -> None:
@@ -278,9 +283,9 @@ def test_one_term_that_explains_more_than_several_effects_takes_their_place() ->
     run = s.simulate({})
     pair = ("thermal-bias", "lag")
 
-    def simpler(flight: Flight) -> tuple[compare.Remainder | None, float]:
-        f = compare.fit(load.packaged(), s.sheet, [compare.observe(flight, s.sheet)])
-        field = f.field(compare.testable_effects(f))
+    def simpler(flight: Flight) -> tuple[remainder.Remainder | None, float]:
+        f = fitted.fit(load.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
+        field = field_of(f, selection.testable_effects(f))
         blocks = {e: tuple(n for n, _ in field.candidates[e]) for e in pair}
         together, _ = field.joint(list(blocks.values()))
         choice = Choice(pair, blocks, {}, {}, together)

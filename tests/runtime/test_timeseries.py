@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.timeseries import WINDOW, differentiate, runs
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.signals.derivative import WINDOW, differentiate, runs
 
 RATE = 16.0
 

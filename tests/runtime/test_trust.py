@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 import derive.effects
-from ragg_runtime import trust, workflow
-from ragg_runtime.errors import UserError
-from ragg_runtime.plain import unusual
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.model_dir import trust
+from ragg_runtime.model_dir.effect_source import unusual
+from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="owners and modes mean something else there")
 
@@ -29,7 +30,7 @@ def own_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
     """A model directory with a folder of own effects."""
-    workflow.new(tmp_path / "model")
+    loop.new(tmp_path / "model")
     (tmp_path / "model" / "effects").mkdir(mode=0o755)
     put(tmp_path / "model" / "effects" / "mine.py", EFFECT)
     toml = tmp_path / "model" / "model.toml"
@@ -44,7 +45,7 @@ def put(path: Path, text: str) -> None:
 
 def refused(model: Path, *what: str) -> None:
     with pytest.raises(UserError) as caught:
-        workflow.load(model)
+        loop.load(model)
     for text in (*what, "effects_folder", "ragg trust"):
         assert text in caught.value.message
 
@@ -54,13 +55,13 @@ def listed(model: Path) -> trust.OwnEffects:
 
 
 def test_an_effect_of_ones_own_works_at_once(model: Path) -> None:
-    m = workflow.load(model)
+    m = loop.load(model)
     assert "mine" in [e.id for e in m.model.candidates]
-    assert [e.id for e in workflow.add(m, "mine").loaded.model.effects] == ["mine"]
+    assert [e.id for e in loop.add(m, "mine").loaded.model.effects] == ["mine"]
 
 
 def test_no_byte_code_is_written_nor_read(model: Path) -> None:
-    workflow.load(model)
+    loop.load(model)
     assert [p.name for p in (model / "effects").iterdir()] == ["mine.py"]
 
 
@@ -85,7 +86,7 @@ def test_a_folder_outside_follows_the_same_rule(model: Path, tmp_path: Path, by:
     else:
         toml = model / "model.toml"
         put(toml, toml.read_text("utf-8").replace('"effects"', '"../outside"'))
-    assert "mine" in [e.id for e in workflow.load(model).model.candidates]
+    assert "mine" in [e.id for e in loop.load(model).model.candidates]
     (tmp_path / "outside").chmod(0o777)
     refused(model, "can be written by everybody")
 
@@ -96,14 +97,14 @@ def test_a_file_that_does_more_is_not_executed_unasked(model: Path, tmp_path: Pa
     refused(model, "mine.py, line", "imports pathlib")
     assert not mark.exists()
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     assert mark.exists()
 
 
 def test_trust_ends_with_the_first_changed_byte(model: Path) -> None:
     (model / "effects").chmod(0o777)
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     put(model / "effects" / "mine.py", EFFECT + "\n# another\n")
     refused(model)
     put(model / "effects" / "mine.py", EFFECT)
@@ -122,37 +123,37 @@ def test_the_variable(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(trust.VARIABLE, "listed")
     refused(model, "not listed")
     trust.trust(listed(model))
-    workflow.load(model)
+    loop.load(model)
     trust.forget(listed(model))
     (model / "effects").chmod(0o777)
     monkeypatch.setenv(trust.VARIABLE, "all")
-    workflow.load(model)
+    loop.load(model)
     monkeypatch.setenv(trust.VARIABLE, "yes")
     with pytest.raises(UserError, match="expected: all, listed"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_a_pipe_is_not_waited_for(model: Path) -> None:
     os.mkfifo(model / "effects" / "other.py")
     with pytest.raises(UserError, match="not a regular file"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_a_folder_that_cannot_be_read_and_a_fault_in_it(model: Path) -> None:
     put(model / "effects" / "mine.py", "EFFECT = 1 / 0\n")
     with pytest.raises(UserError, match=r"mine\.py: ZeroDivisionError"):
-        workflow.load(model)
+        loop.load(model)
     put(model / "effects" / "mine.py", "raise SystemExit(0)\n")
     with pytest.raises(UserError, match="SystemExit"):
-        workflow.load(model)
+        loop.load(model)
     (model / "effects" / "mine.py").unlink()
     (model / "effects" / "mine.py").symlink_to(model / "nowhere")
     with pytest.raises(UserError, match="cannot be read"):
-        workflow.load(model)
+        loop.load(model)
 
 
 def test_a_new_model_from_a_sheet_finds_the_folder_of_the_sheet(model: Path, tmp_path: Path) -> None:
-    m = workflow.new(tmp_path / "second", model / "model.toml")
+    m = loop.new(tmp_path / "second", model / "model.toml")
     assert "mine" in [e.id for e in m.model.candidates]
 
 

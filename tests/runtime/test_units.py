@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.errors import UserError, did_you_mean
-from ragg_runtime.units import RawQuantity, Units, units
+from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.instrument.units import RawQuantity, Units, units
 
 G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)

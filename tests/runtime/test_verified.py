@@ -9,28 +9,29 @@ from pathlib import Path
 import pytest
 
 from derive import pipeline
-from ragg_runtime import extend, verified, workflow
-from ragg_runtime.instrument import parse_instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model_dir import derive, derived_cache
+from ragg_runtime.workflow import loop
 
-ROOT = Path(workflow.__file__).parents[1]
+ROOT = Path(loop.__file__).parents[1]
 EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
 
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verified, "_list", lambda: tmp_path / "cache" / "derived")
-    extend._executed.cache_clear()
+    monkeypatch.setattr(derived_cache, "_list", lambda: tmp_path / "cache" / "derived")
+    derive._executed.cache_clear()
 
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    return workflow.add(workflow.new(tmp_path / "model"), "lag").loaded.directory.path
+    return loop.add(loop.new(tmp_path / "model"), "lag").loaded.directory.path
 
 
 def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Counts derivations from here on; those of this process so far are forgotten."""
-    extend.derived.cache_clear()
-    extend._executed.cache_clear()
+    derive.derived.cache_clear()
+    derive._executed.cache_clear()
     count: list[int] = []
     original = pipeline.derive_model
 
@@ -44,9 +45,9 @@ def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 
 def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     count = derives(monkeypatch)
-    m = workflow.load(model)
+    m = loop.load(model)
     assert ([e.id for e in m.model.effects], m.notes, count) == (["lag"], (), [])
-    assert m.model.digest == extend.model_of(m.instrument).digest
+    assert m.model.digest == derive.model_of(m.instrument).digest
     assert count == [1], "without the folder it is derived"
 
 
@@ -70,13 +71,13 @@ def test_what_differs_is_not_executed(
     with (model / "generated" / name).open("a") as stream:
         stream.write(EVIL.format(mark=str(mark)))
     count = derives(monkeypatch)
-    m = workflow.load(model)
+    m = loop.load(model)
     assert not mark.exists()
     assert count == [1]
     assert [e.id for e in m.model.effects] == ["lag"]
     assert len(m.notes) == 1
     assert name in m.notes[0]
-    assert workflow.load(workflow.remove(m, "lag").directory.path).notes == ()
+    assert loop.load(loop.remove(m, "lag").directory.path).notes == ()
 
 
 def test_a_stranger_who_brings_everything_is_derived_anew(
@@ -86,21 +87,21 @@ def test_a_stranger_who_brings_everything_is_derived_anew(
     place = model / "generated" / "chain.py"
     place.write_text(place.read_text() + EVIL.format(mark=str(tmp_path / "mark")))
     for file in list((tmp_path / "cache" / "derived").iterdir()):
-        file.write_text(verified.digest(verified.read(model / "generated") or {}) + "\n")
+        file.write_text(derived_cache.digest(derived_cache.read(model / "generated") or {}) + "\n")
         file.chmod(0o666)  # as if others could write to the list
     assert derives(monkeypatch) == []
-    workflow.load(model)
+    loop.load(model)
     assert not (tmp_path / "mark").exists()
 
 
 def test_links_are_not_followed(model: Path, tmp_path: Path) -> None:
     (model / "generated" / "chain.py").rename(tmp_path / "chain.py")
     (model / "generated" / "chain.py").symlink_to(tmp_path / "chain.py")
-    assert verified.read(model / "generated") is None
-    assert "no source files" in workflow.load(model).notes[0]
+    assert derived_cache.read(model / "generated") is None
+    assert "no source files" in loop.load(model).notes[0]
     (model / "generated").rename(tmp_path / "elsewhere")
     (model / "generated").symlink_to(tmp_path / "elsewhere")
-    assert verified.read(model / "generated") is None
+    assert derived_cache.read(model / "generated") is None
 
 
 def test_a_request_depends_on_all_that_is_derived(tmp_path: Path) -> None:
@@ -117,12 +118,12 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path) -> None:
     ]
     (tmp_path / "own").mkdir()
     found = {
-        verified.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists
+        derived_cache.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists
     }
     instrument = parse_instrument('effects_folder = "own"\n' + text, tmp_path / "model.toml")
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "own" / "a.py").write_text(source)
-        found.add(verified.request(instrument))
+        found.add(derived_cache.request(instrument))
     assert len(found) == len(lists) + 2
 
 
@@ -130,7 +131,7 @@ def test_values_are_no_part_of_the_request() -> None:
     text = (ROOT / "ragg_runtime" / "example.toml").read_text("utf-8")
     line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { VALUE unit = "ug/g^2" } }'
     found = {
-        verified.request(
+        derived_cache.request(
             parse_instrument(text.replace("effects = []", f"effects = [{line}]".replace("VALUE", v)))
         )
         for v in ("", "value = 3,", "value = [1, 2, 3, 4],")
@@ -139,7 +140,7 @@ def test_values_are_no_part_of_the_request() -> None:
 
 
 def test_a_list_that_cannot_be_written_only_costs_time(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verified, "_list", lambda: Path("/proc/nowhere/derived"))
+    monkeypatch.setattr(derived_cache, "_list", lambda: Path("/proc/nowhere/derived"))
     count = derives(monkeypatch)
-    assert [e.id for e in workflow.load(model).model.effects] == ["lag"]
+    assert [e.id for e in loop.load(model).model.effects] == ["lag"]
     assert count == [1]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ragg_runtime.errors import UserError, did_you_mean
+from ragg_runtime.base.errors import UserError, did_you_mean
 
 Values = Mapping[str, NDArray[np.float64]]
 """Parameters of one effect: (4,) per accelerometer, or () shared, SI."""

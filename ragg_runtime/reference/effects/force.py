@@ -8,9 +8,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.errors import UserError
-from ragg_runtime.masses import contract
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
+from ragg_runtime.reference.gravity import contract
 
 Array = NDArray[np.float64]
 

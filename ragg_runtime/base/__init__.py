@@ -1,0 +1,3 @@
+"""What every room stands on: errors, files written whole, locks, progress, threads, memory. Imports nothing of
+ours.
+"""

@@ -1,0 +1,87 @@
+"""The main job, from a flight to a better model: compare, diagnose, add, and watch the error fall.
+
+The flight is made by the numerical reference, which shares no equations with the derived models, with an
+effect hidden in it (``make_flight``). ``ragg demo`` runs it.
+"""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli import terminal
+from ragg_runtime.flight import write_flight
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.report import add_html, diagnose_html
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
+
+
+def make_flight(path: Path) -> None:
+    """Write the flight: twelve minutes with a temperature-dependent scale factor in A3."""
+    sheet = parse_instrument(resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8"))
+    write_flight(simulated(sheet, [HIDDEN], seed=2026, duration=720.0, rate=16.0), path)
+
+
+def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -> Path:
+    """Run the loop in ``output``, which must not exist; returns the report.
+
+    ``flight`` is a flight of :func:`make_flight`; without one it is made.
+    """
+    if output.exists():
+        raise UserError("the folder exists already", where=output, remedy="choose another with --output")
+    output.mkdir(parents=True)
+    if flight is None:
+        flight = output / "flight.parquet"
+        make_flight(flight)
+
+    def say(text: str) -> None:
+        print(f"\n\033[1m$ {text}\033[0m", flush=True)
+
+    model = output / "model"
+    say(f"ragg new {model}")
+    m = loop.new(model)
+    flights = loop.read_flights(m, [flight])
+
+    say(f"ragg compare {model} {flight.name}")
+    before = loop.compare(m, flights)
+    print(terminal.compared(before, flights))
+
+    say(f"ragg diagnose {model} {flight.name}")
+    diagnosis = loop.diagnose(m, flights)
+    print(terminal.diagnosed(diagnosis, model))
+    origin = loop.sources(m, flights)
+    page = diagnose_html(diagnosis, title="Demonstration: diagnosis", command=command, sources=origin)
+    (output / "diagnosis.html").write_text(page, "utf-8")
+    if diagnosis.verdict != "missing-effect":
+        raise UserError("the demonstration did not find the hidden effect", found=diagnosis.verdict)
+
+    for effect in diagnosis.found:
+        say(f"ragg add {model} {effect} {flight.name}")
+        result = loop.add(m, effect, flights)
+        print(terminal.added(result))
+        m = result.loaded
+    assert result.before is not None
+    assert result.after is not None
+
+    say(f"ragg history {model}")
+    steps = [s.as_json() for s in m.directory.history]
+    print(terminal.history(steps))
+    page = add_html(
+        steps,
+        result.before,
+        result.after,
+        diagnosis,
+        title="Demonstration: the effect added",
+        command=command,
+        sources=loop.sources(m, flights),
+    )
+    report = output / "report.html"
+    report.write_text(page, "utf-8")
+    fell = f"{result.before.calibrated.rms_Eo:.3g} Eo to {result.after.calibrated.rms_Eo:.3g} Eo"
+    print(f"\nThe error fell from {fell}; the noise is {result.after.noise_floor:.3g} Eo.")
+    print(f"Reports: {output / 'diagnosis.html'}  {report}")
+    return report

@@ -1,0 +1,193 @@
+"""Results in words, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.parameters import ParameterValue
+from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit.score import Error
+from ragg_runtime.flight import Flight
+from ragg_runtime.model_dir.provenance import provenance
+from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.loop import Added, Loaded
+
+
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
+    has changed.
+    """
+    made = provenance(
+        command,
+        m.directory,
+        flights,
+        m.model.digest,
+        files=files,
+        before=None if before is None else before.directory,
+    )
+    return {"notes": notes(m, flights), "provenance": made}
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+
+
+def _error(e: Error) -> str:
+    values = (
+        (e.rms_Eo, 12, 5),
+        (e.inline_Eo, 10, 4),
+        (e.cross_Eo, 10, 4),
+        (e.inline_Eo_per_rtHz, 12, 4),
+        (e.cross_Eo_per_rtHz, 12, 4),
+    )
+    return " ".join(f"{x:{w}.{d}g}" if np.isfinite(x) else f"{'-':>{w}}" for x, w, d in values)
+
+
+def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
+    """Why some demodulated channels have no value, if any lack one."""
+    if all(np.isfinite((e.inline_Eo, e.cross_Eo)).all() for e in errors) or not flights:
+        return []
+    longest = max(len(low_pass(x.rate)) / x.rate for x in flights)
+    return [
+        f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
+        "there is no such stretch"
+    ]
+
+
+_HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
+
+
+def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+    """Errors, the first before anything was done, above the noise floor; why some have no value."""
+    return [
+        _HEAD,
+        *(f"{label:12} {_error(e)}" for label, e in rows),
+        f"{'noise floor':12} {noise:12.5g}",
+        *_missing([e for _, e in rows[1:]], flights),
+    ]
+
+
+def compared(c: Comparison, flights: Sequence[Flight]) -> str:
+    """The result of ``compare``."""
+    f = c.fitted
+    lines = [
+        f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
+        f"{', '.join(e.id for e in f.model.effects) or 'none'}",
+        *errors_table(
+            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            c.noise_floor,
+            flights,
+        ),
+        "",
+        notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
+    ]
+    where: Any = c.as_json()["where"]
+    if where["motion"]:
+        lines.append("\nwhere it fails (harmonic x motion term, share of the residual's power):")
+        lines += [
+            f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma"
+            for t in where["motion"]
+        ]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def _ranked(r: Ranked) -> str:
+    p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
+    errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
+    return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
+
+
+def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]) -> list[str]:
+    lines = [f"  {notebook.parameter(q.as_json())}" for q in parameters]
+    if combinations:
+        lines.append("  of which the record sees only:")
+        lines += [f"  {notebook.parameter(q.as_json())}" for q in combinations]
+    return lines
+
+
+def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> str:
+    """The result of ``diagnose``."""
+    lines = [
+        notebook.verdict(d.verdict, d.found),
+        f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
+        "",
+        f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
+    ]
+    lines += [_ranked(r) for r in d.ranking[:8]]
+    for r in d.ranking:
+        if r.effect in d.found:
+            lines.append("")
+            lines += _parameters(r.parameters, r.combinations)
+            if r.indistinguishable_from:
+                lines.append(f"  this record cannot tell it from: {', '.join(r.indistinguishable_from)}")
+    if d.verdict == "unexplained":
+        terms: Any = d.as_json()["unexplained"]
+        lines.append("\n  what is left (harmonic x motion term):")
+        for t in terms["terms"]:
+            lines.append(
+                f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
+                f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
+            )
+        if d.expression():
+            lines += [
+                "\n  to keep it as an effect of your own, put this into `effects` of model.toml:",
+                f"  {d.expression()}",
+            ]
+        if d.needs():
+            lines.append(f"  and this into the flight: {'; '.join(d.needs())}")
+    if d.next_motion:
+        lines.append("\n  next motion:")
+        lines += [f"  {p.in_words()}" for p in d.next_motion]
+    if d.not_testable:
+        lines.append("\n  not testable on this record:")
+        lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
+    if d.found and d.verdict == "missing-effect":
+        lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def added(a: Added, flights: Sequence[Flight] = ()) -> str:
+    """The result of ``add``."""
+    lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
+    if a.before is not None and a.after is not None:
+        rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
+        lines += [
+            *errors_table(rows, a.after.noise_floor, flights),
+            "",
+            notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
+        ]
+        lines += _parameters(a.parameters, a.combinations)
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def history(steps: Sequence[Mapping[str, Any]]) -> str:
+    """The steps of a model directory."""
+    lines = [f"{'when':26} {'step':8} {'effect':28} {'before Eo':>10} {'after Eo':>10}"]
+    for s in steps:
+        values = []
+        for key in ("before", "after"):
+            e = s[key]
+            calibrated = e.get("calibrated", e) if e else None
+            values.append(f"{calibrated['rms_Eo']:10.4g}" if calibrated else f"{'-':>10}")
+        lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
+    return "\n".join(lines)

@@ -1,0 +1,229 @@
+"""Which physical effect is missing: the method, its verdict, and what the record cannot tell.
+
+1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
+2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
+3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
+   nonlinear again; search the remainder for anything else. Several effects must do as well as
+   any one generic term.
+4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
+   down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis import next_motion
+from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.diagnosis.step_scan import _with_steps
+from ragg_runtime.evidence import selection
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.random_effects import Variance, pooled
+from ragg_runtime.evidence.selection import Choice, Field
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import fitted as fitted_
+from ragg_runtime.fit import prepared
+from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.output_values import quantisation, saturation
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.lack_of_fit import remainder as remainder_
+from ragg_runtime.lack_of_fit.remainder import Remainder
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+Extend = Callable[[Model, Sequence[str]], Model]
+"""Derives a model with further effects (given by the caller: this module cannot derive)."""
+
+
+@one_thread
+def diagnose(
+    model: Model,
+    instrument: Instrument,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
+) -> Diagnosis:
+    """Find which of the model's candidate effects the flights need.
+
+    Parameters
+    ----------
+    flights
+        Flights of one instrument, fitted together.
+    extend
+        Derives the model with the chosen effects in it, for the final, nonlinear check. Without it the
+        check is linear.
+    limits
+        Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
+    """
+    observations = [observe(x, instrument) for x in flights]
+    f = fit(model, instrument, observations)
+    return diagnose_fitted(f, flights, extend, limits)
+
+
+@one_thread
+def diagnose_fitted(
+    f: Fitted,
+    flights: Sequence[Flight],
+    extend: Extend | None = None,
+    limits: Mapping[str, float] = next_motion.LIMITS,
+) -> Diagnosis:
+    """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
+    output = _output_effects(f, flights)
+    field, f, instants = _with_steps(f)
+    choice = selection.choose(field)
+    chosen = list(choice.chosen)
+    given = [n for e in chosen for n, _ in field.candidates[e]]
+    ranking, before = _ranking(f, field, choice, instants, output)
+    final = _confirmed(f, chosen, extend)
+    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
+    if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
+        rem = simpler
+    if rem.significant:
+        random = {}
+    count = len(field.candidates) + len(random)
+    random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
+    target = f if final is None else final
+    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
+    (after,) = target.score([v])
+    noise = fitted_.noise_floor(f)
+    if rem.significant or after.whole.rms_Eo > LOUD * noise:
+        verdict, found = "unexplained", []
+    else:
+        found = [*chosen, *(e for _, e in random_found[:1]), *output]
+        verdict = "missing-effect" if found else "adequate"
+
+    explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    whitened = sum(s.square for s in rem.searches)
+    return Diagnosis(
+        verdict,
+        f,
+        tuple(sorted([*ranking, *_ranked_random(f, random, before)], key=_place(choice))),
+        tuple(found),
+        tuple(_not_testable(f, field)),
+        rem if rem.significant else _without_terms(rem),
+        explained / whitened if whitened else 0.0,
+        before,
+        after,
+        noise,
+        tuple(_sizes(f, field)),
+        target,
+        v,
+        tuple(next_motion.proposals(f, field, next_motion.pairs_of(selection.rivals(field, choice)), limits)),
+    )
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+
+
+def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
+    """What the model alone leaves, if there one generic term explains more than all that is chosen.
+
+    Asked of several effects and of one with many coefficients. Those that are really there could lose to one term only
+    if it were nearly the sum of their signatures and fitted the noise better besides.
+    """
+    blocks = [choice.blocks[e] for e in choice.chosen]
+    if not blocks or len(f.flown) > 1:
+        return None
+    picked, rank = field.joint(blocks)
+    if len(blocks) < 2 and rank <= FEW:
+        return None
+    joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
+    rem = remainder_.remainder(f)
+    best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
+    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else omnibus.INDISTINGUISHABLE
+    return rem if best > max(picked, joint - freedom) + margin else None
+
+
+FEW = 4
+"""Coefficients up to which one effect need not fear that a generic term stands in its place."""
+
+SIMPLER_THAN_ONE = 16.0
+"""Chi-square by which one generic term must be better than one effect to take its place (4 sigma): of single effects there
+are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
+
+
+def _without_terms(rem: Remainder) -> Remainder:
+    return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
+
+
+def _confirmed(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
+    steps = {e.id for e in f.model.candidates if e.kind == "step"}
+    if not chosen or extend is None or (steps & set(chosen)):
+        return None
+    extended = extend(f.model, chosen)
+    start = _linear(f, chosen, extended)
+    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+
+
+def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+    """Parameter vector of the extended model as the linear fit has it, SI."""
+    own = [
+        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect in chosen
+    ]
+    fitted, _ = f.coefficients([n for n, _ in own])
+    columns = (*f.calibration.columns, *(c for _, c in own))
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
+    p = vector(extended, f.instrument)
+    for c, place in design.base_columns(extended, f.instrument):
+        p[place] = value[c.label]
+    return p
+
+
+def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
+    """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
+    places = _random_columns(f)
+
+    def variances(piece: Piece, y: Array) -> dict[str, Variance]:
+        return {e: Variance.of(piece, place, y) for e, place in places.items()}
+
+    searches, counted = [], []
+    for x, triangles in zip(f.flown, f.triangles, strict=True):
+        found, more = omnibus.search(x, prepared.projector(triangles, f.n_base, given), variances)
+        searches.append(found)
+        counted += more
+    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]).test() for e in places}
+
+
+def _random_columns(f: Fitted) -> dict[str, int]:
+    """The place of every random effect's column."""
+    if any(o.kind == "channels" for o in f.observations):
+        return {}  # neighbouring samples of a demodulated channel are not independent
+    columns = design.candidate_columns(f.model, f.instrument)
+    found = {}
+    for e in f.model.candidates:
+        own = [n for n, c in enumerate(columns) if c.effect == e.id]
+        if e.kind == "random" and own:
+            found[e.id] = f.n_base + own[0]
+    return found
+
+
+def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
+    """Saturation and quantisation of a recorded output, recognised in its values."""
+    known = {e.id for e in f.model.candidates if e.kind == "output"}
+    found = []
+    for x, w in zip(flights, f.flown, strict=True):
+        for name, series in x.outputs.items():
+            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+                continue
+            valid = np.isfinite(series) & x.valid
+            if "saturation" in known and saturation(series, valid):
+                found.append("saturation")
+            noise = w.noise.models[0].rms
+            if "quantisation" in known and quantisation(series, valid, noise):
+                found.append("quantisation")
+    return sorted(set(found))

@@ -1,0 +1,190 @@
+"""Which motion to fly next: what would tell apart the effects that a record cannot.
+
+For every pair of rivals a sinusoidal motion about one axis is sought, at a frequency relative to the spin and
+with an amplitude within limits, that separates them best. Separation is what of the one effect's fitted
+signal neither the model nor the rival can imitate, in standard deviations, once such a motion has been
+recorded beside the present flights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.threads import mapped
+from ragg_runtime.evidence.selection import Field
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.linearise import linearised
+from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.model.record import Record
+from ragg_runtime.signals.fir import filtered
+
+Array = NDArray[np.float64]
+Motion = tuple[str, float, float]
+"""Axis, frequency, Hz, and amplitude, SI."""
+
+RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
+"""Frequencies that are tried, over the spin frequency."""
+
+AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
+
+LIMITS: Mapping[str, float] = {"a": 0.49, "omega": 2.4e-3}
+"""Largest amplitudes, m/s^2 and rad/s: 50 mg and 500 deg/h, what a stabilised platform lets through."""
+
+SIMULATED = 96.0
+"""Length of the motion that is computed, s."""
+
+DURATION = 600.0
+"""Length of the motion that is proposed, s; information grows with it."""
+
+RIVALS = 3
+"""Most rivals of an effect for which a motion is sought."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A motion that separates ``effect`` from ``rival``.
+
+    ``amplitude`` in SI, m/s^2 or rad/s; ``ratio`` is its frequency over the spin's; ``now`` and ``then`` are
+    the separations, in standard deviations, of the record as it is and with ``duration`` s of the motion.
+    """
+
+    effect: str
+    rival: str
+    axis: str
+    ratio: float
+    frequency: float
+    amplitude: float
+    duration: float
+    now: float
+    then: float
+
+    @property
+    def separates(self) -> bool:
+        """Whether the motion would tell the two apart, at three standard deviations."""
+        return self.then > 3.0
+
+    def in_words(self) -> str:
+        """One sentence."""
+        if not self.separates:
+            return (
+                f"no motion within the limits tells {self.effect} from {self.rival}: they act alike"
+                f" (at best {self.then:.1g} sigma)"
+            )
+        if self.axis.startswith("a_"):
+            size = f"{self.amplitude / 9.80665e-3:.3g} mg"
+        else:
+            size = f"{np.rad2deg(self.amplitude) * 3600:.3g} deg/h"
+        return (
+            f"to tell {self.effect} from {self.rival}: {self.duration:.0f} s of {self.axis} = {size} at"
+            f" {self.frequency:.4g} Hz ({self.ratio:g} x spin): {self.now:.2g} -> {self.then:.3g} sigma"
+        )
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "rival": self.rival,
+            "axis": self.axis,
+            "frequency_over_spin": self.ratio,
+            "frequency_Hz": self.frequency,
+            "amplitude": self.amplitude,
+            "unit": "m/s^2" if self.axis.startswith("a_") else "rad/s",
+            "duration_s": self.duration,
+            "separation_now": self.now,
+            "separation_then": self.then,
+            "separates": self.separates,
+        }
+
+
+def proposals(
+    f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
+) -> list[Proposal]:
+    """The best motion for every pair (effect, rival), the separation that it promises beside today's."""
+    known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
+    if not known:
+        return []
+    signals = {e: _signal(f, field, e) for e, _ in known}
+    needed = {n for pair in known for e in pair for n, _ in field.candidates[e]}
+    places = [*range(f.n_base), *(f.n_base + n for n in sorted(needed))]
+
+    def separations(motion: Motion | None) -> list[float]:
+        rows = np.vstack([f.whole, _rows(f, motion, places)])
+        return [_separation(rows, f.n_base, field, signals[e], r) for e, r in known]
+
+    spin, rate = f.instrument.spin_frequency, f.flown[0].observation.record.rate
+    motions = [
+        (axis, ratio, limits["a" if axis.startswith("a_") else "omega"])
+        for axis in AXES
+        for ratio in RATIOS
+        if ratio * spin <= 0.2 * rate
+    ]
+    # a longer record of what there is already gains something as well: only more than that is a reason
+    still, *flown = mapped(separations, [None, *((axis, k * spin, size) for axis, k, size in motions)])
+    found = []
+    for n, (e, r) in enumerate(known):
+        best = max(range(len(motions)), key=lambda m: flown[m][n], default=None)
+        if best is None or flown[best][n] <= 1.05 * still[n]:
+            continue
+        axis, ratio, size = motions[best]
+        now = _separation(f.whole, f.n_base, field, signals[e], r)
+        found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, flown[best][n]))
+    return found
+
+
+def _signal(f: Fitted, field: Field, effect: str) -> Array:
+    """Coefficients (size,) of an effect alone, as the record has it."""
+    extra = field.testable(effect)
+    c, _ = f.coefficients(extra)
+    v = f.vector(c, extra)
+    v[: f.n_base] = 0.0
+    return v
+
+
+def _separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
+    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1), priors in."""
+    places = [n_base + n for n, _ in field.candidates[rival]]
+    prior = np.zeros((len(places), n_base + len(places) + 1))
+    prior[:, n_base:-1] = np.eye(len(places))
+    X = np.column_stack([rows[:, :n_base], rows[:, places], rows[:, :-1] @ signal])
+    T = np.asarray(np.linalg.qr(np.vstack([X, prior]), mode="r"))
+    return float(abs(T[-1, -1]))
+
+
+def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
+    """Triangle of the whitened columns of a motion about the flight's mean, weighted for ``DURATION``.
+
+    (len(places), size + 1): only the columns at ``places`` are there, the others are zero.
+    """
+    flown = f.flown[0]
+    o = flown.observation
+    n = int(SIMULATED * o.record.rate)
+    time = np.arange(n) / o.record.rate
+    first = o.record.part(slice(0, min(len(o.record.time), n)))
+    channels = {
+        name: np.full(n, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
+        for name, x in first.channels.items()
+        if name != "spin_angle"
+    }
+    if motion is not None:
+        axis, frequency, amplitude = motion
+        phase = 2 * np.pi * frequency * time
+        channels[axis] = channels[axis] + amplitude * np.sin(phase)
+        if axis.startswith("omega_"):
+            rate = f"omegadot_{axis[-1]}"
+            channels[rate] = channels[rate] + 2 * np.pi * frequency * amplitude * np.cos(phase)
+    r = Record(time, channels, o.record.rate, np.ones(n, dtype=np.bool_), f.instrument.spin_frequency)
+    made = Observation(o.kind, r, (np.zeros(n),) * len(o.series), "motion")
+    columns = linearised(flown.at, made)
+    white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
+    T = np.zeros((len(places), len(columns)))
+    T[:, places] = triangle(np.concatenate(white, axis=1))
+    return np.asarray(np.sqrt(DURATION / SIMULATED) * T)
+
+
+def pairs_of(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:
+    """(effect, rival) of groups that the record cannot split."""
+    return [(e, r) for e, rivals in groups.items() for r in rivals[:RIVALS]]

@@ -1,0 +1,171 @@
+"""The effects in order of their evidence, and those on which the record is silent."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.evidence import likelihood_ratio, selection
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.selection import Choice, Field
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.score import Error, finite
+from ragg_runtime.model.model import Effect
+from ragg_runtime.model.record import missing_channels
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """One effect and the evidence for it, alone."""
+
+    effect: str
+    log_p: float
+    chi2: float
+    rank: int
+    delta_bic: float
+    before: Error
+    after: Error
+    after_holdout: Error
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+    indistinguishable_from: tuple[str, ...]
+
+    @property
+    def p_value(self) -> float:
+        """p-value, corrected for the effect's own sub-blocks (0 where it underflows: see ``log_p``)."""
+        return float(np.exp(self.log_p))
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "p_value": self.p_value,
+            "log10_p": finite(self.log_p / np.log(10.0)),
+            "chi2": finite(self.chi2),
+            "rank": self.rank,
+            "delta_bic": finite(self.delta_bic),
+            "error_before": self.before.as_json(),
+            "error_after": self.after.as_json(),
+            "error_after_holdout": self.after_holdout.as_json(),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+            "indistinguishable_from": list(self.indistinguishable_from),
+        }
+
+
+@dataclass(frozen=True)
+class NotTestable:
+    """An effect on which this record is silent, and why."""
+
+    effect: str
+    why: str
+
+
+def _ranking(
+    f: Fitted, field: Field, choice: Choice, instants: dict[str, float], output: Sequence[str]
+) -> tuple[list[Ranked], Error]:
+    """Every testable effect with the evidence for it alone, and the error without any."""
+    rivals = selection.rivals(field, choice)
+    tested = [(e, t, field.testable(e)) for e, t in choice.tests.items() if t.rank]
+    fits = [f.coefficients(extra) for _, _, extra in tested]
+    vectors = [f.vector(np.zeros(f.n_base))]
+    for (_, _, extra), (c, _) in zip(tested, fits, strict=True):
+        half, _ = f.coefficients(extra, held_out=True)
+        vectors += [f.vector(c, extra), f.vector(half, extra)]
+    first, *scored = f.score(vectors)
+    before = first.whole
+    ranked = []
+    for n, ((e, t, extra), (c, covariance)) in enumerate(zip(tested, fits, strict=True)):
+        own = dict(field.candidates[e])
+        mine = [own[k] for k in extra]
+        values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
+        parameters = parameter_values(mine, values, spread)
+        if e in instants:
+            parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
+        twins = rivals.get(e, ())
+        for main, others in rivals.items():
+            if e in others:
+                twins = tuple(sorted({main, *others} - {e}))
+        ranked.append(
+            Ranked(
+                e,
+                t.log_p,
+                t.chi2,
+                t.rank,
+                float(t.chi2 - t.rank * np.log(f.calibration.rows)),
+                before,
+                scored[2 * n].whole,
+                scored[2 * n + 1].held_out,
+                tuple(parameters),
+                tuple(visible_combinations(mine, values, spread)),
+                twins,
+            )
+        )
+    for e in output:
+        ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), (), ()))
+    return ranked, before
+
+
+def _ranked_random(f: Fitted, random: dict[str, Test], before: Error) -> list[Ranked]:
+    rows = np.log(f.calibration.rows)
+    return [
+        Ranked(e, t.log_p, t.chi2, t.rank, float(t.chi2 - rows), before, before, before, (), (), ())
+        for e, t in random.items()
+    ]
+
+
+def _place(choice: Choice) -> Callable[[Ranked], tuple[int, float, str]]:
+    """Order of the ranking: chosen effects as they were chosen, then by significance."""
+    order = {e: n for n, e in enumerate(choice.chosen)}
+    return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
+
+
+def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
+    found = []
+    for e in f.model.candidates:
+        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record)})
+        if missing:
+            found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
+        elif e.id in field.candidates and not field.testable(e.id):
+            found.append(NotTestable(e.id, _absorbed(f, field, e)))
+    return found
+
+
+def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
+    """In words: which parameters of the model absorb an effect, or that it is too weak to be seen."""
+    columns = [n for n, _ in field.candidates[e.id]]
+    n = f.n_base
+    whole = np.linalg.norm(field.T[:, [n + k for k in columns]], axis=0)
+    left = np.linalg.norm(field.P[:, columns], axis=0)
+    k = int(np.argmax(whole))
+    strongest = columns[k]
+    if whole[k] < likelihood_ratio.TESTABLE:
+        return "this record hardly excites it: even a hundred times its plausible size leaves no trace"
+    solution = np.linalg.solve(field.T[:n, :n], field.T[:n, n + strongest])
+    names: dict[str, float] = {}
+    for c, v, norm in zip(
+        f.calibration.columns, solution, np.linalg.norm(field.T[:, :n], axis=0), strict=True
+    ):
+        names[c.name] = names.get(c.name, 0.0) + float(np.abs(v * norm))
+    most = sorted(names, key=lambda x: -names[x])[:3]
+    share = float(left[k] / whole[k]) if whole[k] else 0.0
+    return (
+        f"absorbed by {', '.join(most)} of the model: {share:.1e} of its signature survives the calibration"
+    )
+
+
+def _sizes(f: Fitted, field: Field) -> list[tuple[str, str]]:
+    """Size, in display units, at which each testable effect would be seen at three sigma."""
+    rows = []
+    left = np.linalg.norm(field.P, axis=0)
+    for e, columns in field.candidates.items():
+        own = dict(columns)
+        for name in dict.fromkeys(c.name for _, c in columns):
+            best = [(left[n], own[n]) for n in field.testable(e) if own[n].name == name]
+            if best:
+                norm, c = max(best, key=lambda x: float(x[0]))
+                size = 3.0 / norm * c.scale / c.unit_factor
+                rows.append((e, f"{name.split('.', 1)[1]} = {size:.3g} {c.unit}"))
+    return rows

@@ -1,0 +1,107 @@
+"""The result of a diagnosis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.diagnosis.next_motion import Proposal
+from ragg_runtime.diagnosis.ranking import NotTestable, Ranked
+from ragg_runtime.fit.fitted import Fitted, Scored
+from ragg_runtime.fit.score import Error
+from ragg_runtime.lack_of_fit import as_effect
+from ragg_runtime.lack_of_fit.features import channel_unit
+from ragg_runtime.lack_of_fit.omnibus import Found
+from ragg_runtime.lack_of_fit.remainder import Remainder, terms_json
+from ragg_runtime.wording import notebook
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The result of ``diagnose``: the interface's JSON, and what the report draws."""
+
+    verdict: str
+    fitted: Fitted
+    ranking: tuple[Ranked, ...]
+    found: tuple[str, ...]
+    not_testable: tuple[NotTestable, ...]
+    remainder: Remainder
+    remainder_share: float
+    before: Error
+    scored: Scored
+    noise_floor: float
+    sizes: tuple[tuple[str, str], ...]
+    target: Fitted
+    coefficients: Array
+    next_motion: tuple[Proposal, ...]
+
+    @property
+    def after(self) -> Error:
+        """Error with the effects chosen (claimed or not) in the model."""
+        return self.scored.whole
+
+    @property
+    def final(self) -> Fitted | None:
+        """The model with the chosen effects derived into it, if that was done."""
+        return None if self.target is self.fitted else self.target
+
+    @cached_property
+    def residual(self) -> list[Array]:
+        """(N,) V of every flight, calibrated, as the model is."""
+        return self.fitted.residuals(np.zeros(self.fitted.n_base))
+
+    @cached_property
+    def residual_after(self) -> list[Array]:
+        """(N,) V of every flight, with the effects chosen (claimed or not) in the model."""
+        return self.target.residuals_of(self.coefficients)
+
+    def terms(self) -> list[dict[str, object]]:
+        """Generic terms in what remains (see :func:`ragg_runtime.lack_of_fit.remainder.terms_json`)."""
+        return terms_json(self.remainder, self.scored.mean_square)
+
+    def expression(self) -> str | None:
+        """The strongest unexplained term as a line for ``effects`` in model.toml, under a name of one's own."""
+        found = self._suggested
+        return None if found is None else found[1]
+
+    def needs(self) -> list[str]:
+        """Columns, in words, that a flight must have for :meth:`expression`."""
+        found = self._suggested
+        return [] if found is None else as_effect.columns(found[0].term)
+
+    @cached_property
+    def _suggested(self) -> tuple[Found, str] | None:
+        steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
+        for t in sorted(steady, key=lambda t: -abs(t.z)):
+            units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]
+            line = as_effect.line(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
+            if line is not None:
+                return t, line
+        return None
+
+    def _repr_html_(self) -> str:
+        return notebook.diagnosis(self.as_json())
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "verdict": self.verdict,
+            "ranking": [r.as_json() for r in self.ranking],
+            "found": list(self.found),
+            "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
+            "unexplained": {
+                "share": self.remainder_share,
+                "log10_p": float(self.remainder.log_p / np.log(10.0)),
+                "terms": self.terms(),
+                "expression": self.expression(),
+                "needs": self.needs(),
+            },
+            "error": {"before": self.before.as_json(), "after": self.after.as_json()},
+            "noise_floor": {"rms_Eo": self.noise_floor},
+            "next_motion": [p.as_json() for p in self.next_motion],
+            "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
+        }

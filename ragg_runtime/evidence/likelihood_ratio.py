@@ -1,0 +1,103 @@
+"""Evidence for a candidate effect: what its columns explain that the calibrated model cannot.
+
+All tests are made on a triangle of whitened columns: the base columns (with their prior) are projected
+out of the candidates and of the residual alike, so that an effect is credited only with what no
+parameter of the model could have absorbed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.significance import log_sf
+
+Array = NDArray[np.float64]
+
+TESTABLE = 0.3
+"""Whitened norm, after projection, of a parameter of one scale (ten times plausible) below which it is not
+testable: at 0.3 a 3-sigma effect would be a hundred times the plausible size."""
+
+COLLINEAR = 1e-6
+"""Relative size below which what is left of a column after projection is rounding and truncation."""
+
+
+@dataclass(frozen=True)
+class Test:
+    """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom.
+
+    ``log_p`` is the natural logarithm of the p-value, corrected for the number of sub-blocks tried;
+    ``which`` are the columns (positions) of the best sub-block.
+    """
+
+    chi2: float
+    rank: int
+    log_p: float
+    which: tuple[int, ...]
+
+
+def with_prior(R: Array, n_base: int, to_nominal: Array) -> Array:
+    """Add the prior of the base parameters to a triangle [base | rest], and make it triangular again."""
+    prior = np.zeros((n_base, R.shape[1]))
+    prior[:, :n_base] = np.eye(n_base)
+    prior[:, -1] = to_nominal
+    T = np.linalg.qr(np.vstack([R, prior]), mode="r")
+    return np.asarray(T)
+
+
+def project(T: Array, onto: int) -> Array:
+    """What is left of the later columns once the first ``onto`` are projected out."""
+    return T[onto:, onto:]
+
+
+def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
+    """(chi-square, rank) of the last column of P explained by ``columns``.
+
+    A direction counts only if its norm exceeds ``floor`` (per column): others are not testable.
+    """
+    X = P[:, list(columns)]
+    usable = np.linalg.norm(X, axis=0) > floor[list(columns)]
+    X = X[:, usable]
+    if not X.shape[1]:
+        return 0.0, 0
+    U, s, _ = np.linalg.svd(X, full_matrices=False)
+    keep = s > max(np.max(floor[list(columns)]) * 0.3, s[0] * 1e-7)
+    return float(np.sum((U[:, keep].T @ P[:, -1]) ** 2)), int(np.sum(keep))
+
+
+def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
+    """Ways in which an effect may be present, each with the number of its kind.
+
+    All its parameters; those of one accelerometer only; one parameter in all accelerometers; one single
+    value. An effect of one accelerometer, tested as a block of four, would waste power.
+    """
+    every = tuple(n for n, _ in columns)
+    families: list[list[tuple[int, ...]]] = [[every]]
+    by_accelerometer: dict[int | None, list[int]] = {}
+    by_name: dict[str, list[int]] = {}
+    for n, c in columns:
+        by_accelerometer.setdefault(c.accelerometer, []).append(n)
+        by_name.setdefault(c.name, []).append(n)
+    for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in every]):
+        family = [tuple(g) for g in groups]
+        if len(family) > 1 and not any(set(family) == set(f) for f in families):
+            families.append(family)
+    return [(block, len(family) * len(families)) for family in families for block in family]
+
+
+def test(P: Array, columns: Sequence[tuple[int, Column]], floor: Array, penalty: float = 0.0) -> Test:
+    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``)."""
+    best = Test(0.0, 0, 0.0, ())
+    for block, count in sub_blocks(columns):
+        chi2, rank = explained(P, block, floor)
+        log_p = min(0.0, log_sf(chi2, rank) + np.log(count) + penalty)
+        if rank and log_p < best.log_p:
+            best = Test(chi2, rank, log_p, block)
+    if not best.which:
+        chi2, rank = explained(P, [n for n, _ in columns], floor)
+        best = Test(chi2, rank, min(0.0, log_sf(chi2, rank) + penalty), tuple(n for n, _ in columns))
+    return best

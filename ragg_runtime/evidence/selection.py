@@ -1,0 +1,200 @@
+"""Which effects: forward selection with swaps, on triangles alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.evidence import likelihood_ratio
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.fit import columns
+from ragg_runtime.fit.columns import Column, grouped
+from ragg_runtime.fit.fitted import Fitted
+
+Array = NDArray[np.float64]
+
+FAMILY = 0.03
+"""Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
+
+FURTHER = 0.005
+"""The same for each effect beside the first: a chance companion would spoil what is found."""
+
+MOST = 4
+"""Most effects that are claimed at once."""
+
+INDISTINGUISHABLE = 9.0
+"""Chi-square by which a rival may be worse and still not be told apart (3 sigma)."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """A triangle [base | candidates | residual] with the prior in, and the effects in it.
+
+    Attributes
+    ----------
+    T
+        Triangle.
+    n_base
+        Number of base columns.
+    candidates
+        Effect id -> columns (positions after the base).
+    penalty
+        Effect id -> logarithm of the number of variants (instants of a step) it was chosen from.
+    norms
+        Whitened norm of every candidate column before projection.
+    """
+
+    T: Array
+    n_base: int
+    candidates: Mapping[str, tuple[tuple[int, Column], ...]]
+    rows: int
+    penalty: Mapping[str, float] = field(default_factory=dict)
+    norms: Array = field(init=False)
+    P: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
+        object.__setattr__(self, "P", likelihood_ratio.project(self.T, self.n_base))
+
+    @property
+    def floor(self) -> Array:
+        return np.maximum(likelihood_ratio.TESTABLE, likelihood_ratio.COLLINEAR * self.norms)
+
+    def testable(self, effect: str) -> list[int]:
+        """Columns of an effect that keep enough after projection to be tested."""
+        left = np.linalg.norm(self.P, axis=0)
+        return [n for n, _ in self.candidates[effect] if left[n] > self.floor[n]]
+
+    def onto(self, columns: Sequence[int]) -> tuple[Array, Array]:
+        """P with ``columns`` projected out of all others, and the floor that then holds."""
+        X = self.P[:, list(columns)]
+        keep = np.linalg.norm(X, axis=0) > self.floor[list(columns)]
+        X = X[:, keep]
+        if not X.shape[1]:
+            return self.P, self.floor
+        U, s, _ = np.linalg.svd(X, full_matrices=False)
+        U = U[:, s > s[0] * 1e-7]
+        left = self.P - U @ (U.T @ self.P)
+        # what a column shares with those already in may be all of it: then it cannot be tested either
+        floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
+        return left, floor
+
+    def tests(self, given: Sequence[str] = ()) -> dict[str, Test]:
+        """The test of every effect that is not in ``given``, with those that are projected out."""
+        P, floor = self.P, self.floor
+        if given:
+            P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
+        return {
+            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0))
+            for e, columns in self.candidates.items()
+            if e not in given
+        }
+
+    def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
+        """(chi-square, rank) of the union of column blocks."""
+        return likelihood_ratio.explained(self.P, [n for b in blocks for n in b], self.floor)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Effects that together account for what the model lacks.
+
+    ``tests`` are the tests of single effects with nothing else in; ``conditional`` those of the rest once
+    the chosen ones are in; ``blocks`` the sub-block of each chosen effect.
+    """
+
+    chosen: tuple[str, ...]
+    blocks: Mapping[str, tuple[int, ...]]
+    tests: Mapping[str, Test]
+    conditional: Mapping[str, Test]
+    chi2: float
+
+
+def significant(t: Test, count: int, family: float = FAMILY) -> bool:
+    """Whether a test of one of ``count`` effects is significant over the family."""
+    return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
+
+
+def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
+    """Forward selection; after each addition every chosen effect may be swapped for a better one."""
+    first = f.tests()
+    count = sum(t.rank > 0 for t in first.values())
+    chosen: list[str] = []
+    blocks: dict[str, tuple[int, ...]] = {}
+    remaining = first
+    seen: set[frozenset[str]] = set()
+    while len(chosen) < MOST and frozenset(chosen) not in seen:
+        seen.add(frozenset(chosen))
+        ranked = sorted((t.log_p, e) for e, t in remaining.items() if e not in exclude)
+        if not ranked or not significant(remaining[ranked[0][1]], count, FURTHER if chosen else FAMILY):
+            break
+        best = ranked[0][1]
+        chosen.append(best)
+        blocks[best] = remaining[best].which
+        if len(chosen) > 1:
+            chosen, blocks = _swap(f, chosen, blocks, exclude)
+        chosen, blocks = _drop(f, chosen, blocks, count)
+        remaining = f.tests(chosen)
+    chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
+    return Choice(tuple(chosen), blocks, first, remaining, chi2)
+
+
+def _swap(
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], exclude: Sequence[str]
+) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+    for old in tuple(chosen):
+        others = [e for e in chosen if e != old]
+        conditional = f.tests(others)
+        ranked = sorted((t.log_p, e) for e, t in conditional.items() if e not in exclude)
+        if ranked and ranked[0][1] != old and ranked[0][0] < conditional[old].log_p - 2.0:
+            best = ranked[0][1]
+            chosen = [*others, best]
+            blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
+    return chosen, blocks
+
+
+def _drop(
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
+) -> tuple[list[str], dict[str, tuple[int, ...]]]:
+    for e in tuple(chosen):
+        others = [o for o in chosen if o != e]
+        if others and not significant(f.tests(others)[e], count):
+            chosen, blocks = others, {o: blocks[o] for o in others}
+    return chosen, blocks
+
+
+def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
+    """For every chosen effect those that would do as well in its place."""
+    result = {}
+    for e in choice.chosen:
+        others = [o for o in choice.chosen if o != e]
+        conditional = f.tests(others)
+        mine = conditional[e]
+        result[e] = tuple(
+            sorted(
+                o
+                for o, t in conditional.items()
+                if o != e and t.rank and mine.chi2 - t.chi2 < INDISTINGUISHABLE and t.log_p < mine.log_p + 7.0
+            )
+        )
+    return result
+
+
+def field_of(f: Fitted, available: Sequence[str]) -> Field:
+    """The candidates among ``available`` effects, on the triangle of everything."""
+    candidates = grouped(columns.candidate_columns(f.model, f.instrument))
+    kept = {e: tuple(c) for e, c in candidates.items() if e in available}
+    return Field(f.whole, f.n_base, kept, f.calibration.rows)
+
+
+def testable_effects(f: Fitted) -> list[str]:
+    """Deterministic candidates of which every flight has the channels."""
+    have = [set(o.record.wide) for o in f.observations]
+    return [
+        e.id
+        for e in f.model.candidates
+        if e.kind == "deterministic" and all(c in h for c in e.channels for h in have)
+    ]

@@ -1,0 +1,107 @@
+"""Effects that no fixed column can express: steps at an unknown instant, random ones, and what the
+recorder does to the output channel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.evidence import likelihood_ratio
+from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.square_root import join, triangle
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Step:
+    """The first sample after the most likely instant of a step, and its test, chosen from so many variants."""
+
+    sample: int
+    test: Test
+    variants: int
+
+
+def best_step(
+    triangles: Sequence[Array],
+    edges: Sequence[int],
+    n_base: int,
+    given: Sequence[int],
+    columns: Sequence[tuple[int, Column]],
+    prior: Array,
+) -> Step:
+    """The edge between two stretches of time, of which each has a triangle, where a step explains most.
+
+    ``columns`` are those of the effect acting all the time (positions after the base); ``given`` those of
+    effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
+    """
+    fixed = [*range(n_base), *(n_base + n for n in given)]
+    moving = [n_base + n for n, _ in columns]
+    k, m = len(fixed), len(moving)
+    picked = [t[:, [*fixed, *moving, t.shape[1] - 1]] for t in triangles]
+    # The stretches after an edge count with the step's columns, those before it without.
+    after: list[Array] = [np.zeros((0, k + m + 1))]
+    for t in reversed(picked[1:]):
+        after.append(join([after[-1], t]))
+    before = np.zeros((0, k + m + 1))
+    best: Step | None = None
+    own = [(n, c) for n, (_, c) in enumerate(columns)]
+    floor = np.full(m + 1, likelihood_ratio.TESTABLE)
+    for n, edge in enumerate(edges):
+        off = picked[n].copy()
+        off[:, k : k + m] = 0.0
+        before = join([before, off])
+        T = likelihood_ratio.with_prior(np.vstack([before, after[len(edges) - n]]), n_base, prior)
+        test = likelihood_ratio.test(likelihood_ratio.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
+        if best is None or test.log_p < best.test.log_p:
+            best = Step(edge, test, 2 * BLOCKS)
+    assert best is not None
+    return best
+
+
+FINE = 192
+"""Stretches into which the neighbourhood of a step is divided in each round that looks for its instant."""
+
+
+def refined(
+    flown: Flown,
+    step: Step,
+    n_base: int,
+    given: Sequence[int],
+    columns: Sequence[tuple[int, Column]],
+    prior: Array,
+) -> Step:
+    """Move the instant of a step to the sample where it explains most."""
+    length = len(flown.observation.record.time)
+    reach = max(1, length // BLOCKS)
+    places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
+    moved = list(range(n_base + len(given), len(places)))
+    named = [(n - n_base, c) for n, (_, c) in zip(moved, columns, strict=True)]
+    while reach > 1:
+        low, high = max(1, step.sample - reach), min(length - 1, step.sample + reach)
+        edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
+        cuts = np.array([0, *edges, length])
+        triangles: list[Array | None] = [None] * (len(cuts) - 1)
+
+        def cut(piece: Piece, cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
+            X = piece.white[[*places, -1]]
+            which = np.searchsorted(cuts, piece.sample, side="right") - 1
+            return [(int(k), triangle(X[:, which == k])) for k in np.unique(which)]
+
+        for own in flown.each(cut):
+            for k, T in own:
+                before = triangles[k]
+                triangles[k] = T if before is None else join([before, T])
+        empty = np.zeros((len(places) + 1, len(places) + 1))
+        known = [empty if t is None else t for t in triangles]
+        step = best_step(known, [int(e) for e in edges], n_base, range(len(given)), named, prior)
+        reach = int(np.max(np.diff(edges), initial=1))
+    return step

@@ -1,0 +1,146 @@
+"""Linearised fits: the columns of a model and of its candidate effects, whitened, as one triangle.
+
+Everything that calibration and diagnosis ask of a flight is in the triangular factor R of its whitened
+columns: a flight of any length becomes a matrix of a few hundred rows, and flights are joined by
+stacking their triangles. (A QR update, not normal equations: the columns' sizes span fifteen decades.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit.observation import Observation, combined, narrow
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.model.evaluate import unit_factor
+from ragg_runtime.model.model import Effect, Model
+
+Array = NDArray[np.float64]
+
+UNOBSERVABLE = ("k_VI", "vartheta_x")
+"""Parameters that no record can tell: k_VI enters only as k_VI K1, vartheta_x not at the paper's order."""
+
+EFFECT_PRIOR = 10.0
+"""Width of the prior of an effect's parameter, in plausible sizes: what is missing may well surprise."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One scalar parameter as a column of a fit.
+
+    Attributes
+    ----------
+    name
+        As shown: ``K2``, ``cubic-input.K_iii``.
+    accelerometer
+        1 ... 4, or ``None`` if shared.
+    scale
+        Width of the prior, SI: columns are derivatives times it.
+    unit, unit_factor
+        Display unit and its SI value.
+    effect
+        Id of the effect that brings it; ``None`` for the paper's instrument.
+    """
+
+    name: str
+    accelerometer: int | None
+    scale: float
+    unit: str
+    unit_factor: float
+    effect: str | None
+
+    @property
+    def label(self) -> str:
+        return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
+
+
+def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
+    """The calibratable parameters of the model, each with its index in the parameter vector."""
+    known = units(instrument.g0)
+    found: list[tuple[Column, int]] = []
+    start = {}
+    position = 0
+    for name, size in model.chain.PARAMETERS:
+        start[name] = position
+        position += size
+    for q in PARAMETERS:
+        if q.name in UNOBSERVABLE:
+            continue
+        factor = unit_factor(q.display_unit, known)
+        scales = q.plausible_si(instrument.accelerometers[q.name], instrument.g0)
+        for j in range(4):
+            column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
+            found.append((column, start[q.name] + j))
+    for e in model.effects:
+        if e.kind in ("deterministic", "step"):
+            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known)]
+    return found
+
+
+def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
+    """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
+    known = units(instrument.g0)
+    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known)]
+
+
+def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
+    columns = []
+    for q in e.parameters:
+        if not q.fitted:
+            continue
+        factor = unit_factor(q.unit, known)
+        for j in (None,) if q.shared else (1, 2, 3, 4):
+            column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
+            columns.append((column, q.symbol))
+    return columns
+
+
+def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
+    """What an observation sees of voltages: (4, N), or (N,) of one accelerometer -> (m, N)."""
+    if o.kind == "voltages":
+        if accelerometer is None:
+            return v
+        full = np.zeros((4, v.shape[-1]))
+        full[accelerometer - 1] = v
+        return full
+    G = combined(v, accelerometer)
+    return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
+
+
+def null_biases(columns: Sequence[Column]) -> list[int]:
+    """Places of the instrument's K0 among columns."""
+    return [n for n, c in enumerate(columns) if c.name == "K0" and c.effect is None]
+
+
+def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
+    """Coefficients (n,) with those at ``biases`` shifted until the residual of G_out has no mean.
+
+    ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted. Noise that
+    rises towards low frequencies leaves the mean of a record nearly free, and with it the null biases: by convention
+    they take it.
+    """
+    own = sums[list(biases)]
+    shifted = coefficients.copy()
+    if np.any(own):
+        left = sums[-1] - sums[:-1] @ coefficients
+        shifted[list(biases)] += own * left / (own @ own)
+    return shifted
+
+
+def names(columns: Sequence[Column]) -> Mapping[str, int]:
+    """Label -> position."""
+    return {c.label: n for n, c in enumerate(columns)}
+
+
+def grouped(columns: Iterable[Column], offset: int = 0) -> dict[str, list[tuple[int, Column]]]:
+    """Effect id -> its (position, column)s."""
+    groups: dict[str, list[tuple[int, Column]]] = {}
+    for n, c in enumerate(columns):
+        if c.effect is not None:
+            groups.setdefault(c.effect, []).append((n + offset, c))
+    return groups

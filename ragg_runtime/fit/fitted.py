@@ -1,0 +1,240 @@
+"""A model calibrated on flights, with what all tests and scores need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis.comparison import about
+from ragg_runtime.evidence import likelihood_ratio
+from ragg_runtime.fit import calibrate, columns
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
+from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.noise_spectrum import Noise
+
+Array = NDArray[np.float64]
+
+FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
+"""Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+
+@dataclass(frozen=True)
+class Scored:
+    """How large one residual is.
+
+    Attributes
+    ----------
+    whole, held_out
+        The error object over everything, and over the blocks of time that a held-out fit does not see.
+    mean_square
+        Of each flight, V^2.
+    blocks
+        (flights, BLOCKS): rms in each block of time, V; NaN where it has no valid sample.
+    """
+
+    whole: Error
+    held_out: Error
+    mean_square: tuple[float, ...]
+    blocks: Array
+
+
+@dataclass(frozen=True)
+class _Counted:
+    """Of one segment: its tally, and sums in the blocks of time."""
+
+    tally: Tally
+    squares: Array
+    samples: Array
+
+
+def _left(v: Array, piece: Piece) -> Array:
+    return np.asarray(piece.left(v)[0])
+
+
+def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -> _Counted:
+    r = piece.observation.record
+    e = piece.left(V)
+    if further is not None:
+        e = np.concatenate([e, further(piece)])
+    squares, samples = np.zeros((BLOCKS, len(e))), np.zeros(BLOCKS)
+    scored = np.zeros(len(r.time), dtype=np.bool_)
+    for b, rows in piece.segment.blocks:
+        here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+        scored[here] = b not in FITTED_BLOCKS
+        v = r.valid[here]
+        squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
+        samples[b] = np.sum(v)
+    selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
+    return _Counted(Tally.of(Stretch(e, r.phi, selected, r.valid), r.rate), squares, samples)
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A model fitted to flights, and everything that evidence is read from.
+
+    ``triangles`` holds for every flight the triangle of its whitened columns [base | candidates | residual]
+    in each block of time; all tests are made on them alone. ``sums`` (BLOCKS, size + 1) are those of the plain columns.
+    """
+
+    model: Model
+    instrument: Instrument
+    observations: tuple[Observation, ...]
+    calibration: Calibration
+    flown: tuple[Flown, ...]
+    triangles: tuple[tuple[Array, ...], ...]
+    sums: tuple[Array, ...]
+    to_nominal: Array
+    k_ggi: float
+
+    @property
+    def n_base(self) -> int:
+        return len(self.calibration.columns)
+
+    @property
+    def size(self) -> int:
+        """Number of columns, base and candidates."""
+        return int(self.triangles[0][0].shape[1]) - 1
+
+    @cached_property
+    def whole(self) -> Array:
+        """Triangle of all flights, the prior in it."""
+        return self._triangle(range(BLOCKS))
+
+    @cached_property
+    def half(self) -> Array:
+        """The same over the blocks on which a held-out fit is made."""
+        return self._triangle(FITTED_BLOCKS)
+
+    def _triangle(self, blocks: Sequence[int]) -> Array:
+        joined = np.vstack([t[b] for t in self.triangles for b in blocks])
+        return likelihood_ratio.with_prior(joined, self.n_base, self.to_nominal)
+
+    def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
+        """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
+
+        With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted. The null biases take the residual's mean.
+        """
+        T = self.half if held_out else self.whole
+        n = self.n_base
+        picked = [*range(n), *(n + k for k in extra)]
+        prior = np.zeros((len(extra), len(picked) + 1))
+        prior[:, n:-1] = np.eye(len(extra))
+        R = np.asarray(np.linalg.qr(np.vstack([T[:, [*picked, T.shape[1] - 1]], prior]), mode="r"))
+        k = len(picked)
+        inverse = np.linalg.inv(R[:k, :k])
+        blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
+        sums = np.sum([x[blocks] for x in self.sums], axis=(0, 1))[[*picked, -1]]
+        biases = columns.null_biases(self.calibration.columns)
+        return columns.levelled(inverse @ R[:k, k], sums, biases), inverse @ inverse.T
+
+    def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
+        """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
+        v = np.zeros(self.size)
+        v[: self.n_base] = coefficients[: self.n_base]
+        v[[self.n_base + k for k in extra]] = coefficients[self.n_base :]
+        return v
+
+    def residuals(self, coefficients: Array, extra: Sequence[int] = ()) -> list[Array]:
+        """Residual of G_out, (N,) V, of every flight once these coefficients are in."""
+        return self.residuals_of(self.vector(coefficients, extra))
+
+    def residuals_of(self, v: Array) -> list[Array]:
+        """The same with the coefficients of all columns, (size,)."""
+        found = []
+        for x in self.flown:
+            lean, w = x.for_residuals(v[None], self.n_base)
+            parts = lean.each(partial(_left, w), whitened=False)
+            found.append(np.concatenate([*parts]))
+        return found
+
+    def score(
+        self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
+    ) -> list[Scored]:
+        """How large the residuals are with these coefficients (size,), in one pass over the flights.
+
+        ``further`` yields ``count`` more residuals (count, N), V, of a piece.
+        """
+        V = np.stack(vectors) if vectors else np.empty((0, self.size))
+        k = len(V) + count
+        tallies, blocks = [], np.full((len(self.flown), BLOCKS, k), np.nan)
+        for n, x in enumerate(self.flown):
+            tally = Tally(k, 2, x.observation.record.rate)
+            squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
+            lean, W = x.for_residuals(V, self.n_base)
+
+            def counted(piece: Piece, W: Array = W) -> _Counted:
+                return _counted(piece, W, further)
+
+            for part in lean.each(counted, whitened=False):
+                squares += part.squares
+                samples += part.samples
+                tally.join(part.tally)
+            tallies.append(tally)
+            some = samples > 0
+            blocks[n, some] = np.sqrt(squares[some] / samples[some, None])
+        return [
+            Scored(
+                self._pooled(tallies, j, 0),
+                self._pooled(tallies, j, 1),
+                tuple(float(t.squares[0, j] / t.samples[0]) for t in tallies),
+                blocks[:, :, j],
+            )
+            for j in range(k)
+        ]
+
+    def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
+        errors = [t.error(series, self.k_ggi, group) for t in tallies]
+        if len(errors) == 1:
+            return errors[0]
+        return pooled(errors, [float(t.samples[group]) for t in tallies])
+
+    def released(self) -> Fitted:
+        """The same without the columns of its flights in memory."""
+        return replace(self, flown=tuple(x.released() for x in self.flown))
+
+
+@one_thread
+def fit(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    noise: Sequence[Noise] | None = None,
+    start: Array | None = None,
+) -> Fitted:
+    """Calibrate a model on flights and prepare the evidence.
+
+    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given.
+    """
+    model = model.for_fits(sum(len(o.record.time) for o in observations))
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
+    if not scale_factor(model.chain, c.p) > 0.0:
+        raise UserError(
+            "the calibration does not converge: the record is not one of this instrument",
+            where=", ".join(o.name for o in observations),
+            found="a scale factor of the gradiometer below zero",
+            expected="the disc angle, spin frequency, axes and signs of the model",
+            remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
+        )
+    return about(model, instrument, observations, c)
+
+
+def noise_floor(f: Fitted) -> float:
+    """rms of the estimated noise of G_out before demodulation, Eo."""
+    variances = []
+    for x in f.flown:
+        share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
+        variances.append(share * sum(m.rms**2 for m in x.noise.models))
+    return float(np.sqrt(np.mean(variances))) / f.k_ggi

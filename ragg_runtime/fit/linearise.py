@@ -1,0 +1,118 @@
+"""The model's derivatives at a point of its parameters, as columns of a fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.observation import Observation, narrow
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Chain, Model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Point:
+    """About what a flight is linearised.
+
+    Attributes
+    ----------
+    model, instrument
+        The model, and the test sheet that gives the columns their scales.
+    p
+        Parameter vector of the model's chain, SI.
+    with_candidates
+        Whether the columns of the candidate effects are wanted.
+    instants
+        Effect id -> instant of its step, s since the first sample; at all times where none is given.
+    """
+
+    model: Model
+    instrument: Instrument
+    p: Array
+    with_candidates: bool
+    instants: Mapping[str, float] = field(default_factory=dict)
+
+
+CACHED = 2048
+"""Samples at which a generated module is evaluated at a time: its intermediates then stay in the cache."""
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """Which rows of a generated module's derivatives make which columns, and their scales."""
+
+    column: NDArray[np.intp]
+    row: NDArray[np.intp]
+    accelerometer: NDArray[np.intp]
+    scale: Array
+
+    @staticmethod
+    def of(chain: Chain, columns: Sequence[Column], first: int, shared: bool) -> _Rows:
+        """Those of parameters with one value for the instrument, or with one for each accelerometer."""
+        place = {name: k for k, (name, _) in enumerate(chain.ROWS)}
+        found = [(first + n, c) for n, c in enumerate(columns) if (c.accelerometer is None) == shared]
+        return _Rows(
+            np.array([n for n, _ in found], dtype=np.intp),
+            np.array([place[c.name] for _, c in found], dtype=np.intp),
+            np.array([(c.accelerometer or 1) - 1 for _, c in found], dtype=np.intp),
+            np.array([c.scale for _, c in found]),
+        )
+
+    def put(self, target: Array, at: slice, rows: Sequence[Array], shared: bool, signs: Array | None) -> None:
+        """Put derivatives, of each accelerometer (rows, n), into columns (columns, m, N) at some samples.
+
+        ``signs`` combine them.
+        """
+        for j in range(4):
+            sign = 1.0 if signs is None else signs[j]
+            output = j if signs is None else 0
+            if shared:
+                target[self.column, output, at] += rows[j][self.row] * (sign * self.scale[:, None])
+            else:
+                own = self.accelerometer == j
+                target[self.column[own], output, at] = rows[j][self.row[own]] * (sign * self.scale[own, None])
+
+
+def linearised(at: Point, o: Observation) -> Array:
+    """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
+    base = [c for c, _ in design.base_columns(at.model, at.instrument)]
+    candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
+    evaluators = at.model.evaluators
+    modules = [(at.model.chain, evaluators["chain"], base, 0, at.p)]
+    if candidates:
+        q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
+        modules.append((at.model.signatures, evaluators["signatures"], candidates, len(base), q))
+    r, m = o.record, len(o.series)
+    n = len(r.time)
+    signs = None if o.kind == "voltages" else np.array([1.0, 1.0, -1.0, -1.0])
+    columns = np.zeros((len(base) + len(candidates) + 1, m, n))
+    for chain, evaluator, wanted, first, p in modules:
+        x = r.inputs(chain)
+        own, shared = (_Rows.of(chain, wanted, first, s) for s in (False, True))
+        for start in range(0, n, CACHED):
+            some = slice(start, min(start + CACHED, n))
+            case = (r.time[some], x[:, some], p, r.phi[some], 1)
+            rows = [evaluator.derivatives(j, *case) for j in range(4)]
+            own.put(columns, some, rows, False, signs)
+            shared.put(columns, some, rows, True, signs)
+            if first == 0:
+                V = evaluator.voltages(*case)
+                columns[-1, :, some] = V if signs is None else signs @ V
+    if o.kind == "channels":
+        for k in range(len(columns)):
+            columns[k] = narrow(columns[k], r)
+    for k, c in enumerate((*base, *candidates)):
+        instant = at.instants.get(c.effect or "")
+        if instant is not None:
+            columns[k, :, r.time < instant] = 0.0
+    np.subtract(o.data, columns[-1], out=columns[-1])
+    if not r.valid.all():
+        columns[:, :, ~r.valid] = 0.0
+    return columns

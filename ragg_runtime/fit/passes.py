@@ -1,0 +1,149 @@
+"""One pass over a flight: segment after segment, linearised about a parameter vector and whitened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.threads import mapped
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.fit.observation import Observation, as_output, output_weights
+from ragg_runtime.fit.segments import ROWS, Segment, segments
+from ragg_runtime.fit.unknown_gradient import Window
+from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.noise_spectrum import Noise
+
+Array = NDArray[np.float64]
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A segment of a flight about one parameter vector.
+
+    Attributes
+    ----------
+    segment, observation
+        Which part of the flight, and the part itself (N samples, m outputs).
+    columns
+        (n + 1, m, N), V: base, candidates, each times its parameter's scale; the residual last.
+    n_base
+        How many of them are base columns.
+    white
+        (n + 1, rows): the same whitened, an unknown gradient projected out; one output after the other.
+    sample
+        (rows,): the flight's sample that a whitened row ends at.
+    windows
+        What an unknown gradient spans.
+    """
+
+    segment: Segment
+    observation: Observation
+    columns: Array
+    n_base: int
+    white: Array
+    sample: NDArray[np.intp]
+    windows: Sequence[Window]
+
+    @property
+    def residual(self) -> Array:
+        """(m, N), V."""
+        return np.asarray(self.columns[-1])
+
+    def sums(self, some: slice = slice(None)) -> Array:
+        """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
+        weights = output_weights(self.observation) * (self.observation.kind != "channels")
+        return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
+
+    def left(self, coefficients: Array) -> Array:
+        """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
+        n = coefficients.shape[1]
+        e = self.columns[-1] - np.tensordot(coefficients, self.columns[:n], 1)
+        e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
+        return as_output(self.observation, e)
+
+
+def flight_segments(o: Observation) -> list[Segment]:
+    """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
+    n = len(o.record.time)
+    return segments(n, max(n, ROWS) if o.kind == "channels" else ROWS)
+
+
+def passed(
+    at: Point,
+    o: Observation,
+    noise: Noise,
+    work: Callable[[Piece], R],
+    *,
+    chosen: Sequence[Segment] | None = None,
+    whitened: bool = True,
+    effort: float = 0.0,
+) -> Iterator[R]:
+    """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
+
+    ``chosen`` are some of the segments: then filters of more than one tap start from rest in each. If
+    ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
+    ``effort`` times as long as what makes the piece.
+    """
+    n_base = len(design.base_columns(at.model, at.instrument))
+    found = flight_segments(o) if chosen is None else chosen
+    memory = max(len(t) for t in noise.filters) - 1 if whitened and chosen is None else 0
+    tails: list[Future[Array | None]] = [Future() for _ in found]
+
+    def one(k: int) -> R:
+        s = found[k]
+        part = o.part(s.rows)
+        columns = linearised(at, part)
+        flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
+        windows = unknown_gradient.windows(o, s.rows, noise.filters)
+        if whitened:
+            tail = None
+            if k and memory:
+                tail = tails[k - 1].result()  # the segment before was begun before
+                tails[k - 1] = Future()  # its memory is free again
+            tails[k].set_result(_carried(tail, columns, memory))
+            flat = whitened_columns(columns, noise, tail, part.record.valid)
+            unknown_gradient.project(flat, windows)
+            sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
+        return work(Piece(s, part, columns, n_base, flat, sample, windows))
+
+    def guarded(k: int) -> R:
+        try:
+            return one(k)
+        except BaseException as error:
+            if not tails[k].done():
+                tails[k].set_exception(error)
+            raise
+
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    for s, made in zip(found, mapped(guarded, range(len(found))), strict=True):
+        progress.step(share * (s.rows.stop - s.rows.start))
+        yield made
+
+
+def whitened_columns(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) through the filters, one output after the other."""
+    rows = []
+    for m, taps in enumerate(noise.filters):
+        y = filtered(columns[:, m], taps, None if tail is None else tail[:, m])
+        rows.append(y if valid.all() else y[:, valid])
+    return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
+
+
+def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:
+    """What a filter remembers once it has seen ``columns``."""
+    if memory == 0:
+        return None
+    n = columns.shape[2]
+    if n >= memory:
+        return columns[:, :, n - memory :]
+    kept = columns if tail is None else np.concatenate([tail, columns], axis=2)
+    return kept[:, :, -memory:]

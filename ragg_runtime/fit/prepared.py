@@ -1,0 +1,164 @@
+"""Flights prepared for diagnosis: triangles of whitened columns in blocks of time, and passes over the columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.linearise import Point
+from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.passes import Piece, passed, whitened_columns
+from ragg_runtime.fit.segments import BLOCKS, ROWS, block_edges
+from ragg_runtime.fit.square_root import join, triangle
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.noise_spectrum import Noise
+
+Array = NDArray[np.float64]
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Flown:
+    """One flight about the calibrated parameters.
+
+    A short flight keeps its columns in memory; those of a longer one are computed anew in every pass.
+    """
+
+    observation: Observation
+    noise: Noise
+    at: Point
+    _kept: list[Piece] = field(default_factory=list, repr=False)
+
+    @property
+    def edges(self) -> NDArray[np.intp]:
+        """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
+        return block_edges(len(self.observation.record.time))
+
+    def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
+        """What ``work`` makes of every segment, in order: one pass over the flight.
+
+        Segments of a long flight are only whitened if that is wanted; ``work`` must not keep them (``effort``:
+        see ``passed``).
+        """
+        if self._kept:
+            return map(work, self._kept)
+        if len(self.observation.record.time) > ROWS:
+            return passed(self.at, self.observation, self.noise, work, whitened=whitened, effort=effort)
+        self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
+        return map(work, self._kept)
+
+    def for_residuals(self, v: Array, n_base: int) -> tuple[Flown, Array]:
+        """What yields residuals for coefficients v (k, size) at least cost: without candidates if none is used."""
+        if self._kept or np.any(v[:, n_base:]):
+            return self, v
+        return replace(self, at=replace(self.at, with_candidates=False)), v[:, :n_base]
+
+    def with_steps(self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]) -> Flown:
+        """The same with steps (effect -> instant, s; effect -> places of its columns), kept columns included."""
+        moved = [k for e in instants for k in places[e]]
+        kept = []
+        for piece in self._kept:  # a flight that is kept is one segment: the filter starts from rest
+            columns, white = piece.columns.copy(), piece.white.copy()
+            record = piece.observation.record
+            for e, instant in instants.items():
+                columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
+            part = whitened_columns(columns[moved], self.noise, None, record.valid)
+            unknown_gradient.project(part, piece.windows)
+            white[moved] = part
+            kept.append(replace(piece, columns=columns, white=white))
+        return replace(self, at=replace(self.at, instants=instants), _kept=kept)
+
+    def released(self) -> Flown:
+        """The same without the columns."""
+        return replace(self, _kept=[])
+
+
+def blocks(flown: Flown) -> tuple[tuple[Array, ...], Array]:
+    """Of the columns [base | candidates | residual]: triangles (n + 1, n + 1) of the whitened ones, one a block of
+    time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
+    """
+    size = 1
+
+    def own(piece: Piece) -> list[tuple[int, Array, Array]]:
+        found = []
+        for b, rows in piece.segment.blocks:
+            inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
+            first = piece.segment.rows.start
+            sums = piece.sums(slice(rows.start - first, rows.stop - first))
+            found.append((b, triangle(piece.white[:, inside]), sums))
+        return found
+
+    triangles: list[Array | None] = [None] * BLOCKS
+    totals: list[Array | float] = [0.0] * BLOCKS
+    for parts in flown.each(own):
+        for b, T, sums in parts:
+            size = len(T)
+            before = triangles[b]
+            triangles[b] = T if before is None else join([before, T])
+            totals[b] = totals[b] + sums
+    empty = np.zeros((size, size))
+    return (
+        tuple(empty if t is None else t for t in triangles),
+        np.stack([np.broadcast_to(x, size) for x in totals]),
+    )
+
+
+def prepare(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+) -> tuple[Flown, ...]:
+    """Every flight about the calibrated parameters."""
+    at = Point(model, instrument, c.p, with_candidates=True)
+    return tuple(Flown(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
+
+
+def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
+    """(n_base,): how far the nominal values are from the calibrated ones, in scales: the prior's centre."""
+    scale = np.array([q.scale for q in c.columns])
+    return np.asarray((vector(model, instrument)[c.index] - c.p[c.index]) / scale)
+
+
+@dataclass(frozen=True)
+class Projector:
+    """Takes whatever base and given columns can explain out of whitened rows.
+
+    Directions that the data see worse than their prior of unit width are shrunk away by the prior: they
+    absorb nothing, and are left out.
+
+    Attributes
+    ----------
+    taken
+        Places of the columns that are projected out.
+    to_basis
+        (len(taken), k): whitened columns (rows, len(taken)) times it are orthonormal over all rows.
+    along
+        (k,): the residual's components along the basis.
+    """
+
+    taken: NDArray[np.intp]
+    to_basis: Array
+    along: Array
+
+    def basis(self, piece: Piece) -> Array:
+        """(rows, k): the piece's rows of the orthonormal basis."""
+        return np.asarray(piece.white[self.taken].T @ self.to_basis)
+
+    def left(self, piece: Piece, Q: Array) -> Array:
+        """(rows,): the whitened residual less its components along the basis."""
+        return np.asarray(piece.white[-1] - Q @ self.along)
+
+
+def projector(triangles: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:
+    """The projector onto base and ``given`` candidate columns, from the block triangles of a flight."""
+    taken = np.array([*range(n_base), *(n_base + n for n in given)], dtype=np.intp)
+    T = join([t[:, [*taken, t.shape[1] - 1]] for t in triangles])
+    U, s, Vt = np.linalg.svd(T[:, :-1], full_matrices=False)
+    seen = s > 1.0
+    return Projector(taken, np.asarray(Vt[seen].T / s[seen]), np.asarray(U[:, seen].T @ T[:, -1]))

@@ -1,0 +1,205 @@
+"""How large an error is: before demodulation, in the demodulated channels, and as a density."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import oaconvolve
+
+from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.model.record import Record
+from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Error:
+    """The *error* object of the interface.
+
+    Attributes
+    ----------
+    rms_V, rms_Eo
+        Root mean square of the residual before demodulation, V, and over k_ggi, Eo.
+    inline_Eo, cross_Eo
+        Standard deviations of the demodulated residual (NaN if the record is shorter than the low-pass).
+    inline_Eo_per_rtHz, cross_Eo_per_rtHz
+        Those over the root of the demodulator's bandwidth, 0.2 Hz.
+    """
+
+    rms_V: float
+    rms_Eo: float
+    inline_Eo: float
+    cross_Eo: float
+    inline_Eo_per_rtHz: float
+    cross_Eo_per_rtHz: float
+
+    def as_json(self) -> dict[str, float | None]:
+        """The object as JSON: NaN becomes null."""
+        return {k: finite(v) for k, v in asdict(self).items()}
+
+
+def finite(x: float) -> float | None:
+    """``None`` for NaN and infinity, which JSON does not know."""
+    return float(x) if np.isfinite(x) else None
+
+
+def channels(
+    residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
+) -> tuple[Array, Array, Array]:
+    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass has :func:`heard` the selection."""
+    if len(residual) < shortest_demodulated(r.rate):
+        return np.empty(0), np.empty(0), np.empty(0)
+    e = np.where(selected & r.valid, residual, 0.0)
+    d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi), r.rate, k_ggi / EOTVOS)
+    kept = heard(selected[None], r.valid, len(low_pass(r.rate)))[0]
+    return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
+
+
+HOLES = 0.05
+"""Share of the samples under the low-pass that may be missing, as spikes are: it hears zeros in their place."""
+
+
+def heard(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
+    """(groups, N - taps + 1): where a filter of so many taps has seen nothing but a selection (groups, N), and
+    most of that is valid (N,).
+    """
+
+    def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
+        seen = np.cumsum(np.pad(x.astype(np.int64), ((0, 0), (1, 0))), axis=1)
+        return np.asarray(seen[:, taps:] - seen[:, :-taps])
+
+    return np.asarray((under(selected) == taps) & (under(valid[None]) >= (1 - HOLES) * taps))
+
+
+def shortest_demodulated(rate: float) -> int:
+    """Samples that a stretch must have for the demodulator's low-pass to fit, and leave something."""
+    return len(low_pass(rate)) + int(2 * rate)
+
+
+def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] | None = None) -> Error:
+    """The error object of a residual of G_out.
+
+    Parameters
+    ----------
+    residual
+        (N,) V.
+    k_ggi
+        V/Eo.
+    selected
+        (N,) bool: the samples to count (default: all valid ones).
+    """
+    chosen = r.valid if selected is None else (selected & r.valid)
+    rms = float(np.sqrt(np.mean(residual[chosen] ** 2))) if np.any(chosen) else float("nan")
+    _, inline, cross = channels(residual, r, k_ggi, chosen)
+    i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
+    root = float(np.sqrt(CUTOFF))
+    return Error(rms, rms / k_ggi, i, c, i / root, c / root)
+
+
+def pooled(errors: list[Error], weights: list[float]) -> Error:
+    """One error of several flights: quadratic mean, weighted by their samples."""
+    w = np.asarray(weights) / np.sum(weights)
+    values = np.array([[getattr(e, k) for k in Error.__dataclass_fields__] for e in errors])
+    counted = np.where(np.isfinite(values), w[:, None], 0.0)
+    total = np.sum(counted, axis=0)
+    squares = np.sum(counted * np.nan_to_num(values) ** 2, axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return Error(*(float(v) for v in np.sqrt(squares / total)))
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Residual series of some successive samples: e (k, N), V, zero where not valid (N,); disc angle (N,); and
+    selections of samples (groups, N).
+    """
+
+    e: Array
+    phi: Array
+    selected: NDArray[np.bool_]
+    valid: NDArray[np.bool_]
+
+    def __getitem__(self, some: slice) -> Stretch:
+        e = np.array(self.e[:, some])  # a copy, lest a few samples keep a whole segment in memory
+        return Stretch(e, self.phi[some], self.selected[:, some], self.valid[some])
+
+    def before(self, other: Stretch) -> Stretch:
+        """This stretch and the one that follows it."""
+        return Stretch(
+            np.concatenate([self.e, other.e], axis=1),
+            np.concatenate([self.phi, other.phi]),
+            np.concatenate([self.selected, other.selected], axis=1),
+            np.concatenate([self.valid, other.valid]),
+        )
+
+
+SERIES = 8
+"""Series that are demodulated at a time: they stay in the cache."""
+
+
+class Tally:
+    """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
+
+    ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass
+    has :func:`heard` the selection. A tally of one segment is made :meth:`of` it; tallies of successive ones are
+    joined.
+    """
+
+    def __init__(self, k: int, groups: int, rate: float) -> None:
+        self._taps = low_pass(rate)
+        self.samples = np.zeros(groups)
+        self.squares = np.zeros((groups, k))
+        self.demodulated = np.zeros(groups)
+        self._sums = np.zeros((2, groups, 2, k))  # first and second moment, group, channel, series
+        nothing = np.empty((groups, 0), dtype=np.bool_)
+        self._head = self._tail = Stretch(np.empty((k, 0)), np.empty(0), nothing, nothing[0])
+        """What the low-pass of the neighbours will hear besides their own."""
+
+    @staticmethod
+    def of(s: Stretch, rate: float) -> Tally:
+        """The tally of one segment."""
+        tally = Tally(len(s.e), len(s.selected), rate)
+        counted = s.selected & s.valid
+        tally.samples += np.sum(counted, axis=1)
+        tally.squares += np.where(counted, 1.0, 0.0) @ (s.e**2).T
+        tally._demodulate(s)
+        reach = len(tally._taps) - 1
+        tally._head, tally._tail = s[:reach], s[max(0, len(s.phi) - reach) :]
+        return tally
+
+    def join(self, other: Tally) -> None:
+        """Count in the segment that follows."""
+        self.samples += other.samples
+        self.squares += other.squares
+        self.demodulated += other.demodulated
+        self._sums += other._sums
+        self._demodulate(self._tail.before(other._head))
+        reach = len(self._taps) - 1
+        longer = self._tail.before(other._tail) if len(other._tail.phi) < reach else other._tail
+        self._tail = longer[max(0, len(longer.phi) - reach) :]
+
+    def _demodulate(self, s: Stretch) -> None:
+        n = len(self._taps)
+        if len(s.phi) < n:
+            return
+        whole = np.where(heard(s.selected, s.valid, n), 1.0, 0.0)
+        self.demodulated += np.sum(whole, axis=1)
+        for c, carrier in enumerate((4 * np.sin(2 * s.phi), -2 * np.cos(2 * s.phi))):
+            for k in range(0, len(s.e), SERIES):
+                some = slice(k, k + SERIES)
+                x = oaconvolve(s.e[some] * carrier, self._taps[None], mode="valid", axes=1)
+                self._sums[0, :, c, some] += whole @ x.T
+                self._sums[1, :, c, some] += whole @ (x**2).T
+
+    def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
+        """The error object of one series; ``k_ggi`` in V/Eo."""
+        n, m = self.samples[group], self.demodulated[group]
+        rms = float(np.sqrt(self.squares[group, series] / n)) if n else float("nan")
+        i = c = float("nan")
+        if m > 1:
+            mean, square = self._sums[:, group, :, series] / m
+            i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
+        root = float(np.sqrt(CUTOFF))
+        return Error(rms, rms / k_ggi, i, c, i / root, c / root)

@@ -1,0 +1,75 @@
+"""Least squares on triangular factors: QR of columns in stretches, joined flights, priors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Linear:
+    """Linear least squares in scales, prior included: the triangle R (n, n) and the rotated data y (n,)."""
+
+    R: Array
+    y: Array
+
+    @property
+    def step(self) -> Array:
+        """(n,): the solution."""
+        return np.asarray(linalg.solve_triangular(self.R, self.y))
+
+    @property
+    def covariance(self) -> Array:
+        """(n, n)."""
+        inverse = np.linalg.inv(self.R)
+        return np.asarray(inverse @ inverse.T)
+
+    def gain(self, step: Array) -> float:
+        """By how much a step lowers chi-square."""
+        return float(self.y @ self.y - np.sum((self.y - self.R @ step) ** 2))
+
+
+def with_prior(T: Array, to_nominal: Array) -> _Linear:
+    """The fit of a triangle [base (n) | residual] and of the prior.
+
+    The prior pulls every parameter to its nominal value, ``to_nominal`` away, with a width of one scale.
+    """
+    n = len(to_nominal)
+    R = np.asarray(np.linalg.qr(np.vstack([T, np.column_stack([np.eye(n), to_nominal])]), mode="r"))
+    return _Linear(R[:n, :n], R[:n, n])
+
+
+def orthonormal(columns: Array) -> Array:
+    """(rows, k): orthonormal basis of columns (n, rows); those that vanish (knots in a gap) span nothing."""
+    norms = np.linalg.norm(columns, axis=1)
+    return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
+
+
+CHUNK = 1024
+"""Rows that enter a triangle at a time: they stay in the cache."""
+
+PANEL = 16
+"""Columns that LAPACK eliminates at a time."""
+
+
+def triangle(columns: Array) -> Array:
+    """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
+    n, rows = columns.shape
+    R = np.zeros((n, n), order="F")
+    for start in range(0, rows, CHUNK):
+        part = np.array(columns[:, start : start + CHUNK].T, order="F")
+        R, *_ = linalg.lapack.dtpqrt(0, min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
+    return np.asarray(np.triu(R))
+
+
+def join(triangles: Sequence[Array]) -> Array:
+    """The triangle of several records together."""
+    if len(triangles) == 1:
+        return triangles[0]
+    return triangle(np.vstack(triangles).T)

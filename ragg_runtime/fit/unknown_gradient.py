@@ -1,0 +1,161 @@
+"""A gravity gradient that was not recorded: slow, unknown, neither an effect nor to hide one.
+
+It enters as T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30) with T_1, T_2 free to follow periods of half a minute and
+longer: cubic splines, projected out of data and columns alike. The splines of one window of time know nothing
+of the next, so that the work grows with the length of a flight and not with its square.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import interpolate
+
+from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.square_root import orthonormal
+from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.signals.fir import Floats, filtered
+
+Array = NDArray[np.float64]
+
+KNOT_SECONDS = 10.0
+"""Distance of the knots of the splines."""
+
+WINDOW_SECONDS = 300.0
+"""Length of a window of time with splines of its own."""
+
+LEAD_SECONDS = 100.0
+"""Time before a window in which its splines begin: longer ago, a whitening filter has no memory of a signal
+that oscillates at twice the spin rate."""
+
+
+TAKEN = 0.6 / KNOT_SECONDS
+"""Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """What an unknown gradient spans in one window of a segment.
+
+    Attributes
+    ----------
+    samples
+        The window's samples, counted within the segment.
+    plain
+        (k, m valid): what spans it before whitening, one output after the other.
+    places
+        Rows of the segment's whitened columns.
+    white
+        (len(places), k): orthonormal basis in them.
+    """
+
+    samples: slice
+    plain: Array
+    places: NDArray[np.intp]
+    white: Array
+
+    @cached_property
+    def raw(self) -> Array:
+        """(m valid, k): orthonormal basis before whitening."""
+        return orthonormal(self.plain)
+
+
+def unknown(o: Observation) -> bool:
+    """Whether the gradient was not recorded."""
+    return not all(g in o.record.wide for g in GRADIENTS)
+
+
+def band(o: Observation) -> tuple[float, float] | None:
+    """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
+    if not unknown(o):
+        return None
+    carrier = 2 * spin_frequency(o)
+    return carrier - TAKEN, carrier + TAKEN
+
+
+def spin_frequency(o: Observation) -> float:
+    """Mean, Hz, by the encoder where there is one."""
+    r = o.record
+    if "spin_angle" not in r.wide:
+        return r.spin_frequency
+    step = np.angle(np.exp(1j * np.diff(np.asarray(r.wide["spin_angle"][: 1 << 16]))))
+    return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
+
+
+def splines(time: Array, phi: Array) -> Array:
+    """(n, N): T_1 sin 2 phi and T_2 cos 2 phi for every basis spline of T_1 and of T_2 over ``time``."""
+    count = max(4, int(np.ceil((time[-1] - time[0]) / KNOT_SECONDS)) + 3)
+    knots = np.concatenate([[time[0]] * 3, np.linspace(time[0], time[-1], count - 2), [time[-1]] * 3])
+    basis = interpolate.BSpline.design_matrix(time, knots, 3).toarray().T
+    double = np.stack([np.sin(2 * phi), np.cos(2 * phi)])
+    return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
+
+
+def windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Window]:
+    """The windows of one segment of a flight; none if the gradient is known.
+
+    ``filters`` whiten the outputs.
+    """
+    if not unknown(o):
+        return []
+    if (rows.start, rows.stop) != (0, len(o.record.time)):
+        return _windows(o, rows, filters)
+    # a short flight asks the same in every pass
+    for known, found in o.memo:
+        if all(a is b for a, b in zip(known, filters, strict=True)):
+            return found
+    found = _windows(o, rows, filters)
+    o.memo[:] = [*o.memo[-1:], (filters, found)]
+    return found
+
+
+def _windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Window]:
+    r = o.record
+    valid = np.array(r.valid[rows])
+    rank = np.concatenate([[0], np.cumsum(valid)])
+    count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
+    edges = np.linspace(rows.start, rows.stop, count + 1).astype(np.intp)
+    found = []
+    for a, b in pairwise(edges):
+        lead = int(min(a, LEAD_SECONDS * r.rate, max(len(t) for t in filters) - 1))
+        here = np.array(r.valid[a - lead : b])
+        if np.sum(here[lead:]) < 2:
+            continue
+        X = splines(*r.angle(slice(a - lead, b))) * here
+        inside = here[lead:]
+        weights = o.weights
+        plain = np.concatenate([w * X[:, lead:][:, inside] for w in weights], axis=1)
+        parts = [
+            filtered(w * X, taps, lead=lead)[:, inside] for w, taps in zip(weights, filters, strict=True)
+        ]
+        first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
+        places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
+        samples = slice(int(a) - rows.start, int(b) - rows.start)
+        found.append(Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1))))
+    return found
+
+
+def project(columns: Floats, found: Sequence[Window]) -> None:
+    """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
+    for w in found:
+        Q = w.white.astype(columns.dtype)
+        part = columns[:, w.places]
+        columns[:, w.places] = np.subtract(part, np.matmul(np.matmul(part, Q), Q.T))
+
+
+def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
+    """Take the fitted unknown gradient out of residuals (k, m, N): it is signal, not error."""
+    if not found:
+        return e
+    left = e.copy()
+    k, m, _ = e.shape
+    for w in found:
+        inside = np.flatnonzero(valid[w.samples]) + w.samples.start
+        y = e[:, :, inside].reshape(k, -1)
+        left[:, :, inside] = (y - (y @ w.raw) @ w.raw.T).reshape(k, m, -1)
+    return left

@@ -1,0 +1,3 @@
+"""The instrument: nominal parameters, units and effects of one gradiometer, read from ``model.toml``. May import
+base.
+"""

@@ -1,0 +1,198 @@
+"""Changes to a ``model.toml`` that leave the user's comments, order and spelling as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import AoT
+
+from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.files import write_text
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
+from ragg_runtime.instrument.units import RawQuantity, units
+
+
+def set_parameters(text: str, values: Mapping[str, RawQuantity]) -> str:
+    """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
+
+    Raises UserError for an unknown parameter.
+    """
+    document = _document(text)
+    table: Any = document.setdefault("accelerometers", tomlkit.table())
+    for name, quantity in values.items():
+        if name not in PARAMETER:
+            raise UserError(
+                f"the accelerometer has no parameter {name!r}",
+                expected="one of " + ", ".join(PARAMETER),
+                remedy=did_you_mean(name, PARAMETER),
+            )
+        _put(table, name, _quantity(quantity))
+    return tomlkit.dumps(document)
+
+
+def add_effect(text: str, setting: EffectSetting) -> str:
+    """``text`` with the effect at the end of ``effects``, or with its values changed if it is there."""
+    document = _document(text)
+    entries = _entries(document)
+    place = _place(entries, setting.id)
+    if place is None:
+        _append(entries, _entry(setting))
+    elif isinstance(entries[place], str):
+        comment = entries[place].trivia.comment
+        entries[place] = _entry(setting)
+        entries[place].trivia.comment = comment
+    else:
+        for name, quantity in setting.values.items():
+            _put(entries[place], name, _quantity(quantity))
+    return tomlkit.dumps(document)
+
+
+def remove_effect(text: str, effect_id: str) -> str:
+    """``text`` without the effect; UserError if it is not there."""
+    document = _document(text)
+    entries = _entries(document)
+    place = _place(entries, effect_id)
+    if place is None:
+        known = [_id(e) for e in entries]
+        raise UserError(
+            f"the effect {effect_id!r} is not in the model",
+            found="effects " + ", ".join(known) if known else "no effects",
+            remedy=did_you_mean(effect_id, known),
+        )
+    del entries[place]
+    return tomlkit.dumps(document)
+
+
+def set_effects_folder(text: str, folder: Path) -> str:
+    """``text``, whose ``effects_folder`` is given, with another folder there."""
+    document = _document(text)
+    document["effects_folder"] = str(folder)
+    return tomlkit.dumps(document)
+
+
+def model_text(instrument: Instrument) -> str:
+    """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
+    document = tomlkit.document()
+    document.add(tomlkit.comment("Four values: A1, A2, A3, A4."))
+    disc = tomlkit.table()
+    for name, unit in DISC_UNITS.items():
+        disc.add(name, f"{getattr(instrument, name)!r} {unit}")
+    accelerometers = tomlkit.table()
+    known = instrument.units
+    for p in PARAMETERS:
+        shown = known.from_si(instrument.accelerometers[p.name], p.si_unit, p.display_unit)
+        accelerometers.add(
+            p.name, _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
+        )
+    document.add("effects", tomlkit.array())
+    if instrument.effects_folder is not None:
+        document.add("effects_folder", str(instrument.effects_folder))
+    document.add("disc", disc)
+    document.add("accelerometers", accelerometers)
+    text = tomlkit.dumps(document)
+    for setting in instrument.effects:
+        text = add_effect(text, setting)
+    return text
+
+
+def write_instrument(instrument: Instrument, path: Path) -> None:
+    """Write :func:`model_text` to a file, whole or not at all."""
+    write_text(path, model_text(instrument))
+
+
+def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, ...]:
+    """Values in the display unit with the fewest digits that still convert to the instrument's SI values."""
+    p, known = PARAMETER[name], units(instrument.g0)
+    target = instrument.accelerometers[name]
+    result = []
+    for value, si in zip(shown, target, strict=True):
+        near = (float(f"{value:.{digits}g}") for digits in (6, 9, 12, 15, 16, 17))
+        result.append(
+            next((v for v in near if known.to_si(v, p.display_unit, p.si_unit) == si), float(value))
+        )
+    return tuple(result)
+
+
+def _document(text: str) -> tomlkit.TOMLDocument:
+    try:
+        return tomlkit.parse(text)
+    except (TOMLKitError, ValueError, RecursionError) as error:
+        raise UserError("not a TOML file", found=str(error), expected="the form of model.toml") from None
+
+
+def _entries(document: tomlkit.TOMLDocument) -> Any:
+    if "effects" not in document:
+        # A plain key must stand before the first table.
+        fresh = tomlkit.document()
+        fresh.add("effects", tomlkit.array())
+        document_text = tomlkit.dumps(fresh) + tomlkit.dumps(document)
+        document.clear()
+        document.update(tomlkit.parse(document_text))
+    return document["effects"]
+
+
+def _entry(setting: EffectSetting) -> Any:
+    if not setting.values and setting.expression is None:
+        return tomlkit.item(setting.id)
+    entry = tomlkit.inline_table()
+    entry.add("id", setting.id)
+    if setting.expression is not None:
+        entry.add("stage", setting.expression["stage"])
+        entry.add("add", setting.expression["add"])
+        for name, parameter in setting.expression["params"].items():
+            inner = tomlkit.inline_table()
+            inner.update({k: v for k, v in parameter.items() if k != "value" or name not in setting.values})
+            if name not in setting.values:
+                entry.add(name, inner)
+    for name, quantity in setting.values.items():
+        entry.add(name, _quantity(quantity))
+    return entry
+
+
+def _quantity(quantity: RawQuantity) -> Any:
+    table = tomlkit.inline_table()
+    value = quantity.value
+    table.add("value", [_plain(v) for v in value] if isinstance(value, tuple) else _plain(value))
+    table.add("unit", quantity.unit)
+    return table
+
+
+def _plain(value: float) -> int | float:
+    """Whole numbers are written as people write them: 30, not 30.0."""
+    value = float(np.float64(value))
+    return int(value) if value.is_integer() and abs(value) < 1e6 else value
+
+
+def _put(table: Any, name: str, item: Any) -> None:
+    if name in table:
+        old = table[name]
+        trivia = getattr(old, "trivia", None)
+        table[name] = item
+        if trivia is not None:
+            table[name].trivia.comment = trivia.comment
+            table[name].trivia.comment_ws = trivia.comment_ws
+    else:
+        table.add(name, item)
+
+
+def _append(entries: Any, entry: Any) -> None:
+    if isinstance(entries, AoT):
+        table = tomlkit.table()
+        table.update(entry if not isinstance(entry, str) else {"id": str(entry)})
+        entries.append(table)
+    else:
+        entries.append(entry)
+
+
+def _place(entries: Any, effect_id: str) -> int | None:
+    return next((n for n, e in enumerate(entries) if _id(e) == effect_id), None)
+
+
+def _id(entry: Any) -> str:
+    return str(entry["id"] if isinstance(entry, dict) else entry)

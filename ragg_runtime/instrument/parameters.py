@@ -1,0 +1,73 @@
+"""The parameters of an accelerometer and of the disc: symbol, units, meaning, plausible error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.instrument.units import units
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter of an accelerometer.
+
+    ``plausible`` is the size of error, in ``display_unit``, that would not surprise a careful engineer who
+    holds the maker's test sheet; if ``relative``, it is a fraction of the nominal value. ``display_unit`` is
+    the one to print in. Parameters not ``required`` are 0 where model.toml leaves them out.
+    """
+
+    name: str
+    symbol: str
+    si_unit: str
+    display_unit: str
+    description: str
+    plausible: float
+    relative: bool = False
+    required: bool = False
+
+    def plausible_si(self, nominal: Vector, g0: float) -> Vector:
+        """Plausible error of each value of ``nominal`` (any shape), in ``si_unit``, with g = ``g0`` m/s^2."""
+        if self.relative:
+            return np.abs(nominal) * self.plausible
+        return np.full_like(nominal, units(g0).to_si(self.plausible, self.display_unit, self.si_unit))
+
+
+def _second_order(index: int, product: str) -> Parameter:
+    text = f"second-order coefficient of {product}"
+    return Parameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20.0)
+
+
+def _angle(name: str, symbol: str, text: str) -> Parameter:
+    return Parameter(name, symbol, "rad", "arcsec", text, 100.0)
+
+
+PARAMETERS: tuple[Parameter, ...] = (
+    Parameter("dR", "dR", "m", "um", "radial distance error", 50.0),
+    _angle("beta_x", r"\beta_x", "altitude angle of the mounting position"),
+    _angle("beta_z", r"\beta_z", "initial phase angle of the mounting position"),
+    _angle("vartheta_x", r"\vartheta_x", "misalignment about the tangential axis"),
+    _angle("vartheta_y", r"\vartheta_y", "misalignment about the radial axis"),
+    _angle("vartheta_z", r"\vartheta_z", "misalignment about the axial axis"),
+    Parameter("K0", "K_0", "m/s^2", "ug", "null bias", 50.0),
+    Parameter("K1", "K_1", "A/(m/s^2)", "mA/g", "linear scale factor", 1e-3, relative=True, required=True),
+    _second_order(2, "f_i^2"),
+    _second_order(4, "f_i f_p"),
+    _second_order(5, "f_o^2"),
+    _second_order(6, "f_i f_o"),
+    _second_order(7, "f_p^2"),
+    _second_order(8, "f_o f_p"),
+    Parameter("k_VI", "k_{V/I}", "V/A", "ohm", "current-to-voltage gain", 1e-3, relative=True, required=True),
+)
+"""The accelerometer's parameters, in the order in which every parameter vector holds them."""
+
+PARAMETER: Mapping[str, Parameter] = MappingProxyType({p.name: p for p in PARAMETERS})
+"""The same by name."""
+
+DISC_UNITS: Mapping[str, str] = MappingProxyType({"radius": "m", "spin_frequency": "Hz", "g0": "m/s^2"})

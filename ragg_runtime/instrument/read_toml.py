@@ -1,0 +1,181 @@
+"""Read ``model.toml``."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.files import read_text
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
+from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
+from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
+
+
+def read_instrument(path: Path | str) -> Instrument:
+    """The instrument of a ``model.toml``; UserError names file and key, what is there and what should be."""
+    path = Path(path)
+    text = read_text(path)
+    return parse_instrument(text, path)
+
+
+def parse_instrument(text: str, path: Path | None = None) -> Instrument:
+    """As :func:`read_instrument`, from the text of the file; ``path`` names it in messages."""
+    try:
+        table = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # numbers of thousands of digits, brackets in brackets
+        raise UserError(
+            "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
+        ) from None
+    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
+    disc = _disc(_table(table, "disc", path), path)
+    return Instrument.build(
+        radius=disc["radius"],
+        spin_frequency=disc["spin_frequency"],
+        g0=disc["g0"],
+        accelerometers=_accelerometers(_table(table, "accelerometers", path), disc["g0"], path),
+        effects=_effects(table.get("effects", []), disc["g0"], path),
+        path=path,
+        effects_folder=_folder(table.get("effects_folder"), path),
+    )
+
+
+def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
+    if name not in table:
+        raise UserError(f"the table [{name}] is missing", where=path)
+    found = table[name]
+    if not isinstance(found, dict):
+        raise UserError(f"{name} must be a table", where=path, found=repr(found), expected=f"[{name}]")
+    return found
+
+
+def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
+    _check_names(table, DISC_UNITS, "disc", path)
+    for name in DISC_UNITS:
+        if name not in table:
+            raise UserError(
+                f"{name} is missing", where=at(path, "[disc]"), expected=f'{name} = "... {DISC_UNITS[name]}"'
+            )
+    return {
+        # g0 defines g and so cannot be given in g; radius and frequency do not depend on it.
+        name: float(
+            _si(
+                read_quantity(table[name], at(path, f"[disc] {name}"), count=1),
+                unit,
+                None,
+                at(path, f"[disc] {name}"),
+            )[0]
+        )
+        for name, unit in DISC_UNITS.items()
+    }
+
+
+def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
+    _check_names(table, PARAMETER, "accelerometers", path)
+    found = {}
+    for name, raw in table.items():
+        place = at(path, f"[accelerometers] {name}")
+        found[name] = _si(read_quantity(raw, place), PARAMETER[name].si_unit, g0, place)
+    return found
+
+
+def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
+    value = np.atleast_1d(np.asarray(quantity.value, dtype=np.float64))
+    if quantity.unit == si_unit:  # as g0 mostly is: nothing need be known of units for it
+        return _finite(value, where)
+    known = units(1.0 if g0 is None else g0)
+    if g0 is None and known.uses_g(quantity.unit, where):
+        raise UserError("g cannot be used here: g0 defines it", where=where, found=quantity, expected=si_unit)
+    return _finite(np.asarray(known.to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
+
+
+def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetting, ...]:
+    if not isinstance(entries, list):
+        raise UserError(
+            "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
+        )
+    found: list[EffectSetting] = []
+    for number, entry in enumerate(entries, 1):
+        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0))
+        if any(e.id == setting.id for e in found):
+            raise UserError(
+                f"the effect {setting.id!r} is listed twice",
+                where=at(path, "effects"),
+                remedy="remove one entry",
+            )
+        found.append(setting)
+    return tuple(found)
+
+
+def _effect(entry: object, where: str, known: Units) -> EffectSetting:
+    if isinstance(entry, str):
+        entry = {"id": entry}
+    if not isinstance(entry, dict) or not isinstance(entry.get("id"), str) or not entry["id"].strip():
+        raise UserError(
+            "not an effect",
+            where=where,
+            found=repr(entry),
+            expected='"lag" or { id = "lag", tau = { value = [1, 1, 1, 1], unit = "ms" } }',
+        )
+    effect_id = entry["id"]
+    where = f"{where} ({effect_id})"
+    own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
+    if ("stage" in entry or "add" in entry) and "params" not in entry:
+        # An effect in one line: its parameters stand beside stage and add, with or without a value.
+        entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
+        own = {}
+    values = {name: known.quantity(raw, f"{where}: {name}") for name, raw in own.items()}
+    expression = _expression(entry, where, known)
+    if expression is not None:
+        _check_names(values, expression["params"], None, where)
+        for name, parameter in expression["params"].items():
+            if "value" in parameter:
+                values[name] = known.quantity(
+                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}"
+                )
+    return EffectSetting(effect_id, MappingProxyType(values), expression)
+
+
+def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[str, Any] | None:
+    keys = [k for k in ("stage", "add", "params") if k in entry]
+    if not keys:
+        return None
+    example = 'stage = "transducer", add = "K_x * f_i**3", K_x = { value = 0, unit = "ug/g^3" }'
+    for key, kind in (("stage", str), ("add", str), ("params", dict)):
+        if not isinstance(entry.get(key), kind):
+            raise UserError(
+                f"the effect's {key} is missing or not a {'table' if kind is dict else 'text'}",
+                where=where,
+                found=repr(entry.get(key)),
+                expected=example,
+            )
+    params: dict[str, Mapping[str, Any]] = {}
+    for name, raw in entry["params"].items():
+        table = {"unit": raw} if isinstance(raw, str) else raw
+        if not isinstance(table, dict) or not isinstance(table.get("unit"), str):
+            raise UserError(
+                "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
+            )
+        known.parse(table["unit"], f"{where}: {name}")
+        params[name] = MappingProxyType(table)
+    return MappingProxyType(
+        {"stage": entry["stage"], "add": entry["add"], "params": MappingProxyType(params)}
+    )
+
+
+def _folder(raw: object, path: Path | None) -> Path | None:
+    if raw is None:
+        return None
+    if not isinstance(raw, str) or not raw:
+        raise UserError("effects_folder must be a path", where=path, found=repr(raw), expected='"my_effects"')
+    folder = (path.parent if path else Path()) / raw
+    if path is not None and not folder.is_dir():
+        raise UserError(
+            "the folder of own effects does not exist", where=at(path, "effects_folder"), found=folder
+        )
+    return folder

@@ -1,0 +1,274 @@
+"""Units: pint, with the field's own words and with g the model's own g0.
+
+In this project ``g`` is the specific force g0 of the model file (9.8 m/s^2 in the paper), never the gram:
+``ug``, ``mg``, ``mA/g``, ``ug/g^2`` all follow. ``kg`` stays the kilogram. ``Eo`` is 1e-9 s^-2.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, TypeVar
+
+import numpy as np
+import pint
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+
+Value = TypeVar("Value", float, NDArray[np.float64])
+
+DIMENSIONLESS = ("1", "", "-", "dimensionless")
+
+_EXAMPLES = "a unit such as m, um, rad, arcsec, ug, ug/g^2, mA/g, ohm, deg/h, Eo, 1/K, s^-2, or 1 for none"
+
+_ROTATIONS = ("revolutions_per_minute", "revolutions_per_second")
+# Words that count angle though their dimension is one: 1 Hz is one turn a second, not one radian a second.
+_ANGLES = frozenset(
+    ("radian", "degree", "arcminute", "arcsecond", "milliarcsecond", "turn", "grade", "mil", *_ROTATIONS)
+)
+_CYCLES = frozenset(("hertz", "counts_per_second"))
+
+# pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not
+# know ("m;s"): only products and quotients of names with small exponents reach it.
+_TOKEN = re.compile(
+    r"\s*(?:(?P<name>[^\W\d]\w*|°|%)|(?P<power>\^|\*\*)|(?P<number>[+-]?\d+(?:\.\d+)?)|(?P<sign>[*/()·]))\s*"
+)
+
+
+@dataclass(frozen=True)
+class RawQuantity:
+    """A number, or one for each of the four accelerometers, with the unit that the user wrote."""
+
+    value: float | tuple[float, ...]
+    unit: str
+
+    def __str__(self) -> str:
+        text = repr(self.value) if isinstance(self.value, float) else repr(list(self.value))
+        return f"{text} {self.unit}"
+
+
+class Units:
+    """Units of one model: parses and converts, with g := ``g0`` in m/s^2. :func:`units` shares instances."""
+
+    def __init__(self, g0: float) -> None:
+        if not (math.isfinite(g0) and g0 > 0):
+            raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
+        self.g0 = float(g0)
+        registry: pint.UnitRegistry[Any] = pint.UnitRegistry(on_redefinition="ignore")
+        registry.define(f"standard_g = {self.g0!r} * meter / second ** 2 = g")
+        registry.define("kilogram_mass = 1000 * gram = kg")
+        registry.define("eotvos = 1e-9 / second ** 2 = Eo = Eotvos")
+        self._registry = registry
+        self._parsed: dict[str, Any] = {}
+        self._stems: dict[str, str | None] = {}
+
+    def parse(self, unit: str, where: str | None = None) -> Any:
+        """The pint unit written as ``unit``; UserError if it is none."""
+        text = unit.strip()
+        if text not in self._parsed:
+            self._parsed[text] = self._parse(text, where)
+        return self._parsed[text]
+
+    def _parse(self, text: str, where: str | None) -> Any:
+        if text in DIMENSIONLESS:
+            return self._registry.dimensionless
+        remedy = _complaint(text)
+        if remedy is None:
+            try:
+                return self._registry.parse_units(text.replace("·", "*"))
+            except pint.UndefinedUnitError as error:
+                names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
+                remedy = f"{', '.join(map(str, names))} is not a known unit"
+            except Exception:  # what pint raises for a malformed expression is not documented
+                remedy = None
+        raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
+
+    def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
+        """``value`` in ``unit``, converted to ``si_unit``; UserError if the dimensions differ.
+
+        Turns and angles are told apart where they would be confused: a frequency in rpm or rad/s becomes
+        turns a second, and an angular rate in Hz is refused.
+        """
+        source, target = self.parse(unit, where), self.parse(si_unit)
+        self._same_dimension(source, unit, target, si_unit, where)
+        factor = 1.0
+        if self._counts(target, _CYCLES) and self._counts(source, _ANGLES):
+            factor = 1 / (2 * math.pi)
+        elif self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
+            raise UserError(
+                "a frequency stands where an angular rate is needed",
+                where=where,
+                found=repr(unit),
+                expected=si_unit,
+                remedy="write rad/s, deg/s, deg/h or rpm",
+            )
+        try:
+            with np.errstate(over="ignore"):  # callers look whether what comes out is finite
+                result: Value = self._registry.convert(value, source, target)
+        except (OverflowError, ZeroDivisionError):
+            raise UserError("the unit is out of all proportion", where=where, found=repr(unit)) from None
+        return result * factor if factor != 1.0 else result
+
+    def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
+        """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
+        source, target = self.parse(si_unit), self.parse(unit, where)
+        self._same_dimension(target, unit, source, si_unit, where)
+        if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
+            value = value * (2 * math.pi)
+        result: Value = self._registry.convert(value, source, target)
+        return result
+
+    def base_unit(self, unit: str, where: str | None = None) -> str:
+        """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
+        base = self._registry.get_base_units(self.parse(unit, where))[1]
+        return f"{base:~C}" or "1"
+
+    def uses_g(self, unit: str, where: str | None = None) -> bool:
+        """Whether ``unit`` is made with g."""
+        return self._counts(self.parse(unit, where), frozenset(("standard_g",)))
+
+    def fits(self, unit: str, si_unit: str) -> bool:
+        """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
+        try:
+            return bool(self.parse(unit).dimensionality == self.parse(si_unit).dimensionality)
+        except UserError:
+            return False
+
+    def quantity(self, raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
+        """Read ``"0.1 m"``, ``{ value = 0.1, unit = "m" }`` or ``{ value = [1, 2, 3, 4], unit = "m" }``.
+
+        ``count`` is the length that a list must have. The unit must parse; its dimension is checked on
+        conversion. Raises UserError for anything else, NaN and infinity included.
+        """
+        quantity = read_quantity(raw, where, count=count)
+        self.parse(quantity.unit, where)
+        return quantity
+
+    def _same_dimension(self, source: Any, unit: str, target: Any, si_unit: str, where: str | None) -> None:
+        if source.dimensionality != target.dimensionality:
+            raise UserError(
+                "the unit has the wrong dimension",
+                where=where,
+                found=f"{unit!r} ({_dimension(source)})",
+                expected=f"a unit of {_dimension(target)}, which {si_unit!r} has",
+                remedy=f"g is the specific force {self.g0:g} m/s^2 here, not the gram"
+                if "[mass]" in str(target.dimensionality) + str(source.dimensionality)
+                else None,
+            )
+
+    def _counts(self, unit: Any, names: frozenset[str]) -> bool:
+        return any(self._stem(name) in names for name in unit._units)
+
+    def _stem(self, name: str) -> str | None:
+        """A unit's name without prefix and suffix."""
+        if name not in self._stems:  # pint looks through all prefixes, units and suffixes
+            parsed = self._registry.parse_unit_name(name)
+            self._stems[name] = parsed[0][1] if parsed else None
+        return self._stems[name]
+
+
+@lru_cache(maxsize=32)
+def units(g0: float) -> Units:
+    """The shared :class:`Units` of this ``g0`` (m/s^2)."""
+    return Units(g0)
+
+
+def read_quantity(raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
+    """The number or numbers and the unit, as written; see :meth:`Units.quantity`."""
+    if isinstance(raw, str):
+        match = re.fullmatch(r"\s*([+-]?[\d.][\d.]*(?:[eE][+-]?\d+)?)\s*(\S.*)?", raw)
+        try:
+            number = float(match[1]) if match else math.nan
+        except ValueError:
+            number = math.nan
+        if match is None or math.isnan(number):
+            raise _not_a_quantity(raw, where, count)
+        return RawQuantity(_number(number, where), _need_unit(match[2], raw, where))
+    if isinstance(raw, Mapping):
+        unknown = [str(k) for k in raw if k not in ("value", "unit")]
+        if unknown or "value" not in raw:
+            raise _not_a_quantity(raw, where, count)
+        return RawQuantity(_values(raw["value"], where, count), _need_unit(raw.get("unit"), raw, where))
+    if isinstance(raw, int | float) and not isinstance(raw, bool):
+        _need_unit(None, raw, where)
+    raise _not_a_quantity(raw, where, count)
+
+
+def _values(value: object, where: str | None, count: int) -> float | tuple[float, ...]:
+    if not isinstance(value, list | tuple):
+        return _number(value, where)
+    if len(value) != count:
+        raise UserError(
+            "wrong number of values",
+            where=where,
+            found=f"{len(value)} values",
+            expected=f"one number, or {count} (A1, A2, A3, A4)" if count > 1 else "one number",
+        )
+    return tuple(_number(v, where) for v in value)
+
+
+def _number(value: object, where: str | None) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UserError("not a number", where=where, found=repr(value), expected="a number")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        shown = value if isinstance(value, float) else "a whole number too large for a float"
+        raise UserError("the value is not finite", where=where, found=shown, expected="a finite number")
+    return number
+
+
+def _need_unit(unit: object, raw: object, where: str | None) -> str:
+    if not isinstance(unit, str):
+        raise UserError(
+            "the unit is missing" if unit is None else "the unit is not a text",
+            where=where,
+            found=repr(raw),
+            expected='"0.1 m" or { value = 0.1, unit = "m" }',
+            remedy='write the unit; a pure number has the unit "1"; none is guessed',
+        )
+    return unit.strip()
+
+
+def _not_a_quantity(raw: object, where: str | None, count: int) -> UserError:
+    return UserError(
+        "not a quantity",
+        where=where,
+        found=repr(raw),
+        expected='"0.1 m", { value = 0.1, unit = "m" }'
+        + (f' or {{ value = [{", ".join("1234567890"[:count])}], unit = "m" }}' if count > 1 else ""),
+    )
+
+
+def _complaint(text: str) -> str | None:
+    """Why ``text`` cannot be a product of named units with small exponents, or ``None`` if it can."""
+    before, position, depth = "start", 0, 0
+    if len(text) > 100:
+        return "a unit is a short text"
+    while position < len(text):
+        match = _TOKEN.match(text, position)
+        if match is None:
+            return f"the sign {text[position]!r} has no meaning in a unit"
+        kind, token = str(match.lastgroup), match[0].strip()
+        depth += (token == "(") - (token == ")")
+        if before == "power":
+            if kind != "number":
+                return "an exponent must be a number"
+            if abs(float(token)) > 12:
+                return "the exponent is out of all proportion"
+        elif kind == "number" and not (before == "start" and token == "1"):
+            return "a number may stand only as an exponent: give factors in the value"
+        elif before == "number" and kind != "sign":
+            return "after a number only *, / or ) may follow"
+        before, position = kind, match.end()
+    return None if depth == 0 and before != "power" else "the unit is incomplete"
+
+
+def _dimension(unit: Any) -> str:
+    return "dimension one" if unit.dimensionless else str(unit.dimensionality)

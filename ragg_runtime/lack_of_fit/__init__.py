@@ -1,0 +1,3 @@
+"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder. May import
+fit and below.
+"""

@@ -1,0 +1,162 @@
+"""Series that generic terms are made of: recorded channels, forces that turn with the disc, and what follows them.
+
+Names are text that a reader can take literally:
+
+- a recorded channel, ``time``, and the derivatives ``d_<channel>``, ``d2_<channel>`` of a channel;
+- ``f_i``, ``f_o``: specific force along the input and output axes of the first accelerometer,
+  a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the
+  third and fourth with f_i and f_o exchanged), and their derivatives ``d_f_i``, ``d2_f_i``;
+- ``abs(X)``, ``sign(X)``, ``square(X)``;
+- ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.lack_of_fit import features
+from ragg_runtime.model.record import Record
+
+Array = NDArray[np.float64]
+
+FORCES = ("f_i", "f_o")
+"""Forces that turn with the disc."""
+
+GRID = 1000
+"""Samples between the places from which relaxations can be taken up."""
+
+FUNCTION = re.compile(r"(abs|sign|square)\((?P<of>.+)\)")
+SLOW = re.compile(r"slow\((?P<of>.+), (?P<seconds>[0-9.]+) s\)")
+DERIVATIVE = re.compile(r"d2?_(?P<of>.+)")
+
+
+def is_slow(name: str) -> bool:
+    """Whether a series remembers more of the past than a part of a record holds."""
+    return SLOW.fullmatch(name) is not None
+
+
+def stem(name: str, r: Record) -> str:
+    """The channel or force at the bottom of a name."""
+    if name in r.wide:
+        return name
+    found = FUNCTION.fullmatch(name) or SLOW.fullmatch(name) or DERIVATIVE.fullmatch(name)
+    return name if found is None else stem(found["of"], r)
+
+
+def recorded(name: str, r: Record) -> bool:
+    """Whether a record has all that a series needs."""
+    base = stem(name, r)
+    if base in FORCES and base not in r.wide:
+        return "a_x" in r.wide and "a_y" in r.wide
+    return base == "time" or base in r.wide
+
+
+def series(name: str, r: Record) -> Array:
+    """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`)."""
+    if name == "time":
+        return r.time
+    if (found := FUNCTION.fullmatch(name)) is not None:
+        x = series(found["of"], r)
+        return np.asarray({"abs": np.abs, "sign": np.sign, "square": np.square}[found[1]](x))
+    if name not in r.wide and stem(name, r) in FORCES:
+        return _turning(name, r)
+    known = r.series(name)
+    assert known is not None, name
+    return known
+
+
+def _turning(name: str, r: Record) -> Array:
+    """f_i, f_o and derivatives: real and imaginary part of (d/dt + i Omega)^n (a_y + i a_x) times e^(i phi)."""
+    order = {"": 0, "d_": 1, "d2_": 2}[name[:-3]]
+    spin = 2j * np.pi * r.spin_frequency
+    factors = ([1.0], [spin, 1.0], [spin**2, 2 * spin, 1.0])[order]
+    z = np.zeros(len(r.time), dtype=np.complex128)
+    for prefix, factor in zip(("", "d_", "d2_"), factors, strict=False):
+        x, y = r.series(f"{prefix}a_x"), r.series(f"{prefix}a_y")
+        assert x is not None and y is not None
+        z += factor * (y + 1j * x)
+    z *= r.cos_phi + 1j * r.sin_phi
+    return np.asarray(z.real if name.endswith("f_i") else z.imag)
+
+
+class Relaxations:
+    """Series ``slow(X, T s)``: y' = (X - y)/T, from rest; a channel's value at the first valid sample is its zero.
+
+    They are run through once, segment by segment (:meth:`advance`), and then taken up again anywhere
+    (:meth:`series`, which changes nothing).
+    """
+
+    def __init__(self, names: Sequence[str], record: Record) -> None:
+        self._record = record
+        self._of: dict[str, tuple[str, float]] = {}
+        for name in names:
+            found = SLOW.fullmatch(name)
+            assert found is not None, name
+            self._of[name] = (found["of"], float(np.exp(-1.0 / (record.rate * float(found["seconds"])))))
+        self._origin: dict[str, float] = {}
+        self._last = dict.fromkeys(self._of, 0.0)
+        self._states: list[dict[str, float]] = []  # before every GRID-th sample
+        self._done = 0
+
+    def advance(self, r: Record) -> dict[str, Array]:
+        """All series over the next part of the record, (N,), SI."""
+        made = {n: self._run(n, r, self._last[n]) for n in self._of}
+        for k in range(-self._done % GRID, len(r.time), GRID):
+            self._states.append({n: float(y[k - 1]) if k else self._last[n] for n, y in made.items()})
+        self._done += len(r.time)
+        self._last = {n: float(y[-1]) for n, y in made.items()}
+        return made
+
+    def series(self, name: str, r: Record) -> Array:
+        """(N,), SI, over any part of the record."""
+        start = int(np.searchsorted(self._record.time, r.time[0]))
+        k, between = divmod(start, GRID)
+        last = self._states[k][name]
+        if between:
+            last = float(self._run(name, self._record.part(slice(start - between, start)), last)[-1])
+        return self._run(name, r, last)
+
+    def _run(self, name: str, r: Record, last: float) -> Array:
+        of, c = self._of[name]
+        x = series(of, r)
+        if of in FORCES or FUNCTION.fullmatch(of):
+            origin = 0.0
+        else:
+            if of not in self._origin and r.valid.any():
+                self._origin[of] = float(x[np.argmax(r.valid)])
+            origin = self._origin.get(of, 0.0)
+        x = np.where(r.valid, x - origin, 0.0)
+        y, _ = signal.lfilter([1.0 - c], [1.0, -c], x, zi=[c * last])
+        return np.asarray(y)
+
+
+_RATES = {"d_": "m/s^3", "d2_": "m/s^4"}
+
+
+def term_unit(channels_: Sequence[str]) -> str:
+    """Unit of a term's coefficient: V over the units of its channels."""
+    units = [channel_unit(c) for c in channels_]
+    return "V" if not units else f"V/({'*'.join(units)})"
+
+
+def channel_unit(name: str) -> str:
+    """SI unit of a series of :mod:`ragg_runtime.lack_of_fit.features`."""
+    if name in features.FORCES:
+        return "m/s^2"
+    if (call := features.FUNCTION.fullmatch(name)) is not None:
+        unit = channel_unit(call["of"])
+        return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[call[1]]
+    if (slow := features.SLOW.fullmatch(name)) is not None:
+        return channel_unit(slow["of"])
+    if name not in SI_UNITS and (rate := features.DERIVATIVE.fullmatch(name)) is not None:
+        unit, per = channel_unit(rate["of"]), name.partition("_")[0]
+        if unit == "m/s^2":
+            return _RATES[f"{per}_"]
+        return f"{unit}/{'s' if per == 'd' else 's^2'}"
+    return SI_UNITS.get(name, "1")

@@ -1,0 +1,316 @@
+"""Is anything left? A search over generic terms of the residual, and the names of those that are there.
+
+After the model and the chosen effects are projected out, every term of the dictionary is scored against
+what remains. The largest score of an effect-free record is known, so its significance is; terms are taken
+one by one (orthogonal matching pursuit) while the largest is significant. Scores and inner products are sums
+over the segments of a flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.passes import Piece, flight_segments
+from ragg_runtime.fit.prepared import Flown, Projector
+from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
+from ragg_runtime.lack_of_fit.spectral_line import Periodogram
+from ragg_runtime.lack_of_fit.time_varying import BlockScores
+from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
+
+Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
+T = TypeVar("T")
+
+FAMILY = 0.004
+"""Probability with which anything at all may seem left of an effect-free record."""
+
+SHARES = (0.5, 0.25, 0.25)
+"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
+
+MOST_TERMS = 8
+
+EFFORT = 3.0
+"""How much longer the search of a segment takes than making it."""
+
+SHORTLIST = 400
+"""Terms among which several are sought: those with the largest scores."""
+
+INDISTINGUISHABLE = 9.0
+"""Chi-square by which a term of lower order may be worse and still be preferred (3 sigma)."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A generic term in a residual.
+
+    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of
+    time) or ``line`` (not of a multiple of the spin rate; the harmonic then names the frequency).
+
+    Attributes
+    ----------
+    coefficient, std
+        V per SI unit of the product of channels.
+    z
+        Its significance when it was taken, in standard deviations.
+    chi2
+        What it explained then.
+    mean_square
+        Of the term in the residual, V^2 (about its mean, for const terms).
+    how
+        In words, how a varying term varies.
+    centre
+        Means that its auxiliary channels enter less.
+    """
+
+    term: Term
+    coefficient: float
+    std: float
+    z: float
+    chi2: float
+    mean_square: float
+    kind: str = "steady"
+    how: str = ""
+    centre: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Omnibus:
+    """The search over one flight's dictionary.
+
+    ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
+    of ``square``, the whitened residual's sum of squares.
+    """
+
+    log_p: float
+    tried: int
+    terms: tuple[Found, ...]
+    chi2: float
+    square: float
+
+    @property
+    def significant(self) -> bool:
+        return bool(self.log_p < np.log(FAMILY))
+
+
+class Sums:
+    """What the search needs of every term: sums over segments."""
+
+    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
+        self.dot = np.zeros(terms)
+        self.along = np.zeros((terms, basis))
+        self.norm2 = np.zeros(terms)
+        self.raw = np.zeros((2, terms))
+        self.samples = 0
+        self.square = 0.0
+        self.blocks, self.spectrum = blocks, spectrum
+
+    def join(self, other: Sums) -> None:
+        """Count in the sums of further segments."""
+        for name in ("dot", "along", "norm2", "raw"):
+            getattr(self, name)[...] += getattr(other, name)
+        self.samples += other.samples
+        self.square += other.square
+        self.blocks.join(other.blocks)
+        self.spectrum.join(other.spectrum)
+
+
+class Scores:
+    """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
+
+    def __init__(self, flown: Flown, projector: Projector) -> None:
+        self.flown, self.projector = flown, projector
+        o = flown.observation
+        self.dictionary = Dictionary(o.record)
+        self._excluded = None
+        if unknown_gradient.unknown(o):  # there nothing is left of the noise either
+            double = 2 * o.record.spin_frequency
+            self._excluded = (
+                double - 2 / unknown_gradient.KNOT_SECONDS,
+                double + 2 / unknown_gradient.KNOT_SECONDS,
+            )
+        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self.sums = self._zero()
+
+    def _zero(self) -> Sums:
+        return Sums(
+            len(self.dictionary.terms),
+            len(self.projector.along),
+            BlockScores(self.dictionary.first_order, self.flown.observation.record.time),
+            Periodogram(self._longest, self.flown.observation.record.rate, self._excluded),
+        )
+
+    def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
+        """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
+        s = self._zero()
+        s.square = float(y @ y)
+        s.samples = int(np.sum(piece.observation.record.valid))
+        right = np.column_stack([y, Q])
+        ones = np.ones((len(piece.observation.record.time), 1))
+        s.blocks.level(piece, y)
+        s.spectrum.add(piece, y)
+        for at, x, inner, norm2, X in self._of_terms(Directions(self.flown, self.dictionary, piece), right):
+            s.dot[at] = inner[:, 0]
+            s.along[at] = inner[:, 1:]
+            s.norm2[at] = norm2
+            if X is not None:
+                s.blocks.add(piece, y, at, X)
+            s.raw[0, at] = products(x, ones)[:, 0]
+            s.raw[1, at] = squares(x)
+        return s
+
+    def _of_terms(
+        self, d: Directions, right: Array
+    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
+        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
+        terms, slow = self.dictionary.terms, self.dictionary.slow if d.round else None
+        for at, x, X in d.whitened(terms[:slow]):
+            yield at, x, products(X, right), squares(X), X
+        if slow is not None:
+            for at, x, inner, norm2 in d.scores(terms[slow:], right):
+                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
+
+    def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
+        """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
+        d = Directions(self.flown, self.dictionary, piece)
+        terms = [self.dictionary.terms[k] for k in sorted(places)]
+        slow = sum(k < self.dictionary.slow for k in places)
+        found = [*d.whitened(terms[:slow]), *(d.gone_round if d.round else d.whitened)(terms[slow:])]
+        return np.concatenate([X for _, _, X in found])
+
+    def gram(self, places: Sequence[int]) -> Array:
+        """Inner products of some whitened terms, base projected out, by another pass over the flight."""
+
+        def inner(piece: Piece) -> Array:
+            X = self.whitened(piece, places)
+            return np.asarray(X @ X.T)
+
+        G = np.zeros((len(places), len(places)))
+        for part in self.flown.each(inner):
+            G += part
+        row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
+        A = self.sums.along[list(places)]
+        return G[np.ix_(row, row)] - A @ A.T
+
+
+def search(
+    flown: Flown, projector: Projector, further: Callable[[Piece, Array], T]
+) -> tuple[Omnibus, list[T]]:
+    """What is left of a flight, and what ``further`` makes of every segment and its whitened, projected residual."""
+    scores = Scores(flown, projector)
+
+    def both(piece: Piece) -> tuple[Sums, T]:
+        Q = projector.basis(piece)
+        y = projector.left(piece, Q)
+        return scores.of(piece, y, Q), further(piece, y)
+
+    found = []
+    for sums, more in flown.each(both, effort=EFFORT):
+        scores.sums.join(sums)
+        found.append(more)
+    return choose(scores), found
+
+
+def choose(s: Scores) -> Omnibus:
+    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
+    steady = _steady(s)
+    further = [t for t in (_varying(s), _line(s)) if t is not None]
+    log_p = min([steady.log_p, *(p for p, _ in further)])
+    significant = [(p, found) for p, found in further if p < np.log(FAMILY)]
+    if steady.terms or not significant:
+        return replace(steady, log_p=log_p)
+    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+
+
+def _varying(s: Scores) -> tuple[float, Found] | None:
+    # Terms that the model has, with one coefficient for the whole flight, may vary as well as any other.
+    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
+    if v is None:
+        return None
+    term = s.dictionary.terms[v.place]
+    size = s.dictionary.size(term)
+    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
+    z = float(np.sqrt(v.chi2))
+    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
+    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+
+
+def _line(s: Scores) -> tuple[float, Found] | None:
+    if s.flown.observation.kind == "channels":
+        return None  # their noise is only white within the demodulator's band
+    line = s.sums.spectrum.best()
+    if line is None:
+        return None
+    # back from the whitened residual: the noise's own density at the line
+    volts2 = sum(float(m.psd(np.array([line.frequency]))[0]) for m in s.flown.noise.models)
+    mean_square = line.share * volts2 * s.flown.observation.record.rate / 2
+    chi2 = line.share * s.sums.square
+    found = Found(
+        Term(f"line {line.frequency:.5g} Hz", ()),
+        float(np.sqrt(2 * mean_square)),
+        float(np.sqrt(2 * mean_square / max(chi2, 1.0))),
+        float(np.sqrt(chi2)),
+        chi2,
+        mean_square,
+        "line",
+    )
+    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
+
+
+def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+    """The largest scores, one by one, while they are significant."""
+    left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
+    # in single precision a column that is nearly all in the base has no direction of its own left
+    good = left2 > 1e-6 * s.sums.norm2
+    norm = np.sqrt(np.where(good, left2, np.inf))
+    tried = int(np.sum(good))
+    z = s.sums.dot / norm
+    first = _log_p(z, tried)
+    if first >= np.log(FAMILY):
+        return Omnibus(first, tried, (), 0.0, s.sums.square)
+    places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
+    G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
+    score, left = z[places].copy(), np.ones(len(places))
+    directions: list[Array] = []  # components of every term along each direction taken
+    taken: list[Found] = []
+    chi2 = 0.0
+    while len(taken) < most:
+        now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
+        if _log_p(now, tried) >= np.log(FAMILY):
+            break
+        near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
+        k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
+        length = float(np.sqrt(left[k]))
+        along = (G[:, k] - sum((d * d[k] for d in directions), np.zeros(len(places)))) / length
+        amount = float(score[k]) / length
+        directions.append(along)
+        score = score - along * amount
+        left = left - along**2
+        chi2 += amount**2
+        place = int(places[k])
+        term = s.dictionary.terms[place]
+        std = 1.0 / (float(norm[place]) * length * s.dictionary.size(term))
+        mean, square = s.sums.raw[:, place] / max(s.sums.samples, 1)
+        spread = square - mean**2 if term.harmonic == "const" else square
+        size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
+        taken.append(
+            Found(term, amount * std, std, float(now[k]), amount**2, size2, centre=s.dictionary.centre)
+        )
+    return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
+
+
+def _log_p(z: Array, tried: int) -> float:
+    """p-value, as a logarithm, of the largest of so many standard normal deviates."""
+    top = float(np.max(np.abs(z), initial=0.0))
+    return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1) / SHARES[0])))
+
+
+def strongest(found: Sequence[Found]) -> list[Found]:
+    return sorted(found, key=lambda t: -t.chi2)

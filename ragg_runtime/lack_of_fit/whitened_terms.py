@@ -1,0 +1,147 @@
+"""Generic terms, whitened, over one segment of a flight: the directions along which a residual is asked.
+
+Any direction tells a standard normal deviate from white noise; the whitened series of a term is the one that finds
+the term best. Terms that are slow or come alone pass through the noise's filter as everything does. The many
+that oscillate go round: through the same filter taken as periodic in the segment. Their inner product
+with the residual is then that of the plain series with the residual filtered backwards, and their norm a
+sum over their spectrum, at a quarter of the cost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from ragg_runtime.base.threads import count, mapped
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.observation import narrow
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
+from ragg_runtime.signals.fir import filtered
+
+Array = NDArray[np.float64]
+Singles = NDArray[np.float32]
+
+MEMORY = 16384
+"""Most taps of the filter that terms are whitened with: a direction need not be the best one for its
+score to be a standard normal deviate, and slower memory than this buys little."""
+
+STRETCH = 2048
+"""Samples that are summed in single precision."""
+
+
+def products(X: Singles, right: Array) -> Array:
+    """X (terms, N) times right (N, k): single precision within a stretch, double from stretch to stretch."""
+    singles = right.astype(np.float32)
+    total = np.zeros((len(X), right.shape[1]))
+    for start in range(0, X.shape[1], STRETCH):
+        total += X[:, start : start + STRETCH] @ singles[start : start + STRETCH]
+    return total
+
+
+def squares(X: Singles) -> Array:
+    """(terms,): sums of squares of X (terms, N), as :func:`products` sums."""
+    total = np.zeros(len(X))
+    for start in range(0, X.shape[1], STRETCH):
+        part = X[:, start : start + STRETCH]
+        total += np.matmul(part[:, None, :], part[:, :, None])[:, 0, 0]
+    return total
+
+
+def _kept(X: Singles, valid: NDArray[np.bool_]) -> Singles:
+    return X if valid.all() else X[:, valid]
+
+
+class Directions:
+    """Whitened series of the terms of a dictionary over a segment."""
+
+    def __init__(self, flown: Flown, dictionary: Dictionary, piece: Piece) -> None:
+        self.piece, self.dictionary, self.whole = piece, dictionary, flown.observation
+        r = piece.observation.record
+        self.filters = [taps[:MEMORY] for taps in flown.noise.filters]
+        self.size = len(r.time)
+        self.round = piece.observation.kind != "channels" and bool(r.valid.all())
+        """Whether terms can go round: not past gaps, nor through the demodulator's filter."""
+        if self.round:
+            cut = [np.asarray(taps[: self.size]) for taps in self.filters]
+            self.gains = [
+                w * fft.rfft(h, self.size) for w, h in zip(piece.observation.weights, cut, strict=True)
+            ]
+
+    def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
+        """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
+        o, piece = self.piece.observation, self.piece
+        rows = piece.segment.rows
+        lead = min(rows.start, max(len(t) for t in self.filters) - 1)
+        wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
+        valid = o.record.valid
+        chunks = self.dictionary.chunks(wide, terms)
+
+        def through(k: int) -> tuple[slice, Singles, Singles]:
+            at, x = chunks[k]
+            if o.kind == "channels":  # what the recorder made of G_out before it was recorded
+                x = narrow(x.astype(np.float64), wide).astype(np.float32)
+                x[:, ~wide.valid] = 0.0
+            parts = [
+                _kept(filtered(x, np.asarray(w * taps), lead=lead), valid)
+                for w, taps in zip(o.weights, self.filters, strict=True)
+            ]
+            return at, x[:, lead:], self._without_gradient(parts)
+
+        yield from mapped(through, range(len(chunks)))
+
+    def gone_round(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
+        """As :meth:`whitened`, through the periodic filter."""
+        for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
+            spectrum = fft.rfft(x, axis=1, workers=count())
+            parts = [
+                fft.irfft(spectrum * g.astype(np.complex64), self.size, axis=1, workers=count())
+                for g in self.gains
+            ]
+            yield at, x, self._without_gradient(parts)
+
+    def _without_gradient(self, parts: Sequence[Singles]) -> Singles:
+        X = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+        unknown_gradient.project(X, self.piece.windows)
+        return X
+
+    def scores(self, terms: Sequence[Term], right: Array) -> Iterator[tuple[slice, Singles, Array, Array]]:
+        """Places, series (terms, N), inner products with ``right`` (rows, k), and squared norms, gone round.
+
+        ``right`` must hold nothing that an unknown gradient spans.
+        """
+        back = self._back(right)
+        lost = [self._back(w.white, w.places) for w in self.piece.windows]
+        # Parseval: the squared norm over all outputs is a weighted sum over the spectrum
+        power = np.sum([np.abs(g) ** 2 for g in self.gains], axis=0) / self.size
+        power[1 : len(power) - (self.size % 2 == 0)] *= 2.0
+        weight = np.sqrt(power).astype(np.float32)
+        chunks = self.dictionary.chunks(self.piece.observation.record, terms)
+
+        def scored(k: int) -> tuple[slice, Singles, Array, Array]:
+            at, x = chunks[k]
+            spectrum = fft.rfft(x, axis=1, workers=count()) * weight
+            norm2 = squares(spectrum.view(np.float32))
+            for Z in lost:
+                norm2 -= np.sum(products(x, Z) ** 2, axis=1)
+            return at, x, products(x, back), norm2
+
+        yield from mapped(scored, range(len(chunks)))
+
+    def _back(self, right: Array, places: NDArray[np.intp] | None = None) -> Array:
+        """(N, k): columns over whitened rows (all, or those at ``places``) through the transposed filter."""
+        m, n = len(self.gains), self.size
+        full = right
+        if places is not None:
+            full = np.zeros((m * n, right.shape[1]))
+            full[places] = right
+        total = np.zeros((right.shape[1], n))
+        for part, gain in zip(np.split(full.T, m, axis=1), self.gains, strict=True):
+            total += fft.irfft(
+                fft.rfft(part, axis=1, workers=count()) * np.conj(gain), n, axis=1, workers=count()
+            )
+        return total.T

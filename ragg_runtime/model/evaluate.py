@@ -1,0 +1,77 @@
+"""A model over a flight: parameter vectors, inputs, output voltages and their derivatives."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.record import Record
+
+Array = NDArray[np.float64]
+
+EOTVOS = 1e-9
+"""1 Eo in s^-2."""
+
+
+def voltages(chain: Chain, r: Record, p: Array) -> Array:
+    """V_1 ... V_4, (4, N), V."""
+    x = r.inputs(chain)
+    return np.stack(
+        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in range(4)]
+    )
+
+
+def output(chain: Chain, r: Record, p: Array) -> Array:
+    """G_out, (N,), V (Eq. 15)."""
+    v = voltages(chain, r, p)
+    return np.asarray((v[0] + v[1]) - (v[2] + v[3]))
+
+
+def scale_factor(chain: Chain, p: Array) -> float:
+    """k_ggi = sum of k_VI K1 R_j, V/Eo (Eq. 30)."""
+    values = named(chain, p)
+    k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
+    return float(np.sum(k1 * R)) * EOTVOS
+
+
+def named(chain: Chain, p: Array) -> dict[str, Array]:
+    """A parameter vector as name -> values (one or four)."""
+    result, start = {}, 0
+    for name, size in chain.PARAMETERS:
+        result[name] = p[start : start + size]
+        start += size
+    return result
+
+
+def vector(model: Model, instrument: Instrument) -> Array:
+    """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
+    known = units(instrument.g0)
+    values: dict[str, Array] = {
+        "radius": np.array([instrument.radius]),
+        "spin_frequency": np.array([instrument.spin_frequency]),
+    }
+    values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
+    settings = {s.id: s for s in instrument.effects}
+    for e in model.effects:
+        setting = settings.get(e.id)
+        for q in e.parameters:
+            size = 1 if q.shared else 4
+            given = setting.values.get(q.name) if setting else None
+            if given is None:
+                values[q.symbol] = np.full(size, (q.neutral or 0.0) * unit_factor(q.unit, known))
+            else:
+                si = known.base_unit(q.unit)
+                value = known.to_si(np.asarray(given.value), given.unit, si, f"effect {e.id}, {q.name}")
+                values[q.symbol] = np.broadcast_to(value, size).astype(float)
+    return np.concatenate([values[name] for name, _ in model.chain.PARAMETERS])
+
+
+@cache
+def unit_factor(unit: str, known: Units) -> float:
+    """SI value of one display unit."""
+    return float(known.to_si(1.0, unit, known.base_unit(unit)))

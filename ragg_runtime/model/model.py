@@ -1,0 +1,189 @@
+"""Derived models as Python objects: the packaged one, or one derived for a list of effects."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+from importlib import resources
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from ragg_runtime.model.native import Evaluator
+
+Array = NDArray[np.float64]
+
+
+class Chain(Protocol):
+    """A generated module: one accelerometer's V_j and its derivatives (see ``generated/chain.py``)."""
+
+    INPUTS: tuple[str, ...]
+    PARAMETERS: tuple[tuple[str, int], ...]
+    ROWS: tuple[tuple[str, bool], ...]
+    SIGNS: tuple[int, ...]
+    SIZE: int
+
+    def accelerometer(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def derivatives(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def values_of(self, j: int, p: Array) -> Array: ...
+
+
+@dataclass(frozen=True)
+class EffectParameter:
+    """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector."""
+
+    name: str
+    symbol: str
+    latex: str
+    unit: str
+    meaning: str
+    plausible: float
+    shared: bool
+    neutral: float | None
+    channel: str | None
+    fitted: bool
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What the runtime knows of a physical effect, from the manifest of the derivation."""
+
+    id: str
+    title: str
+    physics: str
+    source: str
+    equation: str
+    limits: str
+    channels: tuple[str, ...]
+    kind: str
+    parameters: tuple[EffectParameter, ...]
+
+
+MANY = 200_000
+"""Samples from which a model that was derived for a flight is worth half a second of compiling."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A derived model.
+
+    Attributes
+    ----------
+    effects
+        Effects in the model beyond the paper's instrument.
+    candidates
+        Effects known but not in the model; their signatures are in ``signatures`` (none: no signatures).
+    chain, signatures
+        Generated modules.
+    digest
+        Digest of the derivation.
+    sources
+        The model in C: file name -> text, as derived.
+    folded
+        The generated module of the folded form, which only the paper's model has.
+    fitting
+        The C of chain and signatures: of what fits evaluate.
+    in_machine_code
+        Whether fits run in machine code (see :meth:`for_fits`).
+    """
+
+    effects: tuple[Effect, ...]
+    candidates: tuple[Effect, ...]
+    chain: Chain
+    signatures: Chain
+    digest: str
+    sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    folded: ModuleType | None = field(default=None, repr=False, compare=False)
+    fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
+    in_machine_code: bool = field(default=False, compare=False)
+
+    def for_fits(self, samples: int) -> Model:
+        """The model for fits to so many samples: in machine code if they outweigh the wait for the compiler."""
+        return self if self.in_machine_code or samples < MANY else replace(self, in_machine_code=True)
+
+    @cached_property
+    def evaluators(self) -> Mapping[str, Evaluator]:
+        """``chain`` and ``signatures``, as fits evaluate them."""
+        from ragg_runtime.model.native import for_fits
+
+        modules = {"chain": self.chain, "signatures": self.signatures}
+        return for_fits(modules, self.fitting if self.in_machine_code else {})
+
+    def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
+        """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
+        from ragg_runtime.model.native import evaluator
+
+        return evaluator(self.chain, self.sources, self.folded, backend)
+
+    def effect(self, identifier: str) -> Effect | None:
+        """The effect of this id, in the model or not; ``None`` if unknown."""
+        return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
+
+
+@cache
+def packaged() -> Model:
+    """The model of the paper, without further effects, as derived and committed."""
+    import generated
+    from generated import chain, folded, signatures
+
+    root = resources.files(generated)
+    manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
+
+    names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
+    c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
+    model = _model(manifest, chain, signatures, c)
+    sources = {name: c[name] for name in c if not name.startswith("signatures")}
+    # compiled once for all flights
+    return replace(model, sources=sources, folded=folded, in_machine_code=True)
+
+
+def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
+    """A model from derived source texts (``derive.pipeline.derive_model``).
+
+    The texts are executed: pass only what the derivation of this program has just yielded or what is,
+    byte for byte, the same.
+    """
+    modules = {}
+    for name in ("chain", "signatures"):
+        if f"{name}.py" not in files:
+            continue
+        module = ModuleType(f"ragg_{label}_{name}")
+        sys.modules[module.__name__] = module
+        exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
+        modules[name] = module
+    c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
+    model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
+    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")})
+
+
+def _model(
+    manifest: Mapping[str, Any], chain: ModuleType, signatures: ModuleType | None, c: Mapping[str, str]
+) -> Model:
+    effects = tuple(_effect(e) for e in manifest["catalogue"])
+    present = list(manifest["effects"])
+    by_id = {e.id: e for e in effects}
+    return Model(
+        tuple(by_id[i] for i in present),
+        tuple(e for e in effects if e.id not in present) if signatures is not None else (),
+        cast(Chain, chain),
+        cast(Chain, signatures or chain),
+        manifest["digest"],
+        fitting={n: text for n, text in c.items() if n.partition(".")[0] in ("chain", "signatures")},
+    )
+
+
+def _effect(entry: Mapping[str, Any]) -> Effect:
+    parameters = tuple(EffectParameter(**q) for q in entry["parameters"])
+    return Effect(**{**entry, "channels": tuple(entry["channels"]), "parameters": parameters})

@@ -1,0 +1,175 @@
+"""Arguments of an evaluation: checked, cut into parts, worked on in threads."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Protocol, TypeGuard
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ragg_runtime.base.errors import UserError
+
+Array = NDArray[np.float64]
+Series = Sequence[ArrayLike | None] | NDArray[np.floating]
+"""Inputs, one series of N samples each, in the order of the model; ``None``: not recorded, zero."""
+
+BLOCK = 4096
+"""Samples that threads and NumPy blocks are cut at: a multiple of the block of the generated C."""
+
+WORTH_A_THREAD = 1 << 16
+"""Fewer samples than these are not worth a thread."""
+
+
+def address(x: Array) -> int:
+    """Where an array begins."""
+    return x.ctypes.data
+
+
+class Module(Protocol):
+    """What is needed of a generated chain in NumPy."""
+
+    INPUTS: tuple[str, ...]
+    ROWS: tuple[tuple[str, bool], ...]
+    SIZE: int
+
+    def accelerometer(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def derivatives(
+        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
+    ) -> Array: ...
+
+    def values_of(self, j: int, p: Array) -> Array: ...
+
+
+@dataclass(frozen=True)
+class Case:
+    """Checked arguments: contiguous series, the inputs as rows of a matrix where they came as one."""
+
+    t: Array
+    inputs: Array | tuple[Array, ...]
+    p: Array
+    angle: Array | None
+
+    @property
+    def matrix(self) -> Array:
+        """(n_inputs, N)."""
+        return self.inputs if isinstance(self.inputs, np.ndarray) else np.stack(self.inputs)
+
+    @property
+    def addresses(self) -> list[int]:
+        """Where each input series begins."""
+        if isinstance(self.inputs, np.ndarray):
+            first, step = address(self.inputs), self.inputs.strides[0]
+            return [first + step * k for k in range(len(self.inputs))]
+        return [address(x) for x in self.inputs]
+
+    def part(self, first: int, last: int) -> Case:
+        cut = slice(first, last)
+        angle = None if self.angle is None else self.angle[cut]
+        if isinstance(self.inputs, np.ndarray):
+            return Case(self.t[cut], self.inputs[:, cut], self.p, angle)
+        return Case(self.t[cut], tuple(x[cut] for x in self.inputs), self.p, angle)
+
+
+@dataclass(frozen=True)
+class Base:
+    """What both backends share: arguments are checked, series cut, parts put together."""
+
+    chain: Module
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        return self.chain.INPUTS
+
+    def _case(self, t: ArrayLike, inputs: Series, p: ArrayLike, angle: ArrayLike | None) -> Case:
+        time = _series(t, "t")
+        if len(inputs) != len(self.chain.INPUTS):
+            names = " ".join(self.chain.INPUTS)
+            raise UserError(
+                "wrong number of input series",
+                found=len(inputs),
+                expected=f"{len(self.chain.INPUTS)}: {names}",
+            )
+        rows = inputs if _is_matrix(inputs, len(time)) else self._each(inputs, len(time))
+        values = np.ascontiguousarray(p, dtype=np.float64)
+        if values.shape != (self.chain.SIZE,):
+            raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
+        phi = None if angle is None else _series(angle, "angle", len(time))
+        return Case(time, rows, values, phi)
+
+    def _each(self, inputs: Series, length: int) -> tuple[Array, ...]:
+        zero: Array | None = None
+        rows: list[Array] = []
+        for name, x in zip(self.chain.INPUTS, inputs, strict=True):
+            if x is None:
+                zero = np.zeros(length) if zero is None else zero
+                rows.append(zero)
+            else:
+                rows.append(_series(x, name, length))
+        return tuple(rows)
+
+
+def _is_matrix(x: Series, length: int) -> TypeGuard[Array]:
+    """Whether series are the contiguous rows of a float64 matrix, to be used where they lie."""
+    return (
+        isinstance(x, np.ndarray)
+        and x.dtype == np.float64
+        and x.dtype.isnative
+        and x.ndim == 2
+        and x.shape[1] == length
+        and (x.strides[1] == x.itemsize or length <= 1)
+        and x.flags.aligned
+    )
+
+
+def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
+    found = np.ascontiguousarray(x, dtype=np.float64)
+    if found.ndim != 1 or (length is not None and len(found) != length):
+        raise UserError(
+            f"{name} is no series of samples",
+            found=f"shape {found.shape}",
+            expected="one number a sample" if length is None else f"shape ({length},)",
+        )
+    return found
+
+
+def into(out: Array | None, length: int) -> Array:
+    if out is None:
+        return np.empty(length)
+    if out.dtype != np.float64 or out.shape != (length,) or not out.flags.carray:
+        raise UserError(
+            "out cannot be written to",
+            found=f"{out.dtype}, shape {out.shape}",
+            expected=f"contiguous float64, shape ({length},)",
+        )
+    return out
+
+
+def cut(n: int, threads: int | None) -> list[tuple[int, int]]:
+    """Parts of n samples for threads (``None``: as many as are worth it), at multiples of BLOCK."""
+    if threads is None:
+        available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        threads = min(available, n // WORTH_A_THREAD)
+    blocks = -(-n // BLOCK)
+    threads = max(1, min(threads, blocks))
+    edges = [min(n, BLOCK * (blocks * k // threads)) for k in range(threads + 1)]
+    return [(a, b) for a, b in pairwise(edges) if a < b]
+
+
+def in_parts(c: Case, threads: int | None, work: Callable[[Case, int, int], None]) -> None:
+    """Call ``work`` on every part of a case, in threads if there are several."""
+    parts = cut(len(c.t), threads)
+    if len(parts) <= 1:
+        for first, last in parts:
+            work(c, first, last)
+        return
+    with ThreadPoolExecutor(len(parts)) as pool:
+        for running in [pool.submit(work, c.part(a, b), a, b) for a, b in parts]:
+            running.result()

@@ -1,0 +1,255 @@
+"""One interface to a derived model, in machine code or in NumPy."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.model.native.arguments import Base, Case, Module, Series, cut, in_parts, into
+from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
+from ragg_runtime.model.native.library import Library
+
+Array = NDArray[np.float64]
+Backend = Literal["auto", "c", "numpy"]
+
+
+class Evaluator(Protocol):
+    """A model to be evaluated. Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS.
+
+    ``angle`` is the disc angle, rad, (N,); by default 2 pi spin_frequency t, reduced exactly. Series that are
+    contiguous float64 are used where they lie; others are converted. The figures do not depend on the number
+    of threads.
+    """
+
+    @property
+    def backend(self) -> str:
+        """``c`` or ``numpy``."""
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the series, in order."""
+
+    def output(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+        out: Array | None = None,
+    ) -> Array:
+        """G_out, (N,), V; written into ``out``, contiguous float64, where that is given."""
+
+    def voltages(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        """V_1 ... V_4, (4, N), V."""
+
+    def derivatives(
+        self,
+        j: int,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        """Derivatives of V_j, j = 0 ... 3, (rows, N), in the order of the chain's ROWS."""
+
+
+@dataclass(frozen=True)
+class Compiled(Base):
+    """A model in machine code; ``folded``: the library also holds the folded form of the base model.
+
+    ``name`` is the generated module's.
+    """
+
+    library: Library
+    folded: bool
+    backend: str = "c"
+    name: str = "chain"
+
+    def output(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+        out: Array | None = None,
+    ) -> Array:
+        case = self._case(t, inputs, p, angle)
+        G = into(out, len(case.t))
+        name = "folded" if self.folded else self.name
+
+        def work(c: Case, first: int, last: int) -> None:
+            self.library.series(name, "output", c, G[first:last])
+
+        in_parts(case, threads, work)
+        return G
+
+    def voltages(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        return self._rows("voltages", 4, self._case(t, inputs, p, angle), threads)
+
+    def derivatives(
+        self,
+        j: int,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        c = self._case(t, inputs, p, angle)
+        return self._rows("derivatives", len(self.chain.ROWS), c, threads, (_accelerometer(j),))
+
+    def _rows(
+        self, function: str, rows: int, case: Case, threads: int | None, leading: Sequence[int] = ()
+    ) -> Array:
+        found = np.empty((rows, len(case.t)))
+
+        def work(c: Case, first: int, last: int) -> None:
+            whole = last - first == found.shape[1]
+            part = found if whole else np.empty((rows, last - first))
+            self.library.series(self.name, function, c, part, leading)
+            if not whole:
+                found[:, first:last] = part
+
+        in_parts(case, threads, work)
+        return found
+
+
+@dataclass(frozen=True)
+class Interpreted(Base):
+    """A model in NumPy, in blocks that stay in cache; ``folded``: the folded form of the base model."""
+
+    folded: ModuleType | None
+    backend: str = "numpy"
+
+    def output(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+        out: Array | None = None,
+    ) -> Array:
+        if self.folded is None:
+            v = self.voltages(t, inputs, p, angle, threads)
+            G = into(out, v.shape[1])
+            G[:] = (v[0] + v[1]) - (v[2] + v[3])
+            return G
+        c = self._case(t, inputs, p, angle)
+        G = into(out, len(c.t))
+        for first, last in cut(len(G), len(G)):
+            b = c.part(first, last)
+            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle)
+        return G
+
+    def voltages(
+        self,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        c = self._case(t, inputs, p, angle)
+        V = np.empty((4, len(c.t)))
+        for j in range(4):
+            self._chain(self.chain.accelerometer, j, c, V[j])
+        return V
+
+    def derivatives(
+        self,
+        j: int,
+        t: ArrayLike,
+        inputs: Series,
+        p: ArrayLike,
+        angle: ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> Array:
+        c = self._case(t, inputs, p, angle)
+        D = np.empty((len(self.chain.ROWS), len(c.t)))
+        self._chain(self.chain.derivatives, _accelerometer(j), c, D)
+        return D
+
+    def _chain(self, function: Callable[..., Array], j: int, c: Case, found: Array) -> None:
+        from generated.folded import disc_angle
+
+        q = self.chain.values_of(j, c.p)
+        for first, last in cut(len(c.t), len(c.t)):
+            b = c.part(first, last)
+            phi = disc_angle(b.t, float(c.p[1])) if b.angle is None else b.angle
+            found[..., first:last] = function(j, b.t, np.cos(phi), np.sin(phi), b.matrix, q)
+
+
+def _accelerometer(j: int) -> int:
+    if j not in range(4):
+        raise UserError("there is no such accelerometer", found=j, expected="0, 1, 2 or 3")
+    return j
+
+
+_said: list[str] = []
+
+
+def evaluator(
+    chain: Module, sources: Mapping[str, str], folded: ModuleType | None, backend: Backend = "auto"
+) -> Evaluator:
+    """The evaluator of a model: of its chain in NumPy, its C (file name -> text), its folded form if it has one.
+
+    ``auto``: machine code, or NumPy with a note (once a process) where it cannot be made; ``c``: machine code, or
+    UserError.
+    """
+    if backend not in ("auto", "c", "numpy"):
+        raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
+    if backend == "numpy":
+        return Interpreted(chain, folded)
+    try:
+        return Compiled(chain, Library(build(sources).library), "folded.c" in sources)
+    except BuildError as error:
+        if backend == "c":
+            raise UserError("the model cannot be compiled", found=str(error)) from None
+        if not _said:
+            _said.append(str(error))
+            warnings.warn(
+                f"the model is not compiled, the slower NumPy code serves: {error}",
+                NativeWarning,
+                stacklevel=3,
+            )
+        return Interpreted(chain, folded)
+
+
+def for_fits(modules: Mapping[str, Module], sources: Mapping[str, str]) -> dict[str, Evaluator]:
+    """Evaluators of generated modules (name -> module) for their derivatives.
+
+    In machine code where ``sources`` (the C of all of them, or none) can be compiled; else in NumPy, without a note:
+    a fit is a little slower then, and the same but for rounding.
+    """
+    if sources:
+        try:
+            library = Library(build(sources).library)
+            return {name: Compiled(module, library, False, name=name) for name, module in modules.items()}
+        except BuildError:
+            pass
+    return {name: Interpreted(module, None) for name, module in modules.items()}

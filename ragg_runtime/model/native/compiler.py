@@ -1,0 +1,189 @@
+"""Generated C -> shared library in a cache of the user.
+
+What is compiled is text that this program has derived or that is packaged with it, never a file that was found
+in a model directory. The library's name is the digest of everything that it depends on: source, compiler,
+options, processor. The cache belongs to the user alone, or is not used.
+"""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import os
+import platform
+import shlex
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import platformdirs
+
+from ragg_runtime.base.lock import locked
+from ragg_runtime.base.ownership import belongs_to_user
+
+VARIABLE = "RAGG_NATIVE"
+"""``off``: never compile."""
+
+COMMON = ("-std=c17", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
+"""No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where
+products are fused; so a sample has the same bits wherever it stands."""
+
+FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
+    ("-march=native", "-mprefer-vector-width=512"),
+    ("-march=native",),
+    ("-mcpu=native",),
+    (),
+)
+"""Tried in turn: not every compiler knows every processor."""
+
+_PATIENCE = 120.0  # s; another process may be compiling the same
+
+
+class NativeWarning(UserWarning):
+    """There is no machine code; the NumPy model serves."""
+
+
+class BuildError(Exception):
+    """The C cannot be compiled; the message says why and what to do."""
+
+
+@dataclass(frozen=True)
+class Built:
+    """A shared library.
+
+    Attributes
+    ----------
+    library
+        The file.
+    command
+        The command that made it, for the record.
+    fresh
+        Whether it was compiled just now.
+    """
+
+    library: Path
+    command: str
+    fresh: bool
+
+
+def build(sources: Mapping[str, str], folder: Path | None = None) -> Built:
+    """Compile C files (name -> text; headers beside them) to one library, unless it is in the cache already.
+
+    ``folder`` is the cache; by default the user's. Raises BuildError.
+    """
+    compiler = find_compiler()
+    place = private_folder(folder)
+    version = _version(tuple(compiler))
+    text = "".join(f"{name}\0{sources[name]}\0" for name in sorted(sources))
+    identity = "\0".join((text, version, *compiler, *COMMON, repr(FOR_PROCESSOR), processor()))
+    name = hashlib.sha256(identity.encode()).hexdigest()[:32]
+    library, record = place / f"{name}.so", place / f"{name}.txt"
+    if not _whole(library, record):
+        try:
+            with locked(place, _PATIENCE):
+                if not _whole(library, record):
+                    return Built(library, _compile(compiler, sources, library, record), True)
+        except TimeoutError:
+            raise BuildError(f"another process keeps the cache {place} locked") from None
+        except OSError as error:
+            raise BuildError(f"the cache {place} cannot be written: {error.strerror}") from None
+    return Built(library, record.read_text("utf-8").split("\n", 1)[1].strip(), False)
+
+
+def find_compiler() -> Sequence[str]:
+    """The C compiler as the beginning of a command. Raises BuildError if there is none."""
+    if os.environ.get(VARIABLE, "").lower() in ("off", "0", "none"):
+        raise BuildError(f"{VARIABLE} is {os.environ[VARIABLE]}")
+    named = shlex.split(os.environ.get("CC", ""))
+    for command in (named,) if named else (["cc"], ["gcc"], ["clang"]):
+        path = shutil.which(command[0])
+        if path:
+            return [path, *command[1:]]
+    looked = named[0] if named else "cc, gcc, clang"
+    raise BuildError(f"there is no C compiler ({looked}): install one, or name it in CC")
+
+
+def private_folder(folder: Path | None = None) -> Path:
+    """The cache, if it is the user's own and nobody else can write to it; else one for this process alone."""
+    place = folder if folder is not None else platformdirs.user_cache_path("ragg") / "native"
+    try:
+        place.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if belongs_to_user(place.stat()) and os.access(place, os.W_OK):
+            return place
+    except OSError:
+        pass
+    return _own_folder()
+
+
+@cache
+def _own_folder() -> Path:
+    place = Path(tempfile.mkdtemp(prefix="ragg-native-"))
+    atexit.register(shutil.rmtree, place, ignore_errors=True)
+    return place
+
+
+@cache
+def processor() -> str:
+    """What ``native`` means here: caches are shared between machines where home directories are."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text("utf-8").splitlines()
+    except OSError:
+        lines = []
+    found = [x for x in lines if x.startswith(("model name", "flags", "Features", "CPU part"))]
+    return "\n".join((platform.system(), platform.machine(), platform.processor(), *dict.fromkeys(found)))
+
+
+@cache
+def _version(compiler: tuple[str, ...]) -> str:
+    done = _run([*compiler, "--version"])
+    return done.stdout if done.returncode == 0 else ""
+
+
+def _compile(compiler: Sequence[str], sources: Mapping[str, str], library: Path, record: Path) -> str:
+    """Compile into a folder of its own, then put library and record into their places; the command."""
+    errors = ""
+    with tempfile.TemporaryDirectory(dir=library.parent, prefix=".compile-") as work:
+        for name, text in sources.items():
+            (Path(work) / name).write_text(text, "utf-8")
+        units = [name for name in sorted(sources) if name.endswith(".c")]
+        for options in FOR_PROCESSOR:
+            command = [*compiler, *COMMON, *options, *units, "-lm", "-o", "library.so"]
+            done = _run(command, work)
+            if done.returncode == 0:
+                break
+            errors = errors or done.stderr
+        else:
+            last = [x for x in errors.strip().splitlines() if "error" in x][:1] or ["it says nothing"]
+            raise BuildError(f"the C compiler {compiler[0]} fails: {last[0]}")
+        made = Path(work) / "library.so"
+        shown = shlex.join(command)
+        (Path(work) / "record").write_text(f"{_digest(made)}\n{shown}\n", "utf-8")
+        os.replace(made, library)
+        os.replace(Path(work) / "record", record)
+    return shown
+
+
+def _run(command: Sequence[str], folder: str | None = None) -> subprocess.CompletedProcess[str]:
+    try:
+        return subprocess.run(
+            command, cwd=folder, capture_output=True, text=True, errors="replace", check=False, timeout=300
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None
+
+
+def _whole(library: Path, record: Path) -> bool:
+    """Whether a library is there as it was made, and is the user's."""
+    try:
+        text = record.read_text("utf-8")
+        return belongs_to_user(library.stat()) and text.split("\n", 1)[0] == _digest(library)
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def _digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()

@@ -1,0 +1,143 @@
+"""A flight as a model sees it: motion and auxiliaries in SI, disc angle, valid samples."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Chain, Effect
+from ragg_runtime.signals.derivative import differentiate
+
+Array = NDArray[np.float64]
+
+GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
+
+
+HALO = 32
+"""Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """What of a flight enters a model: the whole of it, or a part.
+
+    Attributes
+    ----------
+    time
+        (N,) s since the first sample of the flight.
+    wide
+        Name -> (before + N + after,), SI: the channels, of a part with ``halo`` = (before, after) further
+        samples.
+    rate
+        Sampling rate, Hz.
+    valid
+        (N,) bool: False where a sample must not be used.
+    spin_frequency
+        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``spin_angle``).
+    """
+
+    time: Array
+    wide: Mapping[str, Array]
+    rate: float
+    valid: NDArray[np.bool_]
+    spin_frequency: float
+    halo: tuple[int, int] = (0, 0)
+
+    @cached_property
+    def channels(self) -> Mapping[str, Array]:
+        """Name -> (N,), SI."""
+        return {n: self._inner(x) for n, x in self.wide.items()}
+
+    @cached_property
+    def phi(self) -> Array:
+        """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency time)."""
+        if "spin_angle" in self.wide:
+            return self._inner(self.wide["spin_angle"])
+        return disc_angle(self.time, self.spin_frequency)
+
+    @cached_property
+    def cos_phi(self) -> Array:
+        return np.asarray(np.cos(self.phi))
+
+    @cached_property
+    def sin_phi(self) -> Array:
+        return np.asarray(np.sin(self.phi))
+
+    def inputs(self, chain: Chain) -> Array:
+        """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
+        x = np.zeros((len(chain.INPUTS), len(self.time)))
+        for n, name in enumerate(chain.INPUTS):
+            series = self.series(name)
+            if series is not None:
+                x[n] = series
+        return x
+
+    def series(self, name: str) -> Array | None:
+        """A channel, or the time derivative ``d_<channel>``, ``d2_<channel>`` of one; ``None`` if unknown."""
+        found = self._wide(name)
+        return None if found is None else self._inner(found)
+
+    def part(self, rows: slice) -> Record:
+        """Some of the samples, copied, with what derivatives need of their neighbours."""
+        n = len(self.time)
+        a, b = rows.start, rows.stop
+        if (a, b) == (0, n):
+            return self
+        first, last = max(0, a - HALO), min(n, b + HALO)
+        wide = {k: np.array(x[first:last]) for k, x in self.wide.items()}
+        for x in wide.values():
+            x[~np.isfinite(x)] = 0.0
+        valid = np.array(self.valid[rows])
+        let_go(*self.wide.values(), self.valid, self.time)
+        return Record(
+            np.array(self.time[rows]), wide, self.rate, valid, self.spin_frequency, (a - first, last - b)
+        )
+
+    def angle(self, rows: slice) -> tuple[Array, Array]:
+        """Time, s, and disc angle, rad, of some samples alone."""
+        time = np.array(self.time[rows])
+        if "spin_angle" in self.wide:
+            return time, np.array(self.wide["spin_angle"][rows])
+        return time, disc_angle(time, self.spin_frequency)
+
+    def _inner(self, x: Array) -> Array:
+        return x[self.halo[0] : len(x) - self.halo[1]]
+
+    def _wide(self, name: str) -> Array | None:
+        if name in self.wide:
+            return self.wide[name]
+        for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
+            if name.startswith(prefix):
+                inner = self._wide(base)
+                return None if inner is None else differentiate(inner, self.rate)
+        return None
+
+
+def disc_angle(time: Array, spin_frequency: float) -> Array:
+    """2 pi frac(spin_frequency t), rad, with the rounding error of the product kept (Dekker)."""
+    turns = spin_frequency * time
+    split = 134217729.0
+    f_high = (f := split * spin_frequency) - (f - spin_frequency)
+    t_high = (s := split * time) - (s - time)
+    f_low, t_low = spin_frequency - f_high, time - t_high
+    error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
+    return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
+
+
+def record(flight: Flight, instrument: Instrument) -> Record:
+    """What of this flight enters a model of this instrument."""
+    # a long flight's columns stay on disk, unless they have to be shifted
+    time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
+    return Record(time, flight.channels, flight.rate, flight.valid, instrument.spin_frequency)
+
+
+def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:
+    """The channels that an effect needs and the flight does not have."""
+    return tuple(c for c in e.channels if c not in r.wide)

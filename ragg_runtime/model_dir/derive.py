@@ -1,0 +1,168 @@
+"""Derive models at run time: the one place, beside the command line, where the runtime meets the derivation.
+
+A model directory's own ``generated/`` is executed only if it is, byte for byte, what this program derives for
+the directory's list of effects (:mod:`ragg_runtime.model_dir.derived_cache`); otherwise what is executed is derived anew. SymPy
+is imported only where something is derived.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.model.model import Model, from_files, packaged
+from ragg_runtime.model_dir import derived_cache
+from ragg_runtime.model_dir.trust import trusted_sources
+
+if TYPE_CHECKING:
+    from derive.effect import Effect as SymbolicEffect
+
+
+@dataclass(frozen=True)
+class Known:
+    """The effects that a model directory can use: the catalogue's, its own folder's, its one-line ones."""
+
+    effects: tuple[SymbolicEffect, ...]
+    own: tuple[SymbolicEffect, ...] = ()
+
+    def get(self, identifier: str, where: str | None = None) -> SymbolicEffect:
+        """The effect of this id; UserError if there is none."""
+        for e in self.effects:
+            if e.id == identifier:
+                return e
+        names = [e.id for e in self.effects]
+        near = did_you_mean(identifier, names)
+        raise UserError(
+            "unknown effect",
+            where=where,
+            found=repr(identifier),
+            expected="an id listed by `ragg effects`",
+            remedy=near or f"one of {', '.join(names)}",
+        )
+
+
+def known(instrument: Instrument) -> Known:
+    """Every effect that this instrument's model directory can use."""
+    from derive.effects import catalogue, from_sources
+
+    found = list(catalogue())
+    taken = {e.id for e in found}
+    own: list[SymbolicEffect] = []
+    if instrument.effects_folder is not None:
+        sources = trusted_sources(instrument.effects_folder, instrument.path)
+        try:
+            own += from_sources(sources)
+        except ValueError as error:
+            raise UserError(
+                "an effect of your own cannot be read", where=str(instrument.effects_folder), found=str(error)
+            ) from error
+    own += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
+    for e in own:
+        if e.id in taken:
+            raise UserError(
+                "an effect of your own has the id of another one",
+                where=at(instrument.path, "effects"),
+                found=repr(e.id),
+                remedy="choose another id",
+            )
+        taken.add(e.id)
+    return Known((*found, *own), tuple(own))
+
+
+def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
+    from derive.expression import ExpressionError, from_expression
+
+    where = at(path, f"effect {s.id}")
+    assert s.expression is not None
+    try:
+        return from_expression(
+            s.id, str(s.expression["stage"]), str(s.expression["add"]), s.expression["params"]
+        )
+    except ExpressionError as error:
+        raise UserError("the expression is not understood", where=where, found=str(error)) from error
+
+
+def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
+    """The model for an instrument's list of effects: the packaged one, or one derived for it.
+
+    ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
+    """
+    if not instrument.effects and instrument.effects_folder is None:
+        return packaged()
+    asked = derived_cache.request(instrument)
+    files = derived_cache.matching(generated, asked)
+    if files is not None:
+        return _executed(asked, tuple(files.items()))
+    k = known(instrument)
+    if not instrument.effects and not k.own:
+        return packaged()
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects)
+    if instrument.effects:
+        derived_cache.remember(asked, files)
+    return model
+
+
+@cache
+def _executed(asked: str, files: tuple[tuple[str, str], ...]) -> Model:
+    return from_files(dict(files))
+
+
+def departure(instrument: Instrument, generated: Path | None) -> str | None:
+    """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
+    if generated is None or derived_cache.matching(generated, derived_cache.request(instrument)) is not None:
+        return None
+    expected = files_of(instrument)
+    found = derived_cache.read(generated)
+    if found == expected:
+        return None
+    if found is None:
+        what = "it holds things that are no source files"
+    else:
+        names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
+        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+    return (
+        f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
+        "adding or removing an effect writes it again"
+    )
+
+
+def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
+    return [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+
+
+@cache
+def derived(
+    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]
+) -> tuple[Model, Mapping[str, str]]:
+    """A model with these effects, and the files that its derivation yields."""
+    from derive import pipeline
+
+    files = pipeline.derive_model(effects, candidates)
+    return from_files(files), files
+
+
+def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
+    """``model`` with further effects derived into it; without signatures of any more."""
+    k = known(instrument)
+    chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
+    return derived(chosen, ())[0]
+
+
+def files_of(instrument: Instrument) -> Mapping[str, str]:
+    """What ``generated/`` of a model directory must hold for its list of effects; empty for no effects."""
+    if not instrument.effects:
+        return {}
+    k = known(instrument)
+    return derived(tuple(_chosen(instrument, k)), k.effects)[1]
+
+
+def exact_c(instrument: Instrument) -> Mapping[str, str]:
+    """The model in C, for G_out alone, in the widest numbers that the compiler has: file name -> text."""
+    from derive import pipeline
+
+    return pipeline.derive_exact(_chosen(instrument, known(instrument)))

@@ -1,0 +1,282 @@
+"""A model directory: model.toml, generated/, history.json and calibration.json, changed all together or not at all.
+
+A change is a transaction (:mod:`ragg_runtime.base.transaction`): a process may be killed at any instant. Writers
+hold a lock; readers need none: they look again if a change came between.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import shutil
+import stat
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ragg_runtime.base import transaction
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import clear_stale, read_text, sync, temporary_name
+from ragg_runtime.base.lock import locked
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model_dir.history import Step, history_text, read_history
+
+__all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
+
+MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
+Code = Mapping[str, str] | Path | None
+"""Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
+
+_LONGEST = 1 << 26  # bytes of calibration.json
+_PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
+
+
+@dataclass(frozen=True, eq=False)
+class ModelDir:
+    """The state of a model directory as it was read.
+
+    Attributes
+    ----------
+    path
+        The directory.
+    text
+        The text of model.toml, comments and all.
+    instrument
+        What it says.
+    generated
+        The folder of code derived for its effects; ``None``: the packaged base model.
+    history
+        The steps so far, oldest first.
+    digest
+        SHA-256 over all of it, hexadecimal: equal states have equal digests.
+    calibration
+        The text of calibration.json; ``None``: nothing was ever saved.
+    """
+
+    path: Path
+    text: str
+    instrument: Instrument
+    generated: Path | None
+    history: tuple[Step, ...]
+    digest: str
+    calibration: str | None = None
+
+
+def load_model_dir(path: Path | str) -> ModelDir:
+    """The model in a directory; a change that another process left unfinished is finished first.
+
+    Raises UserError if it is not a model directory or one of its files is damaged.
+    """
+    path = Path(path)
+    if not path.is_dir():
+        raise UserError(
+            "there is no model directory",
+            where=path,
+            found="a file" if path.exists() else "nothing",
+            remedy=f"make one with: ragg new {path}",
+        )
+    deadline = time.monotonic() + _PATIENCE
+    while time.monotonic() < deadline:
+        if transaction.is_committing(path):
+            _recover(path)
+            continue
+        before = _stamp(path)
+        try:
+            state = _read(path)
+        except (UserError, FileNotFoundError):
+            # Read amidst a change, a file may be missing.
+            if _stamp(path) == before and not transaction.is_committing(path):
+                raise
+        else:
+            if _stamp(path) == before and not transaction.is_committing(path):
+                return state
+    raise UserError("the model directory keeps changing", where=path, remedy="wait for the other commands")
+
+
+def create_model_dir(
+    path: Path | str, text: str, *, generated: Code = None, history: tuple[Step, ...] = ()
+) -> ModelDir:
+    """Make a model directory with this model.toml. It appears whole or not at all.
+
+    Raises UserError if ``path`` exists and is not an empty directory, or if ``text`` is no good model.toml.
+    """
+    path = Path(path)
+    parse_instrument(text, path / MODEL)
+    if path.exists() and not (path.is_dir() and not any(path.iterdir())):
+        raise UserError(
+            "the model directory exists already", where=path, remedy="choose another name or remove it first"
+        )
+    parent = path.absolute().parent
+    try:
+        parent.mkdir(parents=True, exist_ok=True)
+        clear_stale(path.absolute())
+        staging = temporary_name(path.absolute())
+        staging.mkdir()
+    except OSError as error:
+        raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
+    try:
+        _stage(staging, text, generated, history)
+        for place in sorted(staging.rglob("*"), reverse=True):
+            sync(place)
+        staging.chmod(parent.stat().st_mode & 0o777)
+        if path.exists():
+            path.rmdir()
+        staging.rename(path)
+        sync(parent)
+    except OSError as error:
+        raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
+    finally:
+        shutil.rmtree(staging, ignore_errors=True)
+    return load_model_dir(path)
+
+
+def replace_model_dir(
+    current: ModelDir,
+    text: str,
+    *,
+    generated: Code,
+    history: tuple[Step, ...],
+    calibration: str | None = None,
+) -> ModelDir:
+    """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
+
+    Without a ``calibration`` (text of calibration.json) the one that is there stays.
+
+    Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
+    """
+    path = current.path
+    parse_instrument(text, path / MODEL)
+    with contextlib.ExitStack() as held:
+        try:
+            held.enter_context(locked(path, _PATIENCE))
+            transaction.finish(path)
+        except TimeoutError:
+            raise UserError(
+                "another command is changing the model", where=path, remedy="wait for it to end and try again"
+            ) from None
+        except OSError as error:
+            raise UserError("the model cannot be written", where=path, found=error.strerror) from None
+        if load_model_dir(path).digest != current.digest:
+            raise UserError(
+                "the model was changed by someone else meanwhile",
+                where=path,
+                remedy="look at it with: ragg history, and run the command again",
+            )
+        try:
+            _stage(transaction.stage(path), text, generated, history, calibration)
+            folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
+            transaction.switch(path, folders, removed=removed)
+        except OSError as error:
+            raise UserError(
+                "the model cannot be written", where=path, found=error.strerror or error
+            ) from None
+        finally:
+            transaction.abandon(path)
+    return load_model_dir(path)
+
+
+def _stage(
+    folder: Path, text: str, generated: Code, history: tuple[Step, ...], calibration: str | None = None
+) -> None:
+    """Write a complete state into an empty folder."""
+    if calibration is not None:
+        (folder / CALIBRATION).write_bytes(calibration.encode())
+    (folder / MODEL).write_bytes(text.encode())
+    (folder / HISTORY).write_text(history_text(history), "utf-8")
+    if isinstance(generated, Path):
+        shutil.copytree(generated, folder / GENERATED, ignore=shutil.ignore_patterns("__pycache__"))
+        return
+    for name, content in (generated or {}).items():
+        place = folder / GENERATED / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content.encode())
+
+
+def _recover(path: Path) -> None:
+    """Finish a dead process's change; one that is alive gets a moment to finish its own."""
+    try:
+        with locked(path, 0.0):
+            transaction.finish(path)
+    except TimeoutError:
+        time.sleep(0.002)
+    except OSError as error:
+        raise _cannot_complete(path, error) from None
+
+
+def _cannot_complete(path: Path, error: OSError) -> UserError:
+    return UserError(
+        "a change of the model was interrupted and cannot be completed",
+        where=path,
+        found=error.strerror,
+        remedy="make the directory writable and run any command on it",
+    )
+
+
+def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
+    """What changes whenever one of these things is replaced or edited."""
+    found: list[tuple[int, int, int] | None] = []
+    for name in (MODEL, GENERATED, HISTORY, CALIBRATION):
+        try:
+            status = (path / name).stat()
+        except FileNotFoundError:
+            found.append(None)
+        else:
+            found.append((status.st_ino, status.st_mtime_ns, status.st_size))
+    return tuple(found)
+
+
+def _read(path: Path) -> ModelDir:
+    if not (path / MODEL).exists():
+        raise UserError(
+            "not a model directory: model.toml is missing",
+            where=path,
+            found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
+            remedy="make a model with: ragg new",
+        )
+    text = read_text(path / MODEL)
+    history = read_history(path / HISTORY)
+    calibration = read_text(path / CALIBRATION, _LONGEST) if (path / CALIBRATION).exists() else None
+    generated = path / GENERATED if (path / GENERATED).is_dir() else None
+    return ModelDir(
+        path=path,
+        text=text,
+        instrument=parse_instrument(text, path / MODEL),
+        generated=generated,
+        history=history,
+        digest=_digest(path),
+        calibration=calibration,
+    )
+
+
+def _digest(path: Path) -> str:
+    """SHA-256 over all of it. Links and pipes in generated/ count by what they are, and are not followed."""
+    total = hashlib.sha256()
+    for file in (path / MODEL, path / HISTORY, path / CALIBRATION, *_below(path / GENERATED)):
+        try:
+            status = file.lstat()
+            if stat.S_ISLNK(status.st_mode) and file.parent != path:
+                content = b"link " + os.fsencode(os.readlink(file))
+            elif stat.S_ISREG(status.st_mode) or file.parent == path:
+                content = file.read_bytes()
+            else:
+                content = b"neither file nor folder"
+        except (FileNotFoundError, IsADirectoryError):
+            continue
+        total.update(f"{file.relative_to(path).as_posix()} {len(content)}\n".encode(errors="surrogateescape"))
+        total.update(content)
+    return total.hexdigest()
+
+
+def _below(folder: Path) -> list[Path]:
+    """Everything in a folder but byte code; links are not followed, the folder's own neither."""
+    if folder.is_symlink():
+        return [folder]
+    found = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = [f for f in folders if f != "__pycache__"]
+        links = [f for f in folders if Path(place, f).is_symlink()]
+        found += [Path(place, name) for name in (*files, *links)]
+    return sorted(found)

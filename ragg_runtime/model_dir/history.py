@@ -1,0 +1,84 @@
+"""history.json: what was added to a model or removed from it, when, and the error before and after."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
+
+_LONGEST = 1 << 26  # bytes
+
+
+@dataclass(frozen=True)
+class Step:
+    """An entry of history.json.
+
+    Attributes
+    ----------
+    action
+        ``new``, ``add``, ``remove`` or ``calibrate``.
+    effect
+        The effect's id; empty for ``new`` and ``calibrate``.
+    time
+        UTC, ISO 8601.
+    before, after
+        Error objects (rms_V, rms_Eo, ...) where a flight was given.
+    flights
+        The flights' names, with their SHA-256.
+    """
+
+    action: str
+    time: str
+    effect: str = ""
+    before: Mapping[str, Any] | None = None
+    after: Mapping[str, Any] | None = None
+    flights: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+
+    def as_json(self) -> dict[str, Any]:
+        """The entry as it stands in the file."""
+        return {
+            "action": self.action,
+            "effect": self.effect or None,
+            "time": self.time,
+            "before": None if self.before is None else dict(self.before),
+            "after": None if self.after is None else dict(self.after),
+            "flights": dict(self.flights),
+        }
+
+
+def history_text(steps: tuple[Step, ...]) -> str:
+    """The text of a history.json."""
+    return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
+
+
+def read_history(path: Path) -> tuple[Step, ...]:
+    """The steps of a history.json, oldest first; none if there is no file. UserError if it is damaged."""
+    if not path.exists():
+        return ()
+    try:
+        content = json.loads(read_text(path, _LONGEST))
+        return tuple(
+            Step(
+                action=str(s["action"]),
+                time=str(s["time"]),
+                effect=str(s["effect"] or ""),
+                before=s.get("before"),
+                after=s.get("after"),
+                flights=MappingProxyType(dict(s.get("flights", {}))),
+            )
+            for s in content["steps"]
+        )
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise UserError(
+            "the history is damaged",
+            where=path,
+            found=str(error),
+            expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
+            remedy="restore the file, or remove it to start a new history",
+        ) from None

@@ -1,0 +1,139 @@
+"""Which mistake a record most likely holds, if any."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
+from ragg_runtime.plausibility.mistakes import mistakes
+from ragg_runtime.plausibility.quick_fit import Explained, explain
+from ragg_runtime.plausibility.subsample import Picker
+from ragg_runtime.plausibility.timing import searches
+from ragg_runtime.signals.derivative import differentiate
+
+SUSPICIOUS = 30.0
+"""Residual, Eo, from which mistakes are looked for; missing effects seldom leave as much."""
+
+SURPRISING = 150.0
+"""Sum of squares of the parameters' moves, in plausible sizes, from which mistakes are looked for."""
+
+FEW = 400
+"""Rows on which all mistakes are tried."""
+
+MOST_TRIED = 24
+"""Mistakes that are tried once more, on more rows."""
+
+BETTER = 5.0
+"""Factor by which the residual must fall once a mistake is undone: no missing effect looks like that."""
+
+
+@dataclass(frozen=True)
+class Likely:
+    """A likely mistake.
+
+    Attributes
+    ----------
+    what, remedy
+        In words.
+    others
+        What would explain the record as well.
+    before, after
+        What the model leaves of the record as it stands, and with the mistake undone.
+    timing
+        Whether only motion and output are apart in time.
+    """
+
+    what: str
+    remedy: str
+    others: tuple[str, ...]
+    before: Explained
+    after: Explained
+    timing: bool
+
+    @property
+    def factor(self) -> float:
+        """By how much the part that the model cannot explain falls."""
+        return self.before.share / max(self.after.share, 1e-300)
+
+
+@dataclass(frozen=True)
+class _Tried:
+    what: str
+    remedy: str
+    plainness: int
+    left: Explained
+    timing: bool = False
+    calming: bool = True
+
+
+def likely(model: Model, instrument: Instrument, p: Picker) -> Likely | None:
+    """The mistake that explains a record, or ``None`` if it looks as it should (or no mistake explains it)."""
+    rows = p.pick(p.rows())
+    before = explain(model, instrument, rows)
+    if before.rms < SUSPICIOUS and before.surprise < SURPRISING:
+        return None
+    few = p.pick(p.rows(most=FEW))
+    rough = explain(model, instrument, few)
+    screened = [
+        (m, explain(model, instrument, m.undo(few)))
+        for m in mistakes(rows, instrument.units, p.flight.written, rates_derived=derived_rates(p.flight))
+    ]
+    promising = [(m, left) for m, left in screened if _explains(rough, left, 0.5)]
+    promising.sort(key=lambda t: (t[1].share, t[1].surprise))
+    tried = [
+        _Tried(m.what, m.remedy, m.plainness, explain(model, instrument, m.undo(rows)))
+        for m, _ in promising[:MOST_TRIED]
+    ]
+    tried += [
+        _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
+    ]
+    return _chosen(before, tried)
+
+
+def _chosen(before: Explained, tried: Sequence[_Tried]) -> Likely | None:
+    convincing = [t for t in tried if _explains(before, t.left, calming=t.calming)]
+    if not convincing:
+        return None
+    least = min(t.left.share for t in convincing)
+    equal = [t for t in convincing if t.left.share < 1.1 * least]
+    calm = min(t.left.surprise for t in equal)
+    equal = sorted(
+        (t for t in equal if t.left.surprise < calm + 30.0), key=lambda t: t.plainness + t.left.surprise
+    )
+    first = equal[0]
+    others = tuple(t.what for t in equal[1:3])
+    return Likely(first.what, first.remedy, others, before, first.left, first.timing)
+
+
+def _explains(before: Explained, after: Explained, factor: float = 1.0, *, calming: bool = True) -> bool:
+    if after.share * BETTER * factor < before.share:
+        return True
+    return (
+        calming
+        and before.surprise > SURPRISING
+        and after.surprise * BETTER * factor < before.surprise
+        and after.share * factor < 1.05 * before.share
+    )
+
+
+def derived_rates(x: Flight) -> bool:
+    """Whether the angular acceleration is the derivative of the rate: then it has the rate's mistakes."""
+    if x.written:
+        return ANGULAR_ACCELERATION[0] not in x.written
+    part = slice(0, min(len(x), 4096))
+    for rate, change in zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True):
+        if change not in x.channels:
+            continue
+        found = differentiate(x.channels[rate][part], x.rate)
+        there = np.isfinite(found)
+        there[:16] = there[-16:] = False
+        given = x.channels[change][part]
+        if not np.allclose(found[there], given[there], rtol=1e-9, atol=1e-9 * float(np.std(given))):
+            return False
+    return True

@@ -1,0 +1,138 @@
+"""How well a model can explain a record if its parameters may move as far as is plausible: one number.
+
+One linear fit about the test sheet, with every parameter's prior, robust against outliers, the size of the
+residual being the only thing unknown. It costs milliseconds; it is no calibration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.plausibility.subsample import Rows
+
+Array = NDArray[np.float64]
+
+GRADIENT_SCALE = 1e4
+"""Prior of a gravity gradient that was not recorded, Eo."""
+
+OUTLIER = 8.0
+"""Residual, in robust standard deviations, from which a sample is left out of the fit."""
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What a model leaves of rows of a record once its parameters are fitted.
+
+    Attributes
+    ----------
+    rms
+        Size of the residual without its outliers, Eo.
+    size
+        Size of the output about its mean, Eo.
+    p
+        Fitted parameter vector of the model's chain, SI.
+    surprise
+        Sum of the squares of the parameters' moves, in plausible sizes.
+    """
+
+    rms: float
+    size: float
+    p: Array
+    surprise: float
+
+    @property
+    def share(self) -> float:
+        """Residual over output: the same in any unit of the output."""
+        return self.rms / self.size if self.size > 0 else 1.0
+
+
+def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
+    """Fit the model's parameters about the instrument's values, with their priors."""
+    p = vector(model, instrument)
+    eotvos = scale_factor(model.chain, p)
+    x = rows.inputs(model.chain)
+    cos_phi, sin_phi = np.cos(rows.phi), np.sin(rows.phi)
+    volts = np.empty((4, len(rows.time)))
+    by: dict[tuple[str, int | None], Array] = {}
+    for j in range(4):
+        q = model.chain.values_of(j, p)
+        volts[j] = model.chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
+        slopes = model.chain.derivatives(j, rows.time, cos_phi, sin_phi, x, q)
+        for (name, shared), slope in zip(model.chain.ROWS, slopes, strict=True):
+            if shared:
+                by.setdefault((name, None), np.empty_like(volts))[j] = slope
+            else:
+                by[name, j + 1] = slope
+    found = design.base_columns(model, instrument)
+    columns = [
+        rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) * (c.scale / eotvos)
+        for c, _ in found
+    ]
+    columns += _gradient(rows)
+    inner = rows.inner
+    X = rows.seen(np.stack(columns))[:, :, inner].reshape(len(columns), -1)
+    y = ((rows.data - rows.seen(rows.before_demodulation(volts, None))) / eotvos)[:, inner].reshape(-1)
+    theta, kept = robust(X, y)
+    left = (y - theta @ X)[kept]
+    size = rows.data[:, inner] / eotvos
+    size = size - np.mean(size, axis=1, keepdims=True)
+    moved = p.copy()
+    moved[[i for _, i in found]] += theta[: len(found)] * np.array([c.scale for c, _ in found])
+    return Explained(
+        float(np.sqrt(np.mean(left**2))),
+        float(np.sqrt(np.mean(size.reshape(-1)[kept] ** 2))),
+        moved,
+        float(np.sum(theta[: len(found)] ** 2)),
+    )
+
+
+def _gradient(rows: Rows) -> list[Array]:
+    """Columns of a constant gradient where none was recorded, before demodulation."""
+    if rows.gradient_recorded:
+        return []
+    volts = np.array([0.25, 0.25, -0.25, -0.25])[:, None] * GRADIENT_SCALE
+    carriers = (np.sin(2 * rows.phi), np.cos(2 * rows.phi))
+    return [rows.before_demodulation(volts * carrier, None) for carrier in carriers]
+
+
+def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Coefficients (n,) of columns X (n, rows), and the rows that are no outliers of the fit."""
+    kept = np.ones(len(y), dtype=np.bool_)
+    theta = shrunken(X, y)
+    for _ in range(10):
+        left = np.abs(y - theta @ X)
+        # three quarters, not half: where the residual is a beat rather than noise its median says little
+        now = left <= OUTLIER * float(np.quantile(left, 0.75)) / 1.15
+        if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
+            break
+        kept = now
+        theta = shrunken(X[:, kept], y[kept])
+    return theta, kept
+
+
+def shrunken(X: Array, y: Array) -> Array:
+    """Coefficients (n,) of columns X (n, rows), each with a prior of unit width; y's noise is estimated.
+
+    The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
+    """
+    R = triangle(np.vstack([X, y]))
+    n = len(X)
+    U, s, Vt = np.linalg.svd(R[:n, :n])
+    d = U.T @ R[:n, n]
+    rest = float(R[n, n] ** 2)
+    noise = max(float(np.mean(y**2)), 1e-30)
+    for _ in range(200):
+        left = d * noise / (s**2 + noise)
+        found = max((float(np.sum(left**2)) + rest) / len(y), 1e-30)
+        if found > 0.999 * noise:
+            break
+        noise = found
+    return np.asarray(Vt.T @ (d * s / (s**2 + noise)))

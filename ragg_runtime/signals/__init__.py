@@ -1,0 +1,1 @@
+"""Signal processing without physics: FIR filters, derivatives, demodulation, spectra of noise. May import base."""

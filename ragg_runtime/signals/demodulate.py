@@ -1,0 +1,122 @@
+"""Quadrature demodulation of G_out into the inline and cross channels.
+
+From Eq. 30 and 16, G_out = k_ggi (T1 sin 2 phi + T2 cos 2 phi) with T1 = (Gamma_xx - Gamma_yy)/2 + ... and
+T2 = -Gamma_xy + ...; so with a low-pass LP
+
+    inline = Gamma_xx - Gamma_yy =  LP(4 G_out sin 2 phi) / k_ggi
+    cross  = Gamma_xy            = -LP(2 G_out cos 2 phi) / k_ggi
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.signal import firwin, kaiserord, oaconvolve
+
+from ragg_runtime.base.errors import UserError
+
+Array = NDArray[np.float64]
+
+CUTOFF = 0.2
+"""Half-amplitude frequency of the low-pass (Hz), as in the paper."""
+
+WIDTH = 0.1
+"""Transition width (Hz): the stop band begins at 0.25 Hz, where the neighbours of the 2nd harmonic land."""
+
+ATTENUATION = 100.0
+"""Stop-band attenuation (dB)."""
+
+
+@dataclass(frozen=True)
+class Demodulated:
+    """The two channels where the filter saw a whole record.
+
+    Attributes
+    ----------
+    inline, cross
+        (M,) s^-2: Gamma_xx - Gamma_yy and Gamma_xy.
+    valid
+        Samples of the input to which they belong: ``time[valid]``.
+    trimmed
+        Samples dropped at each end; the filter's delay, already compensated.
+    """
+
+    inline: Array
+    cross: Array
+    valid: slice
+    trimmed: int
+
+
+def low_pass(
+    rate: float, *, cutoff: float = CUTOFF, width: float = WIDTH, attenuation: float = ATTENUATION
+) -> Array:
+    """Linear-phase FIR low-pass of odd length, unit gain at zero frequency (Kaiser window).
+
+    Parameters
+    ----------
+    rate, cutoff, width
+        Hz.
+    attenuation
+        dB.
+    """
+    if not (np.isfinite(rate) and 0 < cutoff - width / 2 < cutoff + width / 2 < rate / 2):
+        raise UserError(
+            "the low-pass does not fit the sampling rate",
+            found=f"cutoff {cutoff:g} Hz, transition {width:g} Hz, rate {rate:g} Hz",
+            expected="a pass band above zero and a stop band below half of the rate",
+        )
+    taps, beta = kaiserord(attenuation, width / (rate / 2))
+    return np.asarray(firwin(taps | 1, cutoff, window=("kaiser", beta), fs=rate), dtype=np.float64)
+
+
+def demodulate(
+    G_out: ArrayLike,
+    phi: ArrayLike,
+    rate: float,
+    k_ggi: float,
+    *,
+    cutoff: float = CUTOFF,
+    width: float = WIDTH,
+    attenuation: float = ATTENUATION,
+) -> Demodulated:
+    """Inline and cross channels of an output before demodulation, or of a residual of it.
+
+    Parameters
+    ----------
+    G_out
+        (N,) V.
+    phi
+        (N,) rad: the disc angle at the same instants, evenly spaced in time.
+    rate
+        Sampling rate, Hz.
+    k_ggi
+        Sum of k_VI K1 R, V per s^-2 (in SI; 4.54e-4 V/Eo is 4.54e5).
+    cutoff, width, attenuation
+        Of the low-pass: half-amplitude frequency and transition width in Hz, stop band in dB.
+
+    Raises
+    ------
+    UserError
+        If the record is shorter than the filter, or the arrays differ in length.
+    """
+    G = np.asarray(G_out, dtype=np.float64)
+    angle = np.asarray(phi, dtype=np.float64)
+    if G.ndim != 1 or G.shape != angle.shape:
+        raise UserError(
+            "the output and the disc angle must be series of one length",
+            found=f"shapes {G.shape} and {angle.shape}",
+        )
+    taps = low_pass(rate, cutoff=cutoff, width=width, attenuation=attenuation)
+    if G.size < taps.size:
+        raise UserError(
+            "the record is shorter than the demodulator's low-pass",
+            found=f"{G.size / rate:.3g} s",
+            expected=f"at least {taps.size / rate:.3g} s",
+            remedy="record longer, or widen the filter's transition",
+        )
+    half = taps.size // 2
+    inline = oaconvolve(4 * G * np.sin(2 * angle), taps, mode="valid") / k_ggi
+    cross = -oaconvolve(2 * G * np.cos(2 * angle), taps, mode="valid") / k_ggi
+    return Demodulated(inline, cross, slice(half, G.size - half), half)

@@ -1,0 +1,121 @@
+"""Time derivatives of uniformly sampled records."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from ragg_runtime.base.errors import UserError
+
+Array = NDArray[np.float64]
+
+WINDOW = 25
+"""Samples that enter one derivative."""
+
+_BAND = 0.42  # of the Nyquist frequency: the derivative is designed up to here
+_EDGE = 6  # samples at either end where the window is so one-sided that noise needs holding down
+_POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
+
+
+def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None) -> Array:
+    """Time derivative of ``x`` along its last axis, in units of x per second.
+
+    A window of 25 samples, weighted by least squares for motion below 42 % of the Nyquist frequency, exact
+    for polynomials up to the fourth degree. Measured on sines up to 40 % of Nyquist, error over amplitude of
+    the derivative: below 1e-6 with six samples or more on either side; towards an end or a gap 5e-5, the last
+    sample but one 1.5e-4, the last 1e-3. There more accuracy would multiply noise: white noise of ``x`` grows
+    by 1.2 ``rate`` inside, 6 ``rate`` at the last sample but one, 30 ``rate`` at the last. Above the band
+    this is no derivative.
+
+    Parameters
+    ----------
+    x
+        (..., N).
+    rate
+        Sampling rate, Hz.
+    valid
+        (N,) bool, False where there is no sample; NaN counts as none as well. Each run of samples is
+        differentiated by itself, so that nothing is carried over a gap.
+
+    Returns
+    -------
+    (..., N); NaN at missing samples and in runs of a single sample.
+
+    Raises
+    ------
+    UserError
+        If ``rate`` is not positive.
+    """
+    if not (np.isfinite(rate) and rate > 0):
+        raise UserError("the sampling rate must be positive", found=rate, expected="Hz")
+    x = np.asarray(x, dtype=np.float64)
+    present: NDArray[np.bool_] = np.asarray(np.isfinite(x).all(axis=tuple(range(x.ndim - 1))))
+    if valid is not None:
+        present = present & valid
+    result = np.full_like(x, np.nan)
+    for run in runs(present):
+        result[..., run] = _derivative(x[..., run]) * rate
+    return result
+
+
+def runs(present: NDArray[np.bool_]) -> list[slice]:
+    """The contiguous runs of True, in order."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], present.astype(np.int8), [0]])))
+    return [slice(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _derivative(x: Array) -> Array:
+    """Derivative per sample of an uninterrupted run."""
+    n = x.shape[-1]
+    if n < 2:
+        return np.full_like(x, np.nan)
+    x = x - x[..., :1]  # a large constant would cost digits at the ends
+    window = min(n, WINDOW)
+    half = window // 2
+    result = np.empty_like(x)
+    if n >= WINDOW:
+        ndimage.correlate1d(x, weights(window, half), axis=-1, output=result, mode="nearest")
+    for k in range(half if n >= WINDOW else n):
+        result[..., k] = x[..., :window] @ weights(window, k)
+    for k in range(half if n >= WINDOW else 0):
+        result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k))
+    return result
+
+
+@cache
+def weights(window: int, at: int) -> Array:
+    """Weights (window,) of the derivative, per sample, at sample ``at`` of the window.
+
+    Least squares of the relative error of the frequency response over the band, plus the noise gain with a
+    small weight, under the constraint that low polynomials come out exactly.
+    """
+    k = np.arange(window) - float(at)
+    theta = (np.arange(2000) + 0.5) / 2000 * _BAND * np.pi
+    scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))
+    phase = np.outer(theta, k)
+    response = np.concatenate([np.cos(phase) * scale[:, None], np.sin(phase) * scale[:, None]])
+    wanted = np.concatenate([np.zeros_like(theta), theta * scale])
+    degree = min(_POLYNOMIAL, window - 1)
+    moments = np.stack([(k / window) ** d for d in range(degree + 1)])
+    moment = np.zeros(degree + 1)
+    moment[1] = 1 / window
+    q, r = np.linalg.qr(moments.T, mode="complete")
+    fixed = q[:, : degree + 1] @ np.linalg.solve(r[: degree + 1].T, moment)
+    free = q[:, degree + 1 :]
+    damping = 3e-5 if min(at, window - 1 - at) < _EDGE else 1e-6
+    left = np.concatenate([response @ free, damping * free])
+    right = np.concatenate([wanted - response @ fixed, -damping * fixed])
+    weights = np.asarray(fixed + free @ np.linalg.lstsq(left, right, rcond=None)[0])
+    if 2 * at == window - 1:
+        weights = (weights - weights[::-1]) / 2  # to the last bit: a constant must give zero
+    weights.flags.writeable = False
+    return weights
+
+
+def stretches(valid: NDArray[np.bool_], shortest: int) -> list[slice]:
+    """Contiguous runs of valid samples, at least ``shortest`` long."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], valid.astype(np.int8), [0]])))
+    return [slice(int(a), int(b)) for a, b in edges.reshape(-1, 2) if b - a >= shortest]

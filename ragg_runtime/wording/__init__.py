@@ -1,0 +1,1 @@
+"""How numbers, units and evidence are put into words and tables. May import base."""

@@ -1,0 +1,3 @@
+"""The steps of the loop, for the command line and Python: load, compare, diagnose, add, remove, simulate. May
+import every room below.
+"""

@@ -1,0 +1,316 @@
+"""The steps of the loop, for the command line and for notebooks: load, compare, diagnose, add, remove.
+
+>>> import ragg_runtime.workflow.loop as ragg                      # doctest: +SKIP
+>>> m = ragg.load("my-model")
+>>> flights = ragg.read_flights(m, ["flight.csv"])
+>>> d = ragg.diagnose(m, flights)
+>>> step = ragg.add(m, d.found[0], flights)
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.diagnosis import comparison as _compare
+from ragg_runtime.diagnosis import diagnose as _diagnose
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.next_motion import LIMITS
+from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.spool import settled
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.units import RawQuantity, read_quantity
+from ragg_runtime.model.model import Model
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.plausibility import check_settings, examined
+from ragg_runtime.survey import Survey
+from ragg_runtime.survey import survey as _survey
+from ragg_runtime.survey.run import Progress
+from ragg_runtime.wording import notebook
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A model directory, the model derived for it, and what was odd, in sentences."""
+
+    directory: ModelDir
+    model: Model
+    notes: tuple[str, ...] = ()
+
+    @property
+    def instrument(self) -> Instrument:
+        return self.directory.instrument
+
+    @property
+    def name(self) -> str:
+        return self.directory.path.resolve().name
+
+    def _repr_html_(self) -> str:
+        steps = [s.as_json() for s in self.directory.history]
+        return notebook.model(self.name, [e.id for e in self.model.effects], steps)
+
+
+@dataclass(frozen=True)
+class Added:
+    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+
+    loaded: Loaded
+    effect: str
+    before: Comparison | None
+    after: Comparison | None
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+
+    def _repr_html_(self) -> str:
+        noise, adequate = (
+            (None, False) if self.after is None else (self.after.noise_floor, self.after.adequate)
+        )
+        return notebook.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "before": errors_of(self.before),
+            "after": errors_of(self.after),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+        }
+
+
+def errors_of(c: Comparison | None) -> dict[str, object] | None:
+    """The ``error`` of compare: nominal, calibrated, holdout."""
+    if c is None:
+        return None
+    return {
+        "nominal": c.nominal.as_json(),
+        "calibrated": c.calibrated.as_json(),
+        "holdout": c.holdout.as_json(),
+    }
+
+
+def new(path: Path | str, source: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+    if source is None:
+        text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+    else:
+        try:
+            text = Path(source).read_text("utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise UserError(
+                "the test sheet cannot be read", where=source, found=str(error), remedy="name a model.toml"
+            ) from None
+    instrument = parse_instrument(text, Path(source) if source else None)
+    if instrument.effects_folder is not None:
+        text = set_effects_folder(text, instrument.effects_folder.resolve())
+    history = (Step("new", _now()),)
+    return _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
+
+
+def load(path: Path | str) -> Loaded:
+    """Read a model directory and derive its model."""
+    return _loaded(load_model_dir(path))
+
+
+def _loaded(directory: ModelDir) -> Loaded:
+    model = derive.model_of(directory.instrument, directory.generated)
+    check_settings(model, directory.instrument)
+    note = (
+        derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
+    )
+    return Loaded(directory, model, () if note is None else (note,))
+
+
+def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
+    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+
+
+def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
+    """How far the model is from the flights, and where it fails."""
+    return _compare.compare(m.model, m.instrument, flights)
+
+
+def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+
+    def extended(model: Model, ids: Sequence[str]) -> Model:
+        return derive.with_effects(m.instrument, model, ids)
+
+    return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
+
+
+def motion_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
+    """Largest amplitudes of a motion to fly next, SI, from texts such as ``a=50mg`` and ``omega=500deg/h``."""
+    found = dict(LIMITS)
+    for text in texts:
+        name, _, size = text.partition("=")
+        if name not in found or not size:
+            raise UserError(
+                "the limit of a motion cannot be read",
+                where="--limit",
+                found=text,
+                expected="a=50mg or omega=500deg/h",
+            )
+        q = read_quantity(size, f"--limit {name}", count=1)
+        value = m.instrument.units.to_si(
+            np.asarray(q.value), q.unit, "m/s^2" if name == "a" else "rad/s", f"--limit {name}"
+        )
+        if not float(value) > 0.0:
+            raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
+        found[name] = float(value)
+    return MappingProxyType(found)
+
+
+def survey(
+    m: Loaded,
+    flights: Sequence[Path | str],
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    resume: Path | None = None,
+    progress: Progress | None = None,
+) -> Survey:
+    """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
+
+    The arguments are those of :func:`ragg_runtime.survey.run.survey`.
+    """
+    place = m.directory.path / "model.toml"
+    return _survey(
+        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+    )
+
+
+def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+
+    An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
+    The directory is changed whole or not at all.
+    """
+    instrument = m.instrument
+    known = derive.known(instrument)
+    symbolic = known.get(effect, at(m.directory.path))
+    present = next((s for s in instrument.effects if s.id == effect), None)
+    if present is not None and present.values:
+        raise UserError(
+            "the effect is in the model already",
+            where=str(m.directory.path),
+            found=effect,
+            remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
+        )
+    for x in flights:
+        missing = [c for c in symbolic.channels if c not in x.channels]
+        if missing:
+            raise UserError(
+                f"the effect {effect} needs a channel that the flight lacks",
+                where=x.path or x.name,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy="record it, or choose another effect",
+            )
+    others = replace(instrument, effects=tuple(s for s in instrument.effects if s.id != effect))
+    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
+    values: dict[str, RawQuantity] = {}
+    if symbolic.kind == "step" and flights:
+        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+    expression = present.expression if present is not None else None
+    setting = EffectSetting(effect, MappingProxyType(values), expression)
+    extended = replace(instrument, effects=(*others.effects, setting))
+    model = derive.model_of(extended)
+    after: Comparison | None = None
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
+    if flights:
+        after = _compare.compare(model, extended, flights)
+        parameters, combinations = calibrated(after, effect)
+        values |= settings(parameters)
+        with_values = replace(
+            extended,
+            effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
+        )
+        after = after.with_nominal(with_values)
+    text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
+    step = Step(
+        "add",
+        _now(),
+        effect,
+        errors_of(before),
+        errors_of(after),
+        MappingProxyType({x.name: x.digest for x in flights}),
+    )
+    directory = replace_model_dir(
+        m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
+    )
+    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+
+
+def remove(m: Loaded, effect: str) -> Loaded:
+    """Take an effect out of the model again."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", _now(), effect)
+    directory = replace_model_dir(
+        m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
+    )
+    return _loaded(directory)
+
+
+def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
+    cal = c.fitted.calibration
+    mine = [n for n, column in enumerate(cal.columns) if column.effect == effect]
+    columns = [cal.columns[n] for n in mine]
+    values = np.array([cal.p[cal.index[n]] / cal.columns[n].scale for n in mine])
+    covariance = cal.covariance[np.ix_(mine, mine)]
+    return (
+        tuple(parameter_values(columns, values, covariance)),
+        tuple(visible_combinations(columns, values, covariance)),
+    )
+
+
+def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
+    """Calibrated parameters as they are written to model.toml."""
+    values: dict[str, RawQuantity] = {}
+    for p in parameters:
+        if p.accelerometer is None:
+            values[p.name] = RawQuantity(p.value, p.unit)
+        else:
+            old = values.get(p.name)
+            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
+            four[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(four), p.unit)
+    return values
+
+
+def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+    """The most likely instant of a step."""
+    d = _diagnose.diagnose(m.model, m.instrument, flights)
+    for r in d.ranking:
+        if r.effect == effect:
+            for p in r.parameters:
+                if p.name == "t_step":
+                    return p.value
+    return 0.0
+
+
+def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
+    """(name, sha256) of everything that a result depends on."""
+    text = hashlib.sha256(m.directory.text.encode()).hexdigest()
+    return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")

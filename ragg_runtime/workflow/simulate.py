@@ -1,0 +1,109 @@
+"""Flights of a model directory's instrument from the numerical reference (``ragg simulate``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.units import units
+from ragg_runtime.model.model import Effect, packaged
+from ragg_runtime.reference import simulate
+from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
+from ragg_runtime.reference.auxiliaries import plausible
+from ragg_runtime.reference.instruments import perturbed
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion
+
+Array = NDArray[np.float64]
+
+
+def simulated(
+    instrument: Instrument,
+    hidden: Sequence[str],
+    *,
+    seed: int = 0,
+    duration: float = 1800.0,
+    rate: float = 16.0,
+    noise: float = 2.0,
+    shape: str | None = None,
+    sheet_error: float = 1.0,
+    no_gradient: bool = False,
+    voltages: bool = False,
+) -> Flight:
+    """A flight with hidden effects.
+
+    Parameters
+    ----------
+    hidden
+        ``ID:NAME=VALUE[,NAME=VALUE]``, values in the effect's display units, four joined by ``/``.
+    duration, rate, noise
+        s, Hz, Eo/sqrt(Hz) of the cross channel.
+    sheet_error
+        How far the true instrument lies from its test sheet; 1 is usual.
+
+    Raises
+    ------
+    UserError
+    """
+    effects = dict(_parsed(text, instrument.g0) for text in hidden)
+    white = eotvos_noise(noise * 1e-9, instrument.radius)
+    s = simulate(
+        perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
+        draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape),
+        duration,
+        rate,
+        gravity=draw_gradient(np.random.default_rng([seed, 13])),
+        record_gradient=not no_gradient,
+        noise=Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if noise else None,
+        effects=effects,
+        seed=seed,
+        auxiliaries=plausible(np.random.default_rng([seed, 12])),
+    )
+    return s.flight("simulated", voltages=voltages)
+
+
+def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
+    identifier, _, rest = text.partition(":")
+    model = packaged()
+    effect = model.effect(identifier)
+    if effect is None:
+        known = ", ".join(e.id for e in model.candidates)
+        raise UserError("unknown effect to hide", found=repr(identifier), expected=f"one of {known}")
+    values: dict[str, Array] = {}
+    for part in rest.split(",") if rest else ():
+        name, _, numbers = part.partition("=")
+        values[name.strip()] = _numbers(effect, name.strip(), numbers, g0)
+    if not values:
+        raise UserError(
+            "the hidden effect has no value",
+            found=repr(text),
+            expected=f"{identifier}:{effect.parameters[0].name}=VALUE",
+        )
+    return identifier, values
+
+
+def _numbers(effect: Effect, name: str, text: str, g0: float) -> Array:
+    for q in effect.parameters:
+        if q.name == name:
+            break
+    else:
+        raise UserError(
+            f"{effect.id} has no parameter {name!r}",
+            expected=", ".join(q.name for q in effect.parameters),
+        )
+    try:
+        raw = np.array([float(x) for x in text.split("/")])
+    except ValueError:
+        raise UserError("not a number", where=f"--effect {effect.id}", found=repr(text)) from None
+    if len(raw) not in ((1,) if q.shared else (1, 4)):
+        raise UserError(
+            f"{effect.id}: {name} takes {'one value' if q.shared else 'one value or four joined by /'}",
+            found=repr(text),
+        )
+    known = units(g0)
+    si = np.asarray(known.to_si(raw, q.unit, known.base_unit(q.unit)))
+    return si if len(si) == 4 else si[0]
