@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo derive check test lint bench bench-diagnosis docs clean faults fuzz package test-oldest
+.PHONY: help demo derive check test lint bench bench-diagnosis docs pages clean faults fuzz package test-oldest
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -79,9 +79,13 @@ test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
 	.venv-oldest/bin/python -m pytest -q -n 2 -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
-docs: $(STAMP)  ## write the generated pages of docs/
+docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; warnings are errors)
+	$(BIN)/python -m sphinx -q -b html -W --keep-going docs docs/_build/html
+	@echo "open docs/_build/html/index.html"
+
+pages: $(STAMP)  ## write the generated pages of docs/ anew
 	$(BIN)/ragg derive
 	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
-	rm -rf $(VENV) .venv-oldest .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf docs/_build docs/_made $(VENV) .venv-oldest .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

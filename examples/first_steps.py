@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy import signal
 
-import ragg_runtime.workflow.loop as ragg
+import ragg
 
 here = Path("examples") if Path("examples").is_dir() else Path()
 work = Path("first-steps")

@@ -112,6 +112,14 @@ def _context(a: Audit) -> dict[str, Any]:
         "limit": _number(math.degrees(numbers.T_D)),
         "reached": _number(math.degrees(rate)),
         "slips": _remarks(text.slips()),
+        **_numbers(a),
+        "remarks": _remarks(text.remarks()),
+    }
+
+
+def _numbers(a: Audit) -> dict[str, Any]:
+    """Limits and other numbers that the paper prints, beside ours."""
+    return {
         "limits": [
             (
                 m.where,
@@ -135,7 +143,6 @@ def _context(a: Audit) -> dict[str, Any]:
             )
             for n in numbers.numbers(a.largest_output)
         ],
-        "remarks": _remarks(text.remarks()),
     }
 
 

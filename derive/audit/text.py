@@ -74,8 +74,12 @@ def slips() -> tuple[Remark, ...]:
 
 def remarks() -> tuple[Remark, ...]:
     """Errata of the text."""
+    return (*_of_the_derivation(), *_of_the_simplification(), *_of_the_experiments())
+
+
+def _of_the_derivation() -> tuple[Remark, ...]:
+    """Section II.A."""
     miss = input_axis_miss(ANGLE, ANGLE, "yz")
-    doubled = 6.674e-11 * 486 / 1.2**2
     return (
         Remark(
             "Section II.A.1",
@@ -116,6 +120,12 @@ def remarks() -> tuple[Remark, ...]:
             "the first subscript is the accelerometer, the second the parameter: $k_{22}$ is $A_2$'s"
             " second-order coefficient, of another unit. With $k_{21}$ the exact check comes out",
         ),
+    )
+
+
+def _of_the_simplification() -> tuple[Remark, ...]:
+    """Section II.B."""
+    return (
         Remark(
             "Section II.B.1 a)",
             r"$\sum_{k_jR^2}T_{n_1}T_{n_2}$, $D^{*}_{k_jR^2}T_{n_1}T_{n_2}$",
@@ -141,6 +151,13 @@ def remarks() -> tuple[Remark, ...]:
             f"0.1 Eo / (0.25 x 1e-6 g/g$^2$ x 0.1 g) = {T_D / EOTVOS / 1e6:.3g}e6 Eo: a factor of ten,"
             " with consequences for the simplified model (above)",
         ),
+    )
+
+
+def _of_the_experiments() -> tuple[Remark, ...]:
+    """Section II.C, the experiments and the abstract."""
+    doubled = 6.674e-11 * 486 / 1.2**2
+    return (
         Remark(
             "Section II.C, after Eq. 53",
             r"inline channel $\Gamma_{xx}-\Gamma_{xy}$ (five times)",

@@ -13,7 +13,6 @@ import sympy as sp
 
 from derive.propagation import MOTION_NUMBERS, motion_numbers
 from derive.symbols import MOTION
-from ragg_runtime.base.errors import UserError
 
 Vector = tuple[float, float, float]
 
@@ -48,7 +47,7 @@ class Envelope:
 
     Raises
     ------
-    UserError
+    ValueError
         If a bound is negative or not finite, or the instrument has no scale factor to divide by
         (imbalance >= 1, dR >= radius).
     """
@@ -80,20 +79,14 @@ class Envelope:
             value = getattr(self, f.name)
             for v in value if isinstance(value, tuple) else (value,):
                 if not (math.isfinite(v) and v >= 0):
-                    raise UserError(
-                        f"the bound {f.name} is no bound",
-                        where="Envelope",
-                        found=repr(value),
-                        expected="finite numbers, zero or positive",
-                        remedy=f"give the largest magnitude of {f.name}",
+                    raise ValueError(
+                        f"the bound {f.name} of the envelope is {value!r}; its largest magnitude is expected,"
+                        " finite numbers, zero or positive"
                     )
         if self.imbalance >= 1 or self.dR >= self.radius:
-            raise UserError(
-                "the envelope holds an instrument without a scale factor",
-                where="Envelope",
-                found=f"imbalance {self.imbalance}, dR {self.dR} m of radius {self.radius} m",
-                expected="imbalance < 1 and dR < radius",
-                remedy="lower them",
+            raise ValueError(
+                "the envelope holds an instrument without a scale factor: imbalance < 1 and dR < radius are expected,"
+                f" not imbalance {self.imbalance} and dR {self.dR} m of radius {self.radius} m"
             )
 
     def parameter(self, name: str) -> Fraction:

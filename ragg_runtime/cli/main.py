@@ -141,33 +141,14 @@ def new(model_dir: Path, source: Path | None) -> None:
 @_json
 def effects(identifier: str | None, json_file: str | None) -> None:
     """The catalogue of physical effects; with ID one of them in full."""
-    from derive.effects import catalogue
-    from derive.ir import manifest_of_effect
-    from ragg_runtime.base.errors import did_you_mean
+    from ragg_runtime.model.catalogue import effects as catalogue
+    from ragg_runtime.model.catalogue import in_words
 
-    found = {e.id: manifest_of_effect(e) for e in catalogue()}
+    found = catalogue()
     if identifier is None:
-        lines = [f"{i:28} {e['title']}" for i, e in found.items()]
-        _emit({"effects": list(found.values())}, json_file, "\n".join(lines))
-        return
-    if identifier not in found:
-        raise UserError(
-            "unknown effect",
-            found=repr(identifier),
-            expected="an id listed by `ragg effects`",
-            remedy=did_you_mean(identifier, found),
-        )
-    e: Any = found[identifier]
-    lines = [f"{e['id']}: {e['title']}", "", e["physics"], "", f"  {e['equation']}", ""]
-    for q in e["parameters"]:
-        which = "one value" if q["shared"] else "one value for each accelerometer"
-        lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
-    lines += [
-        "",
-        f"needs: {', '.join(e['channels']) or 'the motion alone'}",
-        f"limits: {e['limits'] or 'none stated'}",
-    ]
-    _emit(e, json_file, "\n".join([*lines, f"source: {e['source']}"]))
+        _emit(found.as_json(), json_file, repr(found))
+    else:
+        _emit(dict(found[identifier]), json_file, in_words(found[identifier]))
 
 
 @cli.command()
@@ -193,7 +174,7 @@ def compare(
 
     m = _load(model_dir)
     if frozen or calibration == "frozen":
-        from ragg_runtime.commands_after import compare_frozen
+        from ragg_runtime.cli.after import compare_frozen
 
         compare_frozen(m, flights, json_file, report_file)
         return
@@ -489,10 +470,10 @@ def demo(output: Path) -> None:
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     try:
-        from ragg_runtime import commands_after
+        from ragg_runtime.cli import after
         from ragg_runtime.experiments.command import experiment
 
-        for command in (experiment, *commands_after.COMMANDS):
+        for command in (experiment, *after.COMMANDS):
             cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)

@@ -13,14 +13,21 @@ from scipy import linalg
 
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.diagnosis import comparison
-from ragg_runtime.diagnosis.parameters import PATTERNS, ParameterValue, parameter_values
+from ragg_runtime.diagnosis.parameters import (
+    SEEN,
+    ParameterValue,
+    gains,
+    own_name,
+    parameter_values,
+    patterns,
+)
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
 from ragg_runtime.fit.observation import observe
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.segments import ROWS
-from ragg_runtime.fit.square_root import join, with_prior
+from ragg_runtime.fit.square_root import Linear, join, with_prior
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
@@ -29,21 +36,19 @@ from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 
-SEEN = 0.1
-"""A combination counts as seen where the record brings its standard deviation below this share of the sheet's."""
-
 LEARNED = 0.5
 """About a parameter whose standard deviation the record at least halves, the record says more than the sheet."""
 
 
 @dataclass(frozen=True)
 class Combination:
-    """A parameter, or a combination of four, that a record determines: ``weights`` (n,) on the fitted columns."""
+    """A parameter, or a combination of four, that a record determines: ``weights`` (n,), in ``unit``, on the fitted
+    columns in scales.
+    """
 
     name: str
     weights: Array
     unit: str
-    factor: float
 
     def of(self, values: Array, root: Array) -> tuple[float, float]:
         """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
@@ -52,28 +57,31 @@ class Combination:
         ) * self.factor
 
 
-def visible(columns: Sequence[Column], root: Array) -> list[Combination]:
-    """What a root (n, k) of a covariance, in scales, says to be determined: single values, else combinations of four."""
+def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:
+    """What a root (n, k) of a covariance, in scales, says to be determined: single values, else combinations of four.
+
+    ``p`` is the model's parameter vector, for the accelerometers' gains (:mod:`ragg_runtime.diagnosis.parameters`).
+    """
     found = []
 
-    def add(label: str, places: Sequence[int], weights: Sequence[float]) -> None:
+    def add(label: str, places: Sequence[int], weights: Array) -> None:
         w = np.zeros(len(columns))
-        w[list(places)] = weights
+        w[list(places)] = weights * np.array([columns[k].scale / columns[k].unit_factor for k in places])
         if float(np.linalg.norm(w @ root)) < SEEN * float(np.linalg.norm(w)):
-            c = columns[places[0]]
-            found.append(Combination(name=label, weights=w, unit=c.unit, factor=c.scale / c.unit_factor))
+            found.append(Combination(name=label, weights=w, unit=columns[places[0]].unit))
 
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
-        label = name.split(".", 1)[-1]
+        four = [columns[k] for k in places]
         singly = bool(np.all(np.linalg.norm(root[places], axis=1) < SEEN))
-        if singly or len(places) != len(PATTERNS[0][1]):
+        if singly or any(c.accelerometer is None for c in four):
             for k in places:
                 j = columns[k].accelerometer
-                add(label if j is None else f"{label}[{j}]", [k], [1.0])
+                label = own_name(columns[k])
+                add(label if j is None else f"{label}[{j}]", [k], np.ones(1))
         else:
-            for pattern, weights in PATTERNS:
-                add(pattern.format(label), places, weights)
+            for label, weights in patterns(four, gains(model, p, name)):
+                add(label, places, weights)
     return found
 
 
@@ -82,18 +90,25 @@ def converged(f: Fitted) -> bool:
     said = getattr(f.calibration, "converged", None)
     if said is not None:
         return bool(said)
-    normal = with_prior(join([t for x in f.triangles for t in _base(x, f.n_base)]), f.to_nominal)
+    normal = with_sheet(join([t for x in f.triangles for t in base(x, f.n_base)]), f.to_nominal)
     gain, size = normal.gain(normal.step), float(np.max(np.abs(normal.step)))
     return gain < calibrate.SETTLED[0] or size < calibrate.SETTLED[1]
 
 
-def _base(triangles: Sequence[Array], n: int) -> list[Array]:
+def with_sheet(T: Array, to_nominal: Array) -> Linear:
+    """The fit of a triangle [base | residual] and of the sheet, whose values are ``to_nominal`` (n,) away, in scales."""
+    whole = with_prior(T, range(len(to_nominal)), to_nominal)
+    return Linear(whole[:-1, :-1], whole[:-1, -1])
+
+
+def base(triangles: Sequence[Array], n: int) -> list[Array]:
+    """Of triangles [base (n) | candidates | residual] the columns without candidates."""
     return [t[:, [*range(n), -1]] for t in triangles]
 
 
 def alone(f: Fitted, flight: int) -> tuple[Array, Array]:
     """What one of the flights says by itself (with the sheet), in scales: step from here, and root of its covariance."""
-    normal = with_prior(join(_base(f.triangles[flight], f.n_base)), f.to_nominal)
+    normal = with_sheet(join(base(f.triangles[flight], f.n_base)), f.to_nominal)
     return normal.step, inverse(normal.R)
 
 
@@ -141,7 +156,8 @@ class Calibrated:
 
     @cached_property
     def combinations(self) -> list[Combination]:
-        return visible(self.fitted.calibration.columns, self.root)
+        f = self.fitted
+        return visible(f.model, f.calibration.p, f.calibration.columns, self.root)
 
     @cached_property
     def directions(self) -> tuple[int, int]:

@@ -18,7 +18,7 @@ from ragg_runtime.diagnosis import comparison as compare
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import base_columns
-from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.fitted import Fitted, about
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.fit.observation import Observation, observe
@@ -210,7 +210,7 @@ class Held:
         rows = []
         for k, o in enumerate(f.observations):
             step, root_now = calibrated.alone(f, k)
-            for q in calibrated.visible(c.columns, self.root):
+            for q in calibrated.visible(f.model, c.p, c.columns, self.root):
                 value, std = q.of(values, self.root)
                 now, now_std = q.of(values + step, root_now)
                 both = float(np.hypot(std, now_std))
@@ -241,7 +241,7 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     """Hold a saved calibration against flights."""
     observations = [observe(x, instrument) for x in flights]
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    f = compare.about(model, instrument, observations, calibration(saved, model, instrument, observations))
+    f = about(model, instrument, observations, calibration(saved, model, instrument, observations))
     free, _ = f.coefficients(())
     half, _ = f.coefficients((), held_out=True)
     frozen, fitted, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), free, half])

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.calibrated import inverse
+from ragg_runtime.compensation.calibrated import base, inverse
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.segments import BLOCKS, block_edges
-from ragg_runtime.fit.square_root import join, with_prior
+from ragg_runtime.fit.square_root import join
 
 Array = NDArray[np.float64]
 
@@ -50,16 +50,16 @@ def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
 
 def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
     """Of every flight: each block of time with the calibration on everything else."""
-    n, c = f.n_base, f.calibration
+    c = f.calibration
     scale = np.array([q.scale for q in c.columns])
-    all_of = [[t[:, [*range(n), -1]] for t in x] for x in f.triangles]
+    all_of = [base(x, f.n_base) for x in f.triangles]
     found = []
     for k, o in enumerate(f.observations):
         edges = block_edges(len(o.record.time))
         stretches = []
         for b in range(BLOCKS):
             others = [t for x, ts in enumerate(all_of) for y, t in enumerate(ts) if (x, y) != (k, b)]
-            normal = with_prior(join(others), f.to_nominal)
+            normal = with_sheet(join(others), f.to_nominal)
             p = c.p.copy()
             p[c.index] += normal.step * scale
             stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))

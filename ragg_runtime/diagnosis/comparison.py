@@ -13,17 +13,16 @@ from scipy.signal import oaconvolve
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, prepared
-from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
-from ragg_runtime.fit.observation import Observation, as_output, observe
+from ragg_runtime.fit.observation import as_output, observe
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit.dictionary import carrier, harmonics
 from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
-from ragg_runtime.model.evaluate import scale_factor, vector, voltages
+from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
@@ -31,27 +30,7 @@ from ragg_runtime.wording import notebook
 Array = NDArray[np.float64]
 
 
-@one_thread
-def about(
-    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
-) -> Fitted:
-    """The evidence about a calibration, however it was found."""
-    flown = prepared.prepare(model, instrument, observations, c)
-    triangles, sums = zip(*(prepared.blocks(x) for x in flown), strict=True)
-    return Fitted(
-        model,
-        instrument,
-        tuple(observations),
-        c,
-        flown,
-        triangles,
-        sums,
-        prepared.to_nominal(model, instrument, c),
-        scale_factor(model.chain, c.p),
-    )
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Comparison:
     """The result of ``compare``: the interface's JSON, and what the report draws."""
 
@@ -87,6 +66,15 @@ class Comparison:
         p = vector(self.fitted.model, instrument)
         (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
         return replace(self, nominal=scored.whole, nominal_values=p)
+
+    def __repr__(self) -> str:
+        errors = (
+            ("nominal", self.nominal.rms_Eo),
+            ("calibrated", self.calibrated.rms_Eo),
+            ("held out", self.holdout.rms_Eo),
+            ("noise", self.noise_floor),
+        )
+        return notebook.in_one_line("Comparison", "adequate" if self.adequate else "not adequate", *errors)
 
     def _repr_html_(self) -> str:
         return notebook.comparison(self.as_json(), [o.name for o in self.fitted.observations])

@@ -19,7 +19,7 @@ from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
 from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.fit.square_root import triangle, with_prior
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
 
@@ -147,11 +147,8 @@ def _signal(f: Fitted, field: Field, effect: str) -> Array:
 def _separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
     """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1), priors in."""
     places = [n_base + n for n, _ in field.candidates[rival]]
-    prior = np.zeros((len(places), n_base + len(places) + 1))
-    prior[:, n_base:-1] = np.eye(len(places))
     X = np.column_stack([rows[:, :n_base], rows[:, places], rows[:, :-1] @ signal])
-    T = np.asarray(np.linalg.qr(np.vstack([X, prior]), mode="r"))
-    return float(abs(T[-1, -1]))
+    return float(abs(with_prior(X, range(n_base, n_base + len(places)))[-1, -1]))
 
 
 def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:

@@ -1,36 +1,75 @@
-"""Fitted parameters and the combinations of them that a record sees."""
+"""Fitted parameters and the combinations of them that a record sees.
+
+One accelerometer's own value seldom shows in G_out: combinations of the four do, the paper's error-propagation
+coefficients Sigma, D^1234, D^12 and D^34 (Eq. 18-19). Terminal, JSON, notebook and reports take them from here.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.fit.columns import Column
+from ragg_runtime.model.evaluate import named
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
+
+SEEN = 0.3
+"""Posterior over prior standard deviation below which a value is the record's own: the record then holds ten times
+the information of the sheet (1/0.3^2 - 1)."""
+
+UNSEEN = 0.9
+"""The same from which a value is the test sheet's, not the record's: the record adds less than a quarter."""
+
+PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
+    ("Sigma", (1, 1, 1, 1)),
+    ("D1234", (1, 1, -1, -1)),
+    ("D12", (1, -1, 0, 0)),
+    ("D34", (0, 0, 1, -1)),
+)
+"""The paper's sums and differences over the four accelerometers."""
 
 
 @dataclass(frozen=True)
 class ParameterValue:
-    """A fitted parameter, in its display unit."""
+    """A fitted parameter, or a combination of the four, in its display unit.
+
+    ``weights`` (4,) say what a combination is: the sum of weight times value over the accelerometers; empty for a
+    parameter by itself.
+    """
 
     name: str
     accelerometer: int | None
     value: float
     std: float
     unit: str
+    weights: tuple[float, ...] = ()
 
     def as_json(self) -> dict[str, object]:
-        return {
+        own: dict[str, object] = {
             "name": self.name,
             "accelerometer": self.accelerometer,
             "value": self.value,
             "std": self.std,
             "unit": self.unit,
         }
+        return own | ({"weights": list(self.weights)} if self.weights else {})
+
+
+def gains(model: Model, p: Array, name: str) -> Array:
+    """(4,) weight of each accelerometer in G_out for a parameter of this name, over their mean.
+
+    Bias and coefficients act through k_VI K1 of their accelerometer (Eq. 1). The paper's D^12_{K1 K0} holds K1 for that
+    reason, and so must a combination here: scale factors differ, by 1e-4 or by a tenth, where a difference is seen a
+    million times better than the sum. ``p`` is the model's parameter vector.
+    """
+    values = named(model.chain, p)
+    g = values["k_VI"] if name == "K1" else values["k_VI"] * values["K1"]
+    return np.asarray(g / np.mean(g))
 
 
 def parameter_values(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
@@ -38,41 +77,59 @@ def parameter_values(columns: Sequence[Column], values: Array, covariance: Array
     found = []
     for k, c in enumerate(columns):
         factor = c.scale / c.unit_factor
-        name = c.name.split(".", 1)[1] if c.effect else c.name
-        std = float(np.sqrt(covariance[k, k])) * factor
-        found.append(ParameterValue(name, c.accelerometer, float(values[k]) * factor, std, c.unit))
+        found.append(
+            ParameterValue(
+                name=own_name(c),
+                accelerometer=c.accelerometer,
+                value=float(values[k]) * factor,
+                std=float(np.sqrt(covariance[k, k])) * factor,
+                unit=c.unit,
+            )
+        )
     return found
 
 
-PATTERNS: tuple[tuple[str, tuple[float, ...]], ...] = (
-    ("{0}[1] - {0}[2]", (1.0, -1.0, 0.0, 0.0)),
-    ("{0}[3] - {0}[4]", (0.0, 0.0, 1.0, -1.0)),
-    ("{0}[1] + {0}[2] - {0}[3] - {0}[4]", (1.0, 1.0, -1.0, -1.0)),
-    ("{0}[1] + {0}[2] + {0}[3] + {0}[4]", (1.0, 1.0, 1.0, 1.0)),
-)
-"""The paper's D^12, D^34, D^1234 and Sigma of a parameter: what the output may see of it."""
+def own_name(c: Column) -> str:
+    """A column's parameter without the id of its effect."""
+    return c.name.split(".", 1)[1] if c.effect else c.name
 
 
-def visible_combinations(columns: Sequence[Column], values: Array, covariance: Array) -> list[ParameterValue]:
-    """The combinations of four values that the record determines, where it does not determine each of them.
+def patterns(columns: Sequence[Column], weight: Array) -> Iterator[tuple[str, Array]]:
+    """Name and (4,) weights of the combinations of a parameter's four columns, in its display unit.
 
-    A combination counts as seen where its standard deviation is below a tenth of the prior's.
+    ``weight`` are its :func:`gains`.
+    """
+    for pattern, signs in PATTERNS:
+        yield f"{pattern} {own_name(columns[0])}", np.array(signs) * weight
+
+
+def visible_combinations(
+    model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
+    """The combinations of four values (in scales) that the record sees, where it does not see each of them by itself.
+
+    ``p`` is the model's parameter vector, for the accelerometers' :func:`gains`.
     """
     found = []
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
-        if len(at) != 4:
-            continue
-        c = columns[at[0]]
-        factor = c.scale / c.unit_factor
         block = covariance[np.ix_(at, at)]
-        if np.all(np.diag(block) < 0.01):
-            continue  # each value is seen by itself
-        for pattern, weights in PATTERNS:
-            w = np.array(weights)
-            variance = float(w @ block @ w)
-            if variance < 0.01 * float(w @ w):
-                label = pattern.format(name.split(".", 1)[-1])
-                value = float(w @ values[at]) * factor
-                found.append(ParameterValue(label, None, value, float(np.sqrt(variance)) * factor, c.unit))
+        if len(at) != 4 or np.all(np.diag(block) < SEEN**2):
+            continue
+        four = [columns[k] for k in at]
+        factor = np.array([c.scale / c.unit_factor for c in four])
+        for label, weights in patterns(four, gains(model, p, name)):
+            w = weights * factor  # of values in scales
+            std = float(np.sqrt(max(0.0, float(w @ block @ w))))
+            if std < SEEN * float(np.linalg.norm(w)):
+                found.append(
+                    ParameterValue(
+                        name=label,
+                        accelerometer=None,
+                        value=float(w @ values[at]),
+                        std=std,
+                        unit=four[0].unit,
+                        weights=tuple(float(x) for x in weights),
+                    )
+                )
     return found

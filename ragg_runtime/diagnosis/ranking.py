@@ -99,7 +99,7 @@ def _ranking(
                 scored[2 * n].whole,
                 scored[2 * n + 1].held_out,
                 tuple(parameters),
-                tuple(visible_combinations(mine, values, spread)),
+                tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
                 twins,
             )
         )

@@ -21,7 +21,7 @@ from ragg_runtime.wording import notebook
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Diagnosis:
     """The result of ``diagnose``: the interface's JSON, and what the report draws."""
 
@@ -83,6 +83,14 @@ class Diagnosis:
             if line is not None:
                 return t, line
         return None
+
+    def __repr__(self) -> str:
+        errors = (
+            ("before", self.before.rms_Eo),
+            ("after", self.after.rms_Eo),
+            ("noise", self.noise_floor),
+        )
+        return notebook.in_one_line("Diagnosis", notebook.verdict(self.verdict, self.found), *errors)
 
     def _repr_html_(self) -> str:
         return notebook.diagnosis(self.as_json())

@@ -1,3 +1,4 @@
-"""Statistical evidence: whitened flights (``work``), tests of candidates (``likelihood``), their choice
-(``search``), generic remainders (``omnibus``), and effects that no column can express (``special``).
+"""Statistical evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
+
+May import ``lack_of_fit``, ``fit`` and what is below.
 """

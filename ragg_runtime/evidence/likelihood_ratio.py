@@ -40,15 +40,6 @@ class Test:
     which: tuple[int, ...]
 
 
-def with_prior(R: Array, n_base: int, to_nominal: Array) -> Array:
-    """Add the prior of the base parameters to a triangle [base | rest], and make it triangular again."""
-    prior = np.zeros((n_base, R.shape[1]))
-    prior[:, :n_base] = np.eye(n_base)
-    prior[:, -1] = to_nominal
-    T = np.linalg.qr(np.vstack([R, prior]), mode="r")
-    return np.asarray(T)
-
-
 def project(T: Array, onto: int) -> Array:
     """What is left of the later columns once the first ``onto`` are projected out."""
     return T[onto:, onto:]

@@ -118,7 +118,7 @@ def significant(t: Test, count: int, family: float = FAMILY) -> bool:
     return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
 
 
-def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
+def choose(f: Field) -> Choice:
     """Forward selection; after each addition every chosen effect may be swapped for a better one."""
     first = f.tests()
     count = sum(t.rank > 0 for t in first.values())
@@ -128,14 +128,14 @@ def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
     seen: set[frozenset[str]] = set()
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
-        ranked = sorted((t.log_p, e) for e, t in remaining.items() if e not in exclude)
+        ranked = sorted((t.log_p, e) for e, t in remaining.items())
         if not ranked or not significant(remaining[ranked[0][1]], count, FURTHER if chosen else FAMILY):
             break
         best = ranked[0][1]
         chosen.append(best)
         blocks[best] = remaining[best].which
         if len(chosen) > 1:
-            chosen, blocks = _swap(f, chosen, blocks, exclude)
+            chosen, blocks = _swap(f, chosen, blocks)
         chosen, blocks = _drop(f, chosen, blocks, count)
         remaining = f.tests(chosen)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
@@ -143,12 +143,12 @@ def choose(f: Field, exclude: Sequence[str] = ()) -> Choice:
 
 
 def _swap(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], exclude: Sequence[str]
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
-        ranked = sorted((t.log_p, e) for e, t in conditional.items() if e not in exclude)
+        ranked = sorted((t.log_p, e) for e, t in conditional.items())
         if ranked and ranked[0][1] != old and ranked[0][0] < conditional[old].log_p - 2.0:
             best = ranked[0][1]
             chosen = [*others, best]

@@ -16,7 +16,7 @@ from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.fit.square_root import join, triangle
+from ragg_runtime.fit.square_root import join, triangle, with_prior
 
 Array = NDArray[np.float64]
 
@@ -59,7 +59,7 @@ def best_step(
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = join([before, off])
-        T = likelihood_ratio.with_prior(np.vstack([before, after[len(edges) - n]]), n_base, prior)
+        T = with_prior(np.vstack([before, after[len(edges) - n]]), range(n_base), prior)
         test = likelihood_ratio.test(likelihood_ratio.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
         if best is None or test.log_p < best.test.log_p:
             best = Step(edge, test, 2 * BLOCKS)

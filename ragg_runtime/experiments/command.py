@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from ragg_runtime.base.files import write_text
-from ragg_runtime.experiments.result import Result
-from ragg_runtime.model_dir import provenance
+if TYPE_CHECKING:
+    from ragg_runtime.experiments.result import Result
 
 _JSON = click.option(
     "--json", "json_file", type=click.Path(), metavar="FILE", help="Write the result as JSON (- is stdout)."
@@ -77,6 +77,9 @@ def _give(result: Result, json_file: str | None, figures: Path | None) -> None:
         for path in result.figures(figures):
             click.echo(f"wrote {path}", err=True)
     if json_file is not None:
+        from ragg_runtime.base.files import write_text
+        from ragg_runtime.model_dir import provenance
+
         found = result.as_json() | {"provenance": provenance.provenance(provenance.command())}
         text = json.dumps(found, indent=1, allow_nan=False) + "\n"
         if json_file == "-":

@@ -41,6 +41,11 @@ def conditions() -> Table:
     runs = (
         ("as set up", regular_run()),
         ("second-order terms without angles (Eq. 5)", regular_run(effects=ANGLES_DROPPED)),
+        (
+            "vartheta = 0: second-order terms times beta alone",
+            regular_run(without("vartheta_y", "vartheta_z")),
+        ),
+        ("beta = 0: second-order terms times vartheta alone", regular_run(without("beta_x", "beta_z"))),
         ("exact rotations", regular_run(rotations="exact")),
         ("vartheta_x = 20 arcsec, all four", regular_run(with_angles(np.full(4, 20.0)))),
         ("the mass of Section III.A at rest", regular_run(gravity=WITH_MASS)),
@@ -57,10 +62,19 @@ def conditions() -> Table:
         "Model errors after demodulation (Eo) and the largest before it (V)",
         ("condition", "an. inline", "an. cross", "si. inline", "si. cross", "an. V", "si. V"),
         tuple(rows),
-        "With second-order terms as in Eq. 5 the analytical model is the numerical one, to rounding: its "
-        "error is the products of second-order coefficients and angles that the paper drops below Eq. 5b, "
-        "and nothing else. Exact rotations would put it at 1e-2 V, not the 1e-3 V printed: the paper's "
-        "numerical model has first-order ones, too.",
+        "With second-order terms as in Eq. 5 the analytical model is the numerical one, to rounding: its error is "
+        "products of second-order coefficients and angles, and nothing else. They are of two kinds, which add up: "
+        "with the misalignments vartheta, which the paper drops below Eq. 5b, and, larger and opposite here, with the "
+        "mounting errors beta_x and beta_z, which Eq. 18 drops without a word. Exact rotations would put it at "
+        "1e-2 V, not the 1e-3 V printed: the paper's numerical model has first-order ones, too.",
+    )
+
+
+def without(*names: str) -> Instrument:
+    """The instrument of Table V with some of its angles zero."""
+    one = regular_run().instrument
+    return dataclasses.replace(
+        one, accelerometers={**one.accelerometers, **dict.fromkeys(names, np.zeros(4))}
     )
 
 

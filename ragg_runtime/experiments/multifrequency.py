@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.experiments import paper, result
+from ragg_runtime.experiments.figures import lines, page, pair
 from ragg_runtime.experiments.models import Channels, channels, output
 from ragg_runtime.experiments.result import Json, Row, Table, judge
 from ragg_runtime.reference import Simulation, simulate, still
@@ -74,9 +75,17 @@ class MultiFrequency:
 
     def figures(self, folder: Path) -> list[Path]:
         """Draw Fig. 5 to 7 into a folder; the files written."""
-        from ragg_runtime.experiments.figures import draw_multifrequency
-
-        return draw_multifrequency(self, folder)
+        start = self.run.time < 60
+        time = self.run.time[start]
+        path = folder / "fig-5-voltages.png"
+        with page(path, 2) as axes:
+            lines(axes[0], time, {f"V_{j + 1}": v[start] for j, v in enumerate(self.run.voltages)}, "V")
+            lines(axes[1], time, {name: G[start] for name, G in self.outputs.items()}, "G_out, V")
+        return [
+            path,
+            pair(folder / "fig-6-gradients.png", {**self.demodulated, "centre": self.centre}),
+            pair(folder / "fig-7-differences.png", self.differences, log=True),
+        ]
 
 
 def multifrequency(rate: float = 16.0, duration: float = 460.0) -> MultiFrequency:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments import paper, result
+from ragg_runtime.experiments.figures import lines, page
 from ragg_runtime.experiments.models import Channels, channels, error
 from ragg_runtime.experiments.result import Json, Row, Table, judge
 from ragg_runtime.experiments.turbulence_checks import (
@@ -79,9 +80,25 @@ class Turbulence:
 
     def figures(self, folder: Path) -> list[Path]:
         """Draw Fig. 9 and 10 into a folder; the files written."""
-        from ragg_runtime.experiments.figures import draw_turbulence
-
-        return draw_turbulence(self, folder)
+        paths = []
+        for experiment, run in self.runs.items():
+            start = run.time < 60
+            time, c = run.time[start], run.channels
+            errors = {m: self.demodulated[experiment, m] for m in ("analytical", "simplified")}
+            path = folder / f"turbulence-{experiment}.png"
+            with page(path, 4) as axes:
+                lines(axes[0], time, {"a_z": c["a_z"][start] / run.instrument.g0 * 1e3}, "mg")
+                if experiment == 1:
+                    axes[1].hist(c["a_z"] / run.instrument.g0 * 1e3, bins=50, color="grey")
+                    axes[1].set(xlabel="a_z, mg", ylabel="samples")
+                else:
+                    turn = {f"omegadot_{k}": c[f"omegadot_{k}"][start] for k in "xyz"}
+                    lines(axes[1], time, turn, "rad/s$^2$")
+                for axis, channel in zip(axes[2:], ("inline", "cross"), strict=True):
+                    series = {m: getattr(e, channel) for m, e in errors.items()}
+                    lines(axis, errors["analytical"].time, series, f"{channel} error, Eo")
+            paths.append(path)
+        return paths
 
 
 def turbulence(*, seeds: Sequence[int] = SEEDS, rate: float = RATE, duration: float = DURATION) -> Turbulence:

@@ -19,7 +19,7 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.noise import estimate_noise, spread
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.square_root import join, triangle, with_prior
+from ragg_runtime.fit.square_root import Linear, join, triangle, with_prior
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -102,7 +102,8 @@ def fit(
                 rows += count
                 sums += part
                 triangles.append(T)
-        normal = with_prior(join(triangles), -away)
+        T = with_prior(join(triangles), range(len(away)), -away)
+        normal = Linear(T[:-1, :-1], T[:-1, -1])
         # A strong effect that the model lacks must not drag the parameters out of all proportion:
         # they are where the signatures are evaluated.
         step = np.clip(away + normal.step, -REACH, REACH) - away

@@ -7,7 +7,7 @@ stacking their triangles. (A QR update, not normal equations: the columns' sizes
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -130,11 +130,6 @@ def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
         left = sums[-1] - sums[:-1] @ coefficients
         shifted[list(biases)] += own * left / (own @ own)
     return shifted
-
-
-def names(columns: Sequence[Column]) -> Mapping[str, int]:
-    """Label -> position."""
-    return {c.label: n for n, c in enumerate(columns)}
 
 
 def grouped(columns: Iterable[Column], offset: int = 0) -> dict[str, list[tuple[int, Column]]]:

@@ -11,15 +11,14 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis.comparison import about
-from ragg_runtime.evidence import likelihood_ratio
-from ragg_runtime.fit import calibrate, columns
+from ragg_runtime.fit import calibrate, columns, prepared
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.square_root import with_prior
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
@@ -120,7 +119,7 @@ class Fitted:
 
     def _triangle(self, blocks: Sequence[int]) -> Array:
         joined = np.vstack([t[b] for t in self.triangles for b in blocks])
-        return likelihood_ratio.with_prior(joined, self.n_base, self.to_nominal)
+        return with_prior(joined, range(self.n_base), self.to_nominal)
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.
@@ -130,10 +129,8 @@ class Fitted:
         T = self.half if held_out else self.whole
         n = self.n_base
         picked = [*range(n), *(n + k for k in extra)]
-        prior = np.zeros((len(extra), len(picked) + 1))
-        prior[:, n:-1] = np.eye(len(extra))
-        R = np.asarray(np.linalg.qr(np.vstack([T[:, [*picked, T.shape[1] - 1]], prior]), mode="r"))
         k = len(picked)
+        R = with_prior(T[:, [*picked, T.shape[1] - 1]], range(n, k))
         inverse = np.linalg.inv(R[:k, :k])
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
         sums = np.sum([x[blocks] for x in self.sums], axis=(0, 1))[[*picked, -1]]
@@ -229,6 +226,26 @@ def fit(
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
     return about(model, instrument, observations, c)
+
+
+@one_thread
+def about(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+) -> Fitted:
+    """The evidence about a calibration, however it was found."""
+    flown = prepared.prepare(model, instrument, observations, c)
+    triangles, sums = zip(*(prepared.blocks(x) for x in flown), strict=True)
+    return Fitted(
+        model,
+        instrument,
+        tuple(observations),
+        c,
+        flown,
+        triangles,
+        sums,
+        prepared.to_nominal(model, instrument, c),
+        scale_factor(model.chain, c.p),
+    )
 
 
 def noise_floor(f: Fitted) -> float:

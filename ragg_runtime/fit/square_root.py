@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class _Linear:
+class Linear:
     """Linear least squares in scales, prior included: the triangle R (n, n) and the rotated data y (n,)."""
 
     R: Array
@@ -35,14 +35,15 @@ class _Linear:
         return float(self.y @ self.y - np.sum((self.y - self.R @ step) ** 2))
 
 
-def with_prior(T: Array, to_nominal: Array) -> _Linear:
-    """The fit of a triangle [base (n) | residual] and of the prior.
+def with_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> Array:
+    """A triangle (n, n) whose last column is the data, with a prior of unit width on some of the other columns.
 
-    The prior pulls every parameter to its nominal value, ``to_nominal`` away, with a width of one scale.
+    ``centre`` (columns,) or one number is where the prior has its mean. A prior is so many further rows of data.
     """
-    n = len(to_nominal)
-    R = np.asarray(np.linalg.qr(np.vstack([T, np.column_stack([np.eye(n), to_nominal])]), mode="r"))
-    return _Linear(R[:n, :n], R[:n, n])
+    prior = np.zeros((len(columns), T.shape[1]))
+    prior[range(len(columns)), list(columns)] = 1.0
+    prior[:, -1] = centre
+    return np.asarray(np.linalg.qr(np.vstack([T, prior]), mode="r"))
 
 
 def orthonormal(columns: Array) -> Array:

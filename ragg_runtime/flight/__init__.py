@@ -1,4 +1,4 @@
-"""Flights: records of motion and output, read from and written to CSV, Parquet and NetCDF."""
+"""Flights: records of motion and output, read from and written to files. May import ``signals`` and ``base``."""
 
 from ragg_runtime.flight.files import iter_flight_chunks, read_flight, write_flight
 from ragg_runtime.flight.record import Flight

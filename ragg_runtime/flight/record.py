@@ -104,6 +104,10 @@ class Flight:
         units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
         set_field(self, "units", MappingProxyType(units))
 
+    def __repr__(self) -> str:
+        columns = " ".join((*self.channels, *self.outputs))
+        return f"<Flight {self.name}: {self.duration:.6g} s at {self.rate:.6g} Hz; {columns}>"
+
     def __len__(self) -> int:
         return len(self.time)
 
@@ -116,11 +120,6 @@ class Flight:
     def duration(self) -> float:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
-
-    def with_outputs(self, outputs: Mapping[str, ArrayLike]) -> Flight:
-        """The same motion with other outputs (SI), e.g. a model's; it no longer stands for the file."""
-        columns = {name: np.asarray(v, dtype=np.float64) for name, v in outputs.items()}
-        return dataclasses.replace(self, outputs=columns, path=None, digest="")
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import comb
 
-from ragg_runtime.lack_of_fit import features
+from ragg_runtime.base import series_name
+from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
 from ragg_runtime.lack_of_fit.dictionary import Term
 
 _FUNCTIONS = {"abs": "absolute value", "sign": "sign", "square": "square"}
@@ -20,7 +21,7 @@ def line(term: Term, centre: Mapping[str, float], unit: str) -> str | None:
     """
     factors: list[str] = []
     for name in dict.fromkeys(term.channels):
-        text = _written(name)
+        text = _written(series_name.series(name))
         if text is None:
             return None
         n = term.channels.count(name)
@@ -35,52 +36,51 @@ def columns(term: Term) -> list[str]:
     """In words: the columns that a flight must have for :func:`line`, since an expression knows only the moment."""
     found = {}
     for name in term.channels:
-        for inner in _inner(name):
-            if (own := _column(inner)) is not None:
-                found[own] = f"{own} ({in_words(inner)})"
+        s = series_name.series(name)
+        while isinstance(s, Function):
+            s = s.of
+        if not isinstance(s, Channel):
+            found[_column(s)] = f"{_column(s)} ({in_words(s)})"
     return list(found.values())
 
 
-def in_words(name: str) -> str:
-    """What a series is, of any name in :mod:`ragg_runtime.lack_of_fit.features`."""
-    if (slow := features.SLOW.fullmatch(name)) is not None:
-        return f"{in_words(slow['of'])} through a relaxation of {slow['seconds']} s"
-    if (call := features.FUNCTION.fullmatch(name)) is not None:
-        return f"{_FUNCTIONS[call[1]]} of {in_words(call['of'])}"
-    if (rate := features.DERIVATIVE.fullmatch(name)) is not None:
-        return f"{'second ' if name.startswith('d2_') else ''}time derivative of {rate['of']}"
-    return name
+def in_words(s: Series) -> str:
+    """What a series is."""
+    match s:
+        case Channel(name):
+            return name
+        case Derivative(of, order):
+            return f"{'second ' if order == 2 else ''}time derivative of {of}"
+        case Function(name, of):
+            return f"{_FUNCTIONS[name]} of {in_words(of)}"
+        case Relaxation(of, seconds):
+            return f"{in_words(of)} through a relaxation of {seconds} s"
 
 
-def _inner(name: str) -> Sequence[str]:
-    call = features.FUNCTION.fullmatch(name)
-    return (name,) if call is None else _inner(call["of"])
-
-
-def _column(name: str) -> str | None:
+def _column(s: Series) -> str:
     """Name for a column of the flight that holds a series which no expression can form."""
-    if (slow := features.SLOW.fullmatch(name)) is not None:
-        return "slow_" + slow["of"].replace("(", "_").replace(")", "")
-    return name if features.DERIVATIVE.fullmatch(name) else None
+    if isinstance(s, Relaxation):
+        return "slow_" + str(s.of).replace("(", "_").replace(")", "")
+    return str(s)
 
 
-def _written(name: str) -> str | None:
-    if (call := features.FUNCTION.fullmatch(name)) is not None:
-        inner = _written(call["of"])
-        return None if inner is None else f"{call[1]}({inner})"
-    text = _column(name) or name
+def _written(s: Series) -> str | None:
+    if isinstance(s, Function):
+        inner = _written(s.of)
+        return None if inner is None else f"{s.name}({inner})"
+    text = _column(s)
     return text if _NAME.fullmatch(text) else None
 
 
-def _carrier(harmonic: str) -> tuple[str, ...]:
+def _carrier(name: str) -> tuple[str, ...]:
     """A harmonic of the disc angle as a polynomial in cos_phi and sin_phi (de Moivre)."""
-    if harmonic == "const":
+    h = series_name.harmonic(name)
+    k = h.multiple
+    if not k:
         return ()
-    kind, multiple = harmonic.split()
-    k = int(multiple)
     terms = []
     # powers of i sin phi: real for cos, imaginary for sin
-    for n in range(0 if kind == "cos" else 1, k + 1, 2):
+    for n in range(0 if h.function == "cos" else 1, k + 1, 2):
         factor = comb(k, n) * (-1) ** (n // 2)
         powers = [f"{name}**{e}" if e > 1 else name for name, e in (("cos_phi", k - n), ("sin_phi", n)) if e]
         terms.append("*".join([*([] if factor == 1 else [str(factor)]), *powers]))

@@ -16,6 +16,7 @@ from itertools import combinations_with_replacement, product
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base import series_name
 from ragg_runtime.fit.segments import segments
 from ragg_runtime.lack_of_fit import features
 from ragg_runtime.lack_of_fit.features import Relaxations
@@ -244,8 +245,8 @@ def harmonics(highest: int = HIGHEST) -> tuple[str, ...]:
 
 def carrier(r: Record, harmonic: str) -> Array:
     """(N,): 1, cos(k phi) or sin(k phi)."""
-    if harmonic == "const":
+    h = series_name.harmonic(harmonic)
+    if not h.multiple:
         return np.ones(len(r.time))
-    kind, k = harmonic.split()
-    z = (r.cos_phi + 1j * r.sin_phi) ** int(k)
-    return np.asarray(z.real if kind == "cos" else z.imag)
+    z = (r.cos_phi + 1j * r.sin_phi) ** h.multiple
+    return np.asarray(z.real if h.function == "cos" else z.imag)

@@ -1,26 +1,21 @@
 """Series that generic terms are made of: recorded channels, forces that turn with the disc, and what follows them.
 
-Names are text that a reader can take literally:
-
-- a recorded channel, ``time``, and the derivatives ``d_<channel>``, ``d2_<channel>`` of a channel;
-- ``f_i``, ``f_o``: specific force along the input and output axes of the first accelerometer,
-  a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others are the same up to sign, in the
-  third and fourth with f_i and f_o exchanged), and their derivatives ``d_f_i``, ``d2_f_i``;
-- ``abs(X)``, ``sign(X)``, ``square(X)``;
-- ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep.
+Their names are those of :mod:`ragg_runtime.base.series_name`. ``f_i`` and ``f_o`` are the specific force along the input
+and output axes of the first accelerometer, a_y cos phi - a_x sin phi and a_x cos phi + a_y sin phi (those of the others
+are the same up to sign, in the third and fourth with f_i and f_o exchanged).
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from ragg_runtime.base import series_name
+from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
 from ragg_runtime.flight.record import SI_UNITS
-from ragg_runtime.lack_of_fit import features
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
@@ -31,27 +26,15 @@ FORCES = ("f_i", "f_o")
 GRID = 1000
 """Samples between the places from which relaxations can be taken up."""
 
-FUNCTION = re.compile(r"(abs|sign|square)\((?P<of>.+)\)")
-SLOW = re.compile(r"slow\((?P<of>.+), (?P<seconds>[0-9.]+) s\)")
-DERIVATIVE = re.compile(r"d2?_(?P<of>.+)")
-
 
 def is_slow(name: str) -> bool:
     """Whether a series remembers more of the past than a part of a record holds."""
-    return SLOW.fullmatch(name) is not None
-
-
-def stem(name: str, r: Record) -> str:
-    """The channel or force at the bottom of a name."""
-    if name in r.wide:
-        return name
-    found = FUNCTION.fullmatch(name) or SLOW.fullmatch(name) or DERIVATIVE.fullmatch(name)
-    return name if found is None else stem(found["of"], r)
+    return isinstance(series_name.series(name), Relaxation)
 
 
 def recorded(name: str, r: Record) -> bool:
     """Whether a record has all that a series needs."""
-    base = stem(name, r)
+    base = series_name.channel(series_name.series(name, r.wide.keys()))
     if base in FORCES and base not in r.wide:
         return "a_x" in r.wide and "a_y" in r.wide
     return base == "time" or base in r.wide
@@ -59,12 +42,17 @@ def recorded(name: str, r: Record) -> bool:
 
 def series(name: str, r: Record) -> Array:
     """(N,), SI: a series over a record or a part of it, relaxations excepted (:class:`Relaxations`)."""
+    return _series(series_name.series(name, r.wide.keys()), r)
+
+
+def _series(s: Series, r: Record) -> Array:
+    if isinstance(s, Function):
+        functions = {"abs": np.abs, "sign": np.sign, "square": np.square}
+        return np.asarray(functions[s.name](_series(s.of, r)))
+    name = str(s)
     if name == "time":
         return r.time
-    if (found := FUNCTION.fullmatch(name)) is not None:
-        x = series(found["of"], r)
-        return np.asarray({"abs": np.abs, "sign": np.sign, "square": np.square}[found[1]](x))
-    if name not in r.wide and stem(name, r) in FORCES:
+    if name not in r.wide and series_name.channel(s) in FORCES:
         return _turning(name, r)
     known = r.series(name)
     assert known is not None, name
@@ -94,12 +82,12 @@ class Relaxations:
 
     def __init__(self, names: Sequence[str], record: Record) -> None:
         self._record = record
-        self._of: dict[str, tuple[str, float]] = {}
+        self._of: dict[str, tuple[Series, float]] = {}
         for name in names:
-            found = SLOW.fullmatch(name)
-            assert found is not None, name
-            self._of[name] = (found["of"], float(np.exp(-1.0 / (record.rate * float(found["seconds"])))))
-        self._origin: dict[str, float] = {}
+            slow = series_name.series(name, record.wide.keys())
+            assert isinstance(slow, Relaxation), name
+            self._of[name] = (slow.of, float(np.exp(-1.0 / (record.rate * float(slow.seconds)))))
+        self._origin: dict[Series, float] = {}
         self._last = dict.fromkeys(self._of, 0.0)
         self._states: list[dict[str, float]] = []  # before every GRID-th sample
         self._done = 0
@@ -124,8 +112,8 @@ class Relaxations:
 
     def _run(self, name: str, r: Record, last: float) -> Array:
         of, c = self._of[name]
-        x = series(of, r)
-        if of in FORCES or FUNCTION.fullmatch(of):
+        x = _series(of, r)
+        if isinstance(of, Function) or str(of) in FORCES:
             origin = 0.0
         else:
             if of not in self._origin and r.valid.any():
@@ -136,9 +124,6 @@ class Relaxations:
         return np.asarray(y)
 
 
-_RATES = {"d_": "m/s^3", "d2_": "m/s^4"}
-
-
 def term_unit(channels_: Sequence[str]) -> str:
     """Unit of a term's coefficient: V over the units of its channels."""
     units = [channel_unit(c) for c in channels_]
@@ -146,17 +131,19 @@ def term_unit(channels_: Sequence[str]) -> str:
 
 
 def channel_unit(name: str) -> str:
-    """SI unit of a series of :mod:`ragg_runtime.lack_of_fit.features`."""
-    if name in features.FORCES:
-        return "m/s^2"
-    if (call := features.FUNCTION.fullmatch(name)) is not None:
-        unit = channel_unit(call["of"])
-        return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[call[1]]
-    if (slow := features.SLOW.fullmatch(name)) is not None:
-        return channel_unit(slow["of"])
-    if name not in SI_UNITS and (rate := features.DERIVATIVE.fullmatch(name)) is not None:
-        unit, per = channel_unit(rate["of"]), name.partition("_")[0]
-        if unit == "m/s^2":
-            return _RATES[f"{per}_"]
-        return f"{unit}/{'s' if per == 'd' else 's^2'}"
-    return SI_UNITS.get(name, "1")
+    """SI unit of a series."""
+    return _unit(series_name.series(name, SI_UNITS.keys()))
+
+
+def _unit(s: Series) -> str:
+    match s:
+        case Channel(name):
+            return "m/s^2" if name in FORCES else SI_UNITS.get(name, "1")
+        case Derivative(of, order):
+            unit = _unit(of)
+            return f"m/s^{2 + order}" if unit == "m/s^2" else f"{unit}/{'s' if order == 1 else 's^2'}"
+        case Function(name, of):
+            unit = _unit(of)
+            return {"abs": unit, "sign": "1", "square": f"({unit})^2"}[name]
+        case Relaxation(of):
+            return _unit(of)

@@ -310,7 +310,3 @@ def _log_p(z: Array, tried: int) -> float:
     """p-value, as a logarithm, of the largest of so many standard normal deviates."""
     top = float(np.max(np.abs(z), initial=0.0))
     return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1) / SHARES[0])))
-
-
-def strongest(found: Sequence[Found]) -> list[Found]:
-    return sorted(found, key=lambda t: -t.chi2)

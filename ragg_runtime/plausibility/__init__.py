@@ -1,4 +1,7 @@
-"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them."""
+"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them.
+
+May import ``fit``, ``model`` and what is below.
+"""
 
 from ragg_runtime.model.settings import check_settings
 from ragg_runtime.plausibility.examine import examined

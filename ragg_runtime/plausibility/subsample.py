@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
@@ -235,8 +235,3 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = ())
             derived[name] = series
     taps = low_pass(flight.rate) if kind == "channels" else np.zeros(0)
     return Picker(flight, instrument, kind, usable, derived, taps)
-
-
-def with_channels(rows: Rows, changed: Mapping[str, Array]) -> Rows:
-    """The same rows with some channels changed."""
-    return replace(rows, channels={**rows.channels, **changed})

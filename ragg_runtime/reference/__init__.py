@@ -2,6 +2,8 @@
 
 Built from vectors, rotations and cross products, not from the derivation's algebra, and free of its
 truncations where asked (``rotations="exact"``, Newton's law, effects in full form).
+
+May import ``flight``, ``instrument`` and ``base``, never ``derive`` or ``generated``.
 """
 
 from __future__ import annotations

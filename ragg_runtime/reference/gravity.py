@@ -10,11 +10,9 @@ tensor has the order of ``COMPONENTS``, in s^-2 (1 Eo = 1e-9 s^-2).
 
 from __future__ import annotations
 
-import functools
-import importlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -136,106 +134,3 @@ class PointMass:
         i, j = np.triu_indices(3)
         tensor: Array = G * self.mass / distance**3 * (3 * u[i] * u[j] - (i == j)[:, None])
         return tensor
-
-
-# Gauss-Legendre on [0, 1]: the gradient of a body outside the disc is smooth along an arm.
-_NODES, _WEIGHTS = (v / 2 for v in np.polynomial.legendre.leggauss(5))
-_NODES = _NODES + 0.5
-
-
-@dataclass(frozen=True)
-class Prisms:
-    """Homogeneous rectangular bodies with edges along the measurement frame's axes, by choclo.
-
-    The difference a_g(r) - a_g(0) is the gradient integrated along the arm, which does not cancel.
-
-    Attributes
-    ----------
-    bounds
-        (P, 6) m: x from, x to, y from, y to, z from, z to.
-    density
-        (P,) kg/m^3.
-    offset
-        Displacement of all bodies as a function of time, (N,) s -> (3, N) m; ``None``: at rest.
-    """
-
-    bounds: ArrayLike
-    density: ArrayLike
-    offset: Track | None = None
-
-    def _tensor(self, points: Array) -> Array:
-        bounds = np.atleast_2d(np.asarray(self.bounds, dtype=np.float64))
-        density = np.atleast_1d(np.asarray(self.density, dtype=np.float64))
-        if bounds.shape != (density.size, 6) or not np.all(bounds[:, 1::2] > bounds[:, ::2]):
-            raise UserError(
-                "each prism needs six bounds, from < to along x, y and z, and one density",
-                found=f"bounds {bounds.tolist()}, {density.size} densities",
-            )
-        out = np.empty((6, points.shape[1]))
-        _prism_kernel()(np.ascontiguousarray(points), bounds, density, out)
-        if not np.all(np.isfinite(out)):
-            raise UserError("a prism's edge or vertex touches the disc centre or an accelerometer's arm")
-        return out
-
-    def _seen_from(self, time: Array, r: Array) -> Array:
-        return r if self.offset is None else r - self.offset(time)
-
-    def difference(self, time: Array, r: Array) -> Array:
-        """a_g(r) - a_g(0), (3, N) m/s^2."""
-        total = np.zeros(r.shape)
-        for node, weight in zip(_NODES, _WEIGHTS, strict=True):
-            total += weight * contract(self._tensor(self._seen_from(time, node * r)), r)
-        return total
-
-    def gradient(self, time: Array) -> Array:
-        """Gradient tensor at the disc centre, (6, N) s^-2."""
-        return self._tensor(self._seen_from(time, np.zeros((3, time.size))))
-
-
-@dataclass(frozen=True)
-class Together:
-    """Several sources at once."""
-
-    parts: tuple[Gravity, ...]
-
-    def difference(self, time: Array, r: Array) -> Array:
-        """Sum of the parts, (3, N) m/s^2."""
-        return sum((p.difference(time, r) for p in self.parts), np.zeros(r.shape))
-
-    def gradient(self, time: Array) -> Array:
-        """Sum of the parts, (6, N) s^-2."""
-        return sum((p.gradient(time) for p in self.parts), np.zeros((6, time.size)))
-
-
-@functools.cache
-def _prism_kernel() -> Callable[[Array, Array, Array, Array], None]:
-    """The compiled loop over points and prisms, built once."""
-    try:
-        prism: Any = importlib.import_module("choclo.prism")
-        numba: Any = importlib.import_module("numba")
-    except ImportError as error:
-        raise UserError(
-            "extended bodies need the library choclo, which is not installed",
-            remedy="pip install 'ragg[bodies]', or use point masses",
-        ) from error
-    ee, en, eu = prism.gravity_ee, prism.gravity_en, prism.gravity_eu
-    nn, nu, uu = prism.gravity_nn, prism.gravity_nu, prism.gravity_uu
-
-    @numba.njit  # type: ignore[untyped-decorator]
-    def loop(points: Array, bounds: Array, density: Array, out: Array) -> None:  # pragma: no cover
-        for n in range(points.shape[1]):
-            x, y, z = points[0, n], points[1, n], points[2, n]
-            for k in range(6):
-                out[k, n] = 0.0
-            for p in range(bounds.shape[0]):
-                w, e, s, t, b, u = bounds[p]
-                rho = density[p]
-                out[0, n] += ee(x, y, z, w, e, s, t, b, u, rho)
-                out[1, n] += en(x, y, z, w, e, s, t, b, u, rho)
-                out[2, n] += eu(x, y, z, w, e, s, t, b, u, rho)
-                out[3, n] += nn(x, y, z, w, e, s, t, b, u, rho)
-                out[4, n] += nu(x, y, z, w, e, s, t, b, u, rho)
-                out[5, n] += uu(x, y, z, w, e, s, t, b, u, rho)
-
-    kernel: Callable[[Array, Array, Array, Array], None] = loop
-    return kernel

@@ -2,6 +2,8 @@
 
 ``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
 bytes. Numbers come from the results, words from ``words``, series for figures from ``series``.
+
+May import ``survey``, ``diagnosis`` and what is below.
 """
 
 from __future__ import annotations

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, gains
+from ragg_runtime.diagnosis.parameters import own_name as _name
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.evidence import likelihood_ratio, selection
 from ragg_runtime.evidence.selection import field_of
@@ -20,7 +22,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import Posterior, posterior
-from ragg_runtime.report.parameters import PATTERNS, SEEN, UNSEEN, gains
+from ragg_runtime.report.parameters import PATTERNS
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -69,10 +71,6 @@ def values(f: Fitted, r: Ranked) -> Values:
     return Values((*kept, *extra), len(found) - len(kept), ())
 
 
-def _name(c: Column) -> str:
-    return c.name.split(".", 1)[1]
-
-
 def _plain(name: str, value: float, unit: str) -> Value:
     return Value(name, "", numbers.with_unit(numbers.number(value, 4), unit), 0.0)
 
@@ -117,9 +115,9 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
         column = own[positions[0]][1]
         rows: list[tuple[str, Array, float]] = []
         if len(positions) == 4:
-            for name, pattern in PATTERNS:
+            for name, signs in PATTERNS:
                 w = np.zeros(len(own))
-                w[positions] = np.array(pattern) * gains(f, column)
+                w[positions] = np.array(signs) * gains(f.model, f.calibration.p, column.name)
                 rows.append((name, w, SEEN))
         else:
             for k in positions:

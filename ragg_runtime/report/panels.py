@@ -12,7 +12,7 @@ from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error
-from ragg_runtime.report import barcharts, draw, series
+from ragg_runtime.report import barcharts, series
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.figures import ChannelPanel, Line, SpectrumPanel, TimePanel
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH
@@ -172,11 +172,7 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
 
 def where_it_fails(c: Comparison, key: str) -> list[dict[str, str]]:
     """Figures of harmonics and of motion terms of a comparison's residual; ``key`` begins their ids."""
-    return remainder_figures(c.fitted, np.zeros(c.fitted.size), terms(_terms_of(c), c.calibrated.rms_Eo), key)
-
-
-def _terms_of(c: Comparison) -> list[dict[str, object]]:
-    return c.terms()
+    return remainder_figures(c.fitted, np.zeros(c.fitted.size), terms(c.terms(), c.calibrated.rms_Eo), key)
 
 
 def remainder_figures(
@@ -201,8 +197,3 @@ def remainder_figures(
             {"svg": barcharts.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
         )
     return found
-
-
-def colors() -> dict[str, str]:
-    """For the style sheet: the figures' colours."""
-    return {"residual": draw.RESIDUAL, "noise": draw.NOISE, "ink": draw.INK, "quiet": draw.QUIET}

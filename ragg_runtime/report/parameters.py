@@ -14,20 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis import parameters as combinations
+from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import posterior
 from ragg_runtime.instrument.parameters import PARAMETER
-from ragg_runtime.model.evaluate import named, vector
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
-
-UNSEEN = 0.9
-"""Posterior over prior standard deviation from which a value is the test sheet's, not the record's."""
-
-SEEN = 0.3
-"""The same below which a value is the record's own."""
 
 DETERMINED = 0.5
 """The same for the principal directions of all parameters, which a record sees well or not at all."""
@@ -35,24 +31,8 @@ DETERMINED = 0.5
 SHARE = 0.03
 """Squared share of an unseen direction below which a combination is taken not to be part of it."""
 
-PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
-    ("Σ", (1, 1, 1, 1)),
-    ("D1234", (1, 1, -1, -1)),
-    ("D12", (1, -1, 0, 0)),
-    ("D34", (0, 0, 1, -1)),
-)
-
-
-def gains(f: Fitted, column: Column) -> Array:
-    """(4,) weight of each accelerometer in G_out for this parameter, over their mean.
-
-    Bias and coefficients act through k_VI K1 of their accelerometer (Eq. 1). The paper's D^12_{K1 K0} holds K1
-    for that reason, and so must a combination here: accelerometers differ by 1e-4, which is much where a
-    difference is seen a million times better than the sum.
-    """
-    values = named(f.model.chain, f.calibration.p)
-    g = values["k_VI"] if column.name == "K1" else values["k_VI"] * values["K1"]
-    return np.asarray(g / np.mean(g))
+PATTERNS = tuple(("Σ" if name == "Sigma" else name, signs) for name, signs in combinations.PATTERNS)
+"""The combinations, as a page writes them."""
 
 
 @dataclass(frozen=True)
@@ -173,7 +153,7 @@ def by_combination(f: Fitted) -> list[Row]:
         scale = np.array([c.columns[n].scale for n in positions])
         cells = []
         for _, weights in PATTERNS:
-            u = np.array(weights) * gains(f, first)
+            u = np.array(weights) * combinations.gains(f.model, c.p, first.name)
             a = np.zeros(len(c.columns))
             a[positions] = u * scale
             std = fitted.std(a) / first.unit_factor

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import noise_gain
 from ragg_runtime.fit.prepared import Flown
@@ -140,7 +141,7 @@ def harmonic_noise(f: Fitted) -> dict[str, float]:
     works = [w for w in f.flown if _long(w)]
     found = {}
     for h in harmonics():
-        k = 0 if h == "const" else int(h.split()[1])
+        k = series_name.harmonic(h).multiple
         squares = [demodulated_noise(w, f.k_ggi, spin, k, 2.0 if k else 1.0) ** 2 for w in works]
         found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
     return found

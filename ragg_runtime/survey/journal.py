@@ -13,7 +13,6 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey.task import Job, Record
@@ -156,9 +155,3 @@ def _claim(handle: int, path: Path) -> None:
         ) from None
     except OSError:
         return  # a file system without locks
-
-
-def lines_of(path: Path) -> list[Any]:
-    """Every complete line of a results file."""
-    text = path.read_bytes()
-    return [json.loads(line) for line in text[: text.rfind(b"\n") + 1].splitlines()]

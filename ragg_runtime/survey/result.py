@@ -16,7 +16,7 @@ from ragg_runtime.wording import notebook
 from ragg_runtime.wording.numbers import clean
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Survey:
     """The result: one record a flight, in the order of the flights' names, and their summary.
 
@@ -40,8 +40,10 @@ class Survey:
     def summary(self) -> Summary:
         return summary.summarised(self.records)
 
-    def _repr_html_(self) -> str:
+    def __repr__(self) -> str:
+        return f"<Survey: {counted(self.summary.counts)}>"
 
+    def _repr_html_(self) -> str:
         return notebook.survey(self.records, counted(self.summary.counts), recommended(self, "MODEL_DIR"))
 
     def as_json(self) -> dict[str, object]:

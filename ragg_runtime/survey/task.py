@@ -14,7 +14,7 @@ import socket
 import threading
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from importlib import metadata
 from pathlib import Path
@@ -29,7 +29,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import alone
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.diagnose import diagnose_fitted
-from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observe
@@ -49,9 +49,6 @@ Record = dict[str, Any]
 
 RANKED = 5
 """Effects of the ranking that are kept."""
-
-SEEN = 0.1
-"""A parameter counts as seen if its standard deviation is below this share of its prior's."""
 
 
 @dataclass(frozen=True)
@@ -260,7 +257,7 @@ def _parameters(d: Diagnosis) -> list[ParameterValue]:
     for e in dict.fromkeys(q.effect for q in c.columns):
         own = [k for k, q in enumerate(c.columns) if q.effect == e]
         combined = visible_combinations(
-            [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)]
+            f.model, c.p, [c.columns[k] for k in own], values[own], c.covariance[np.ix_(own, own)]
         )
         found += [_named(p, e) for p in combined]
     if d.final is None:
@@ -270,7 +267,7 @@ def _parameters(d: Diagnosis) -> list[ParameterValue]:
 
 def _named(p: ParameterValue, effect: str | None) -> ParameterValue:
     name = f"{effect}.{p.name}" if effect else p.name
-    return ParameterValue(name, p.accelerometer, p.value, p.std, p.unit)
+    return replace(p, name=name)
 
 
 def _plain(x: Any) -> Any:

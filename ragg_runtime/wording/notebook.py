@@ -41,7 +41,9 @@ def verdict(name: str, found: Sequence[str]) -> str:
 def parameter(p: Mapping[str, Any]) -> str:
     """A fitted parameter in one line."""
     which = f" of A{p['accelerometer']}" if p["accelerometer"] else ""
-    return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}"
+    own = p["name"].split(" ")[-1]
+    sum_ = " ".join(f"{w:+.4g} {own}[{j}]" for j, w in enumerate(p.get("weights", ()), 1) if w)
+    return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}{sum_ and f'  ({sum_})'}"
 
 
 def p_value(log10_p: float | None, value: float) -> str:
@@ -180,6 +182,17 @@ def added(a: Mapping[str, Any], effects: Sequence[str], noise: float | None, ade
         parts += [_table(ERROR_HEADS, rows), _line(NOW_ADEQUATE if adequate else STILL_MISSING)]
         parts += _values(a["parameters"], a["combinations"])
     return _fragment(*parts)
+
+
+def catalogue(entries: Sequence[Mapping[str, Any]]) -> str:
+    """The catalogue of effects."""
+    rows = [(e["id"], e["title"], e["equation"], ", ".join(e["channels"])) for e in entries]
+    return _fragment(_table(("effect", "what", "equation", "needs"), rows, words=4))
+
+
+def in_one_line(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
+    """The ``repr`` of a result: what it is, what it says, errors in Eo."""
+    return f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>"
 
 
 def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]]) -> str:

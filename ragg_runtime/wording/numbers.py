@@ -6,6 +6,8 @@ import math
 import re
 import unicodedata
 
+from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series, series
+
 THIN = "\u202f"
 MINUS = "\u2212"
 ABSENT = "\u2013"
@@ -161,23 +163,36 @@ def product(name: str) -> str:
     """``a_x*omegadot_y`` as a_x · dω_y/dt, ``f_i*f_i`` as f_i²; ``1`` as it is."""
     factors = clean(name).split("*")
     powers = [(c, factors.count(c)) for c in dict.fromkeys(factors)]
-    return " · ".join(_channel(c) + ("" if n == 1 else str(n).translate(_SUPERSCRIPTS)) for c, n in powers)
+    return " · ".join(
+        _channel(series(c)) + ("" if n == 1 else str(n).translate(_SUPERSCRIPTS)) for c, n in powers
+    )
 
 
-def _channel(name: str) -> str:
-    if (slow := re.fullmatch(r"slow\((.+), ([0-9.]+) s\)", name)) is not None:
-        return f"{_channel(slow[1])} relaxing in {slow[2]}{THIN}s"
-    if (call := re.fullmatch(r"(abs|sign|square)\((.+)\)", name)) is not None:
-        inner = _channel(call[2])
-        return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[call[1]]
-    found = re.fullmatch(r"(d2?_)?(a|omega|omegadot|f)_([xyzio])", name)
+def _channel(s: Series) -> str:
+    match s:
+        case Relaxation(of, seconds):
+            return f"{_channel(of)} relaxing in {seconds}{THIN}s"
+        case Function(name, of):
+            inner = _channel(of)
+            return {"abs": f"|{inner}|", "sign": f"sign({inner})", "square": f"{inner}²"}[name]
+        case Derivative(of, order):
+            return _differentiated(of.name, order)
+        case Channel(name):
+            return _differentiated(name, 0)
+
+
+def _differentiated(name: str, order: int) -> str:
+    """A derivative of a channel by time; the angular acceleration is itself one of the angular rate."""
+    found = _MOTION.fullmatch(name)
     if found is None:
-        return name
-    stem = {"omega": "ω", "omegadot": "dω"}.get(found[2], found[2])
-    text = f"{stem}_{found[3]}" + ("/dt" if found[2] == "omegadot" else "")
-    if found[1] == "d2_":
-        return f"d²{text}/dt²"
-    return f"d{text}/dt" if found[1] else text
+        return str(Derivative(Channel(name), order)) if order else name
+    stem = "ω" if found[1].startswith("omega") else found[1]
+    order += found[1] == "omegadot"
+    text = f"{stem}_{found[2]}"
+    return text if not order else f"d{text}/dt" if order == 1 else f"d²{text}/dt²"
+
+
+_MOTION = re.compile(r"(a|omega|omegadot|f)_([xyzio])")
 
 
 def listed(names: list[str], conjunction: str = "and") -> str:

@@ -43,7 +43,7 @@ from ragg_runtime.survey.run import Progress
 from ragg_runtime.wording import notebook
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Loaded:
     """A model directory, the model derived for it, and what was odd, in sentences."""
 
@@ -59,12 +59,15 @@ class Loaded:
     def name(self) -> str:
         return self.directory.path.resolve().name
 
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
+
     def _repr_html_(self) -> str:
         steps = [s.as_json() for s in self.directory.history]
         return notebook.model(self.name, [e.id for e in self.model.effects], steps)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Added:
     """The result of ``add``: the errors before and after, and the calibrated parameters."""
 
@@ -74,6 +77,13 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return notebook.in_one_line("Added", self.effect, *errors)
 
     def _repr_html_(self) -> str:
         noise, adequate = (
@@ -277,7 +287,7 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     covariance = cal.covariance[np.ix_(mine, mine)]
     return (
         tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(columns, values, covariance)),
+        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
     )
 
 

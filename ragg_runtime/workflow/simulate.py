@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
-from ragg_runtime.reference import simulate
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 
+if TYPE_CHECKING:
+    from ragg_runtime.workflow.loop import Loaded
+
 Array = NDArray[np.float64]
+
+
+def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
+    """A flight of a model directory's instrument; ``effects`` and ``options`` are those of :func:`simulated`."""
+    return simulated(m.instrument, effects, **options)
 
 
 def simulated(
@@ -51,7 +60,7 @@ def simulated(
     """
     effects = dict(_parsed(text, instrument.g0) for text in hidden)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
-    s = simulate(
+    s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
         draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape),
         duration,

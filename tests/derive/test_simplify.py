@@ -28,7 +28,6 @@ from derive.simplify import (
 from derive.simplify.critical import Condition
 from derive.simplify.page import category, page
 from derive.symbols import ANGLES, SECOND_ORDER
-from ragg_runtime.base.errors import UserError
 
 G = 9.8
 Key = tuple[int, tuple[int, ...], tuple[int, ...]]
@@ -264,7 +263,7 @@ def test_the_dynamic_envelope_holds_the_experiment() -> None:
     [{"a": (1.0, -1.0, 0.0)}, {"K7": math.nan}, {"imbalance": 1.0}, {"dR": 0.2}, {"Gamma": math.inf}],
 )
 def test_an_envelope_that_is_none_is_refused(change: dict[str, object]) -> None:
-    with pytest.raises(UserError):
+    with pytest.raises(ValueError):
         dataclasses.replace(PAPER_ENVELOPE, **change)  # type: ignore[arg-type]
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 from ragg_runtime.flight import write_flight
 from ragg_runtime.workflow import loop
@@ -32,3 +34,9 @@ def make(folder: Path) -> tuple[Path, list[Path]]:
 def without_effect(paths: list[Path]) -> list[Path]:
     """Those that are diagnosed soonest: no effect to derive, the damaged file among them."""
     return [p for p in paths if p.name not in WITH_EFFECT]
+
+
+def lines_of(path: Path) -> list[Any]:
+    """Every complete line of a results file."""
+    text = path.read_bytes()
+    return [json.loads(line) for line in text[: text.rfind(b"\n") + 1].splitlines()]

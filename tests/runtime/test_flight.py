@@ -354,10 +354,8 @@ def test_flights_in_memory() -> None:
     assert made.valid.all()
     assert made.valid.shape == (10,)
     assert made.units == {"time": "s", "a_x": "m/s^2"}
-    other = made.with_outputs({"G_out": t * 2})
-    assert other.outputs["G_out"][3] == t[3] * 2
     assert made.outputs == {}
-    assert len(other.part(slice(2, 5))) == 3
+    assert len(made.part(slice(2, 5))) == 3
     t[0] = 0.0  # the caller's array stays the caller's
     with pytest.raises(ValueError, match="read-only"):
         made.channels["a_x"][0] = 1.0

@@ -23,7 +23,7 @@ from ragg_runtime.diagnosis import diagnose, result
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import output, vector, voltages
+from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
 from ragg_runtime.report import barcharts, budget, draw, effect_values, panels, parameters, series
@@ -352,7 +352,7 @@ def test_combinations_are_known_better_than_single_values(clean: Case) -> None:
 def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
     """V_j = k_VI K1 K0: a constant in G_out, D1234 of k_VI K1 K0 over k_ggi, and nothing in the channels."""
     f = clean.comparison.fitted
-    p = parameters.named(f.model.chain, f.calibration.p)
+    p = named(f.model.chain, f.calibration.p)
     volts = p["k_VI"] * p["K1"] * p["K0"]
     expected = abs(volts[0] + volts[1] - volts[2] - volts[3]) / f.k_ggi
     row = next(r for r in budget.contributions(f) if r.label.startswith("K_0"))

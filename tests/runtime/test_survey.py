@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from flights_of_a_survey import COUNT, WITH_EFFECT, make, without_effect
+from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effect
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
@@ -25,7 +25,6 @@ from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import Survey, local
 from ragg_runtime.survey import run as survey_run
-from ragg_runtime.survey.journal import lines_of
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
 

@@ -15,11 +15,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from flights_of_a_survey import make, without_effect
+from flights_of_a_survey import lines_of, make, without_effect
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey import Survey, cluster
-from ragg_runtime.survey.journal import lines_of
 from ragg_runtime.survey.task import Record, job
 from ragg_runtime.workflow import loop
 

@@ -10,7 +10,7 @@ from ragg_runtime.cli.terminal import compared, errors_table
 from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
 from ragg_runtime.wording import notebook
-from ragg_runtime.workflow_after import Compensation, Kept
+from ragg_runtime.workflow.after import Compensation, Kept
 
 MOVED = 3.0
 """Standard deviations from which a combination is shown as moved."""

@@ -11,10 +11,10 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli.main import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
-from ragg_runtime.workflow.loop import Loaded
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
+    from ragg_runtime.workflow.loop import Loaded
 
 
 @click.command()
@@ -24,18 +24,17 @@ if TYPE_CHECKING:
 @_json
 def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
-    from ragg_runtime import texts_after, workflow_after
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.workflow import loop
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.workflow import after, loop
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights)
     _progress("calibrating")
     with progress.shown("compare", sum(map(len, read))):
-        kept = workflow_after.calibrate(m, read, save)
+        kept = after.calibrate(m, read, save)
     origin = terminal.origin(kept.loaded, read, _command())
-    _emit(kept.as_json() | origin, json_file, texts_after.calibrated(kept, read))
+    _emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
 
 
 @click.command()
@@ -73,20 +72,22 @@ def compensate(
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
-    from ragg_runtime import texts_after, workflow_after
-    from ragg_runtime.cli import terminal
+    from ragg_runtime.cli import terminal, terminal_after
     from ragg_runtime.flight.source import format_of
+    from ragg_runtime.workflow import after
 
     format_of(output)
     m = _load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     _progress(f"reading {len(flights)} flight(s)")
-    read = workflow_after.read_for_compensation(m, flights)
+    read = after.read_for_compensation(m, flights)
     _progress("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
-        c = workflow_after.compensate(m, read, calibration, demodulator, output)
+        c = after.compensate(m, read, calibration, demodulator, output)
     origin = terminal.origin(m, read, _command()) | {"notes": [*odd, *terminal.notes(m, read)]}
-    _emit(c.as_json() | {"output": str(output)} | origin, json_file, texts_after.compensated(c, output, read))
+    _emit(
+        c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
+    )
 
 
 @click.command()
@@ -97,31 +98,30 @@ def compensate(
 )
 def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
-    from ragg_runtime import workflow_after
+    from ragg_runtime.workflow import after
 
     if form is None:
         raise UserError("say what to export", expected="--c", remedy="see: ragg export --help")
     m = _load(model_dir)
-    for place in workflow_after.export(m, folder, form):
+    for place in after.export(m, folder, form):
         click.echo(f"written: {place}")
-    click.echo(f"with {workflow_after.contents(m).origin}")
+    click.echo(f"with {after.contents(m).origin}")
 
 
 def compare_frozen(
     m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
 ) -> None:
     """``ragg compare --frozen``."""
-    from ragg_runtime import texts_after, workflow_after
-    from ragg_runtime.cli import terminal
+    from ragg_runtime.cli import terminal, terminal_after
     from ragg_runtime.compensation.frozen import sentence
-    from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import after, loop
 
     odd = _calibration_notes(m)
     _progress(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights)
     _progress("comparing with the calibration that was kept")
     with progress.shown("compare", sum(map(len, read))):
-        h = workflow_after.compare_frozen(m, read)
+        h = after.compare_frozen(m, read)
 
     def page() -> str:
         from ragg_runtime.report import compare_html
@@ -139,15 +139,15 @@ def compare_frozen(
     _emit(
         h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
         json_file,
-        texts_after.held(h, read),
+        terminal_after.held(h, read),
     )
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, told on stderr as well."""
-    from ragg_runtime import workflow_after
+    from ragg_runtime.workflow import after
 
-    odd = workflow_after.calibration_notes(m)
+    odd = after.calibration_notes(m)
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)
     return odd

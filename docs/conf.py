@@ -1,0 +1,93 @@
+"""The documentation site: ``make docs``. Nothing is fetched: formulas become MathML, fonts come with the theme."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+sys.path[:0] = [str(ROOT), str(HERE)]
+
+import house  # noqa: E402
+from latex2mathml.converter import convert  # noqa: E402
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+project = "ragg"
+author = "the ragg authors"
+copyright = author  # noqa: A001
+html_title = "ragg"
+html_theme = "pydata_sphinx_theme"
+html_show_sourcelink = False
+html_copy_source = False
+html_static_path = ["_static"]
+html_extra_path = ["_made/extra"]
+html_css_files = ["site.css"]
+html_theme_options = {
+    "navigation_with_keys": True,
+    "show_toc_level": 2,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "navbar_end": ["theme-switcher"],
+}
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton"]
+exclude_patterns = ["_build", "_made/extra", "**/.ipynb_checkpoints"]
+myst_enable_extensions = ["dollarmath", "colon_fence", "attrs_inline"]
+myst_heading_anchors = 4
+myst_links_external_new_tab = False
+nb_execution_mode = "cache"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+autodoc_default_options = {"show-inheritance": False}
+html_math_renderer = "mathml"
+
+
+def _mathml(self: Any, node: Any, *, block: bool) -> None:
+    self.body.append(convert(node.astext(), display="block" if block else "inline"))
+    from docutils.nodes import SkipNode
+
+    raise SkipNode
+
+
+def _inline(self: Any, node: Any) -> None:
+    _mathml(self, node, block=False)
+
+
+def _block(self: Any, node: Any) -> None:
+    _mathml(self, node, block=True)
+
+
+def _made(app: Sphinx) -> None:
+    """What is not written by hand: the notebook, the reports of the demonstration, the picture of the house."""
+    from ragg_runtime.cli import demo
+
+    made = HERE / "_made"
+    made.mkdir(exist_ok=True)
+    for name in ("first-steps.ipynb", "demo-flight.parquet"):
+        _copied(ROOT / "examples" / name, made / name)
+    (made / "house.svg").write_text(house.drawn(ROOT), "utf-8")
+    reports = made / "extra" / "reports"
+    if not (reports / "report.html").exists():
+        shutil.rmtree(made / "extra", ignore_errors=True)
+        reports.parent.mkdir(parents=True)
+        demo.main(reports, ROOT / "examples" / "demo-flight.parquet")
+        shutil.rmtree(reports / "model")
+
+
+def _copied(source: Path, target: Path) -> None:
+    """Only where it differs: a page that is as before is not built again."""
+    if not target.exists() or target.read_bytes() != source.read_bytes():
+        shutil.copyfile(source, target)
+
+
+def setup(app: Sphinx) -> None:
+    """Hooks of Sphinx."""
+    app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
+    app.connect("builder-inited", _made)

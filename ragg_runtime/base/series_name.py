@@ -1,0 +1,113 @@
+"""Names of series and of harmonics: a small expression language, its one parser and its one printer (``str``).
+
+Results name what a generic term is made of by text that a reader can take literally:
+
+- a channel: ``a_x``, ``temperature``, ``time``, or ``f_i``, ``f_o``, the forces that turn with the disc;
+- its derivatives by time: ``d_a_x``, ``d2_a_x``;
+- ``abs(X)``, ``sign(X)``, ``square(X)``;
+- ``slow(X, 20 s)``: X through a relaxation of a time constant, as in creep;
+- harmonics of the disc angle: ``const``, ``cos 2``, ``sin 1``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+from functools import cache
+from typing import Literal
+
+FunctionName = Literal["abs", "sign", "square"]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A recorded channel, time, or a force that turns with the disc."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True)
+class Derivative:
+    """First or second derivative of a channel by time."""
+
+    of: Channel
+    order: int
+
+    def __str__(self) -> str:
+        return f"{'d' if self.order == 1 else f'd{self.order}'}_{self.of}"
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of another series, instant by instant."""
+
+    name: FunctionName
+    of: Series
+
+    def __str__(self) -> str:
+        return f"{self.name}({self.of})"
+
+
+@dataclass(frozen=True)
+class Relaxation:
+    """Another series through a relaxation of a time constant, in seconds as they are written."""
+
+    of: Series
+    seconds: str
+
+    def __str__(self) -> str:
+        return f"slow({self.of}, {self.seconds} s)"
+
+
+Series = Channel | Derivative | Function | Relaxation
+
+_FUNCTION = re.compile(r"(abs|sign|square)\((.+)\)")
+_RELAXATION = re.compile(r"slow\((.+), ([0-9.]+) s\)")
+_DERIVATIVE = re.compile(r"d(2?)_(.+)")
+
+
+def series(name: str, channels: Collection[str] = ()) -> Series:
+    """What a name says; ``channels`` are names that stand for themselves, whatever they look like."""
+    return Channel(name) if name in channels else _parsed(name, frozenset(channels))
+
+
+@cache
+def _parsed(name: str, channels: frozenset[str]) -> Series:
+    if name in channels:
+        return Channel(name)
+    if (found := _FUNCTION.fullmatch(name)) is not None:
+        kind: FunctionName = "abs" if found[1] == "abs" else "sign" if found[1] == "sign" else "square"
+        return Function(kind, _parsed(found[2], channels))
+    if (found := _RELAXATION.fullmatch(name)) is not None:
+        return Relaxation(_parsed(found[1], channels), found[2])
+    if (found := _DERIVATIVE.fullmatch(name)) is not None:
+        return Derivative(Channel(found[2]), int(found[1] or 1))
+    return Channel(name)
+
+
+def channel(s: Series) -> str:
+    """Name of the channel or force at the bottom of a series."""
+    return s.name if isinstance(s, Channel) else channel(s.of)
+
+
+@dataclass(frozen=True)
+class Harmonic:
+    """cos or sin of ``multiple`` times the disc angle; multiple 0 is the constant."""
+
+    function: Literal["cos", "sin"]
+    multiple: int
+
+    def __str__(self) -> str:
+        return f"{self.function} {self.multiple}" if self.multiple else "const"
+
+
+def harmonic(name: str) -> Harmonic:
+    """What the name of a harmonic says: ``const``, ``cos 2``, ``sin 1``."""
+    if name == "const":
+        return Harmonic("cos", 0)
+    function, multiple = name.split()
+    return Harmonic("sin" if function == "sin" else "cos", int(multiple))

@@ -1,0 +1,67 @@
+"""The catalogue of physical effects, as the derivation has written it down."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+from ragg_runtime.base.errors import UserError, did_you_mean
+
+
+@dataclass(frozen=True, repr=False)
+class Catalogue:
+    """Effects by their id: title, physics, equation, parameters with units, channels, limits, source."""
+
+    entries: tuple[Mapping[str, Any], ...]
+
+    def __len__(self) -> int:
+        return len(self.entries)
+
+    def __iter__(self) -> Iterator[Mapping[str, Any]]:
+        return iter(self.entries)
+
+    def __getitem__(self, identifier: str) -> Mapping[str, Any]:
+        found = {str(e["id"]): e for e in self.entries}
+        if identifier not in found:
+            raise UserError(
+                "unknown effect",
+                found=repr(identifier),
+                expected="an id listed by `ragg effects`",
+                remedy=did_you_mean(identifier, found),
+            )
+        return found[identifier]
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{e['id']:28} {e['title']}" for e in self.entries)
+
+    def _repr_html_(self) -> str:
+        from ragg_runtime.wording import notebook
+
+        return notebook.catalogue(self.entries)
+
+    def as_json(self) -> dict[str, object]:
+        return {"effects": [dict(e) for e in self.entries]}
+
+
+def effects() -> Catalogue:
+    """The packaged catalogue (``ragg effects``)."""
+    text = resources.files("generated").joinpath("manifest.json").read_text("utf-8")
+    return Catalogue(entries=tuple(json.loads(text)["catalogue"]))
+
+
+def in_words(e: Mapping[str, Any]) -> str:
+    """One effect in full, as the command line shows it."""
+    lines = [f"{e['id']}: {e['title']}", "", e["physics"], "", f"  {e['equation']}", ""]
+    for q in e["parameters"]:
+        which = "one value" if q["shared"] else "one value for each accelerometer"
+        lines.append(f"  {q['name']} [{q['unit']}]  {q['meaning']} ({which}; plausible {q['plausible']:g})")
+    lines += [
+        "",
+        f"needs: {', '.join(e['channels']) or 'the motion alone'}",
+        f"limits: {e['limits'] or 'none stated'}",
+        f"source: {e['source']}",
+    ]
+    return "\n".join(lines)
