@@ -52,9 +52,7 @@ class Combination:
 
     def of(self, values: Array, root: Array) -> tuple[float, float]:
         """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
-        return float(self.weights @ values) * self.factor, float(
-            np.linalg.norm(self.weights @ root)
-        ) * self.factor
+        return float(self.weights @ values), float(np.linalg.norm(self.weights @ root))
 
 
 def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.calibrated import base, inverse
+from ragg_runtime.compensation.calibrated import base, inverse, with_sheet
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.segments import BLOCKS, block_edges
