@@ -45,13 +45,13 @@ def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Fil
     return _derive(effects, candidates)
 
 
-def derive_exact(effects: Sequence[Effect]) -> Files:
-    """The model with ``effects`` in C, for G_out alone, in the widest numbers that the compiler has."""
+def derive_plain(effects: Sequence[Effect]) -> Files:
+    """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
     active = [e for e in effects if e.kind in ("deterministic", "step")]
-    header, source = render.exact_c(
-        ir.chain(active, "exact", "The instrument as a chain of stages (paper, Eq. 1-15).")
+    header, source = render.plain_c(
+        ir.chain(active, "plain", "The instrument as a chain of stages (paper, Eq. 1-15).")
     )
-    return {"exact.h": header, "exact.c": source}
+    return {"plain.h": header, "plain.c": source}
 
 
 def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics: ir.Harmonic) -> Files:

@@ -103,9 +103,9 @@ def chain_c(m: Chain) -> tuple[str, str]:
     return render("chain.h.j2", m=m), render("chain.c.j2", m=m)
 
 
-def exact_c(m: Chain) -> tuple[str, str]:
-    """Header and source of G_out alone, in the widest numbers that the compiler has."""
-    return render("exact.h.j2", m=m), render("exact.c.j2", m=m)
+def plain_c(m: Chain) -> tuple[str, str]:
+    """Header and source of G_out alone, in the order of operations of the NumPy code."""
+    return render("plain.h.j2", m=m), render("plain.c.j2", m=m)
 
 
 def _trig(n: int, phase: str) -> str:

@@ -96,12 +96,18 @@ def compensate(
 @click.option(
     "--c", "form", flag_value="c", help="A C17 program: make -C DIR; ragg_model < MOTION.csv > OUT.csv."
 )
+@click.option("--numpy", "form", flag_value="numpy", help="A folder that runs with NumPy alone.")
+@click.option(
+    "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
+)
 def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
     from ragg_runtime.workflow import after
 
     if form is None:
-        raise UserError("say what to export", expected="--c", remedy="see: ragg export --help")
+        raise UserError(
+            "say what to export", expected="--c, --numpy or --json", remedy="see: ragg export --help"
+        )
     m = _load(model_dir)
     for place in after.export(m, folder, form):
         click.echo(f"written: {place}")

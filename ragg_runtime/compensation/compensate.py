@@ -38,8 +38,8 @@ KINDS: tuple[Kind, ...] = ("self", "crossed", "frozen")
 NEGLECTED = 0.01
 """Share of the noise's variance that directions of the parameters may add which are left out of the uncertainty."""
 
-SEARCHED = 3
-"""Stretches of a flight on which the directions that matter are sought."""
+SEARCHED = 4
+"""Stretches of a flight, of some minutes, on which the directions that matter are sought."""
 
 
 def without_gradients(flight: Flight) -> Flight:
@@ -127,7 +127,8 @@ class Compensated:
             noise=noise,
             validity=p.validity,
         )
-        U = basis(s, [x.rows for x in spread(self._parts(most=self._rows() // 3), SEARCHED)], NEGLECTED)
+        sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
+        U = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
         self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches))
         self.before, self.after = spectrum.Density(rate), spectrum.Density(rate)
         self.count = 0

@@ -59,6 +59,8 @@ class Contents:
         (size,) SI.
     sources
         The model in C, header and source: file name -> text.
+    module
+        The model's chain in NumPy, as derived.
     origin
         Where the values come from, in a sentence.
     calibration
@@ -70,6 +72,7 @@ class Contents:
     instrument: Instrument
     p: Array
     sources: Mapping[str, str]
+    module: str
     origin: str
     calibration: Mapping[str, Any] | None
 

@@ -33,7 +33,6 @@ NOTHING, ZERO = -1, -2
 def c_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs, with a test."""
     name = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
-    motion, G = c.example()
     makefile = _packaged("Makefile").replace("@MODEL@", name)
     return {
         "Makefile": makefile.replace("@TOLERANCE@", f"{TOLERANCE_EO * abs(c.scale_factor):.3g}"),
@@ -42,6 +41,14 @@ def c_program(c: Contents) -> dict[str, str]:
         "compare.c": _packaged("compare.c"),
         **c.sources,
         "values.h": _values(c, name),
+        **example_files(c),
+    }
+
+
+def example_files(c: Contents) -> dict[str, str]:
+    """A short motion as a CSV, and the model's answer to it."""
+    motion, G = c.example()
+    return {
         "test/motion.csv": _table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()}),
         "test/G_out.csv": _table({"time": motion["time"], "G_out": G}),
     }

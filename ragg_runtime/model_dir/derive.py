@@ -161,8 +161,8 @@ def files_of(instrument: Instrument) -> Mapping[str, str]:
     return derived(tuple(_chosen(instrument, k)), k.effects)[1]
 
 
-def exact_c(instrument: Instrument) -> Mapping[str, str]:
-    """The model in C, for G_out alone, in the widest numbers that the compiler has: file name -> text."""
+def plain_c(instrument: Instrument) -> Mapping[str, str]:
+    """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
     from derive import pipeline
 
-    return pipeline.derive_exact(_chosen(instrument, known(instrument)))
+    return pipeline.derive_plain(_chosen(instrument, known(instrument)))

@@ -6,6 +6,7 @@ import contextlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -23,7 +24,9 @@ from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import Series
 from ragg_runtime.export.contents import Contents
+from ragg_runtime.export.document import json_files
 from ragg_runtime.export.folder import write_folder
+from ragg_runtime.export.numpy_folder import numpy_files
 from ragg_runtime.export.program import c_program
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.spool import settled
@@ -192,18 +195,31 @@ def contents(m: Loaded) -> Contents:
         model=m.model,
         instrument=m.instrument,
         p=vector(m.model, m.instrument) if saved is None else saved.p,
-        sources=folded or derive.exact_c(m.instrument),
+        sources=folded or derive.plain_c(m.instrument),
+        module=_chain(m),
         origin=origin,
         calibration=None if saved is None else saved.as_json(),
     )
 
 
+def _chain(m: Loaded) -> str:
+    """The text of the chain in NumPy."""
+    files = derive.files_of(m.instrument)
+    return (
+        files["chain.py"] if files else resources.files("generated").joinpath("chain.py").read_text("utf-8")
+    )
+
+
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``; the files."""
+    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    if form not in FORMS:
+        raise UserError("there is no such form of an export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 
-FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType({"c": c_program})
+FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
+    {"c": c_program, "numpy": numpy_files, "json": json_files}
+)
 """Form of an export -> its files."""
 
 

@@ -31,13 +31,18 @@ def test_parameters_with_their_sheet_and_what_the_record_sees(kept: tuple[Any, .
     _, _, _, c = kept
     assert c["converged"] is True
     assert c["error"]["calibrated"]["rms_Eo"] < 1e-3 * c["error"]["nominal"]["rms_Eo"]
-    assert {"name", "accelerometer", "value", "std", "unit", "sheet", "sheet_sigma"} <= set(c["parameters"][0])
+    assert {"name", "accelerometer", "value", "std", "unit", "sheet", "sheet_sigma"} <= set(
+        c["parameters"][0]
+    )
     assert 0 < c["directions"]["seen"] < c["directions"]["fitted"] == len(c["parameters"])
     s = scenario(7, duration=DURATION)
     for q in c["parameters"]:
         assert 0 < q["std"] <= 1.001 * q["sheet_sigma"]
     for q in c["combinations"]:
-        name, signs = q["name"].split()[-1], {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1)}.get(q["name"].split()[0])
+        name, signs = (
+            q["name"].split()[-1],
+            {"Sigma": (1, 1, 1, 1), "D1234": (1, 1, -1, -1)}.get(q["name"].split()[0]),
+        )
         if signs and name in ("K6", "K7") and q["unit"] == "ug/g^2":
             g = s.sheet.accelerometers["k_VI"] * s.sheet.accelerometers["K1"]
             true = float(np.sum(np.array(signs) * s.instrument.accelerometers[name] * g / np.mean(g)))
@@ -51,7 +56,9 @@ def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: t
     (saved,) = read(m.directory.calibration, "here")
     found = {(q["name"], q["accelerometer"]): q["value"] for q in c["parameters"]}
     for column, place in zip(saved.columns, saved.index, strict=True):
-        assert saved.p[place] / column.unit_factor == pytest.approx(found[column.name, column.accelerometer], rel=1e-12)
+        assert saved.p[place] / column.unit_factor == pytest.approx(
+            found[column.name, column.accelerometer], rel=1e-12
+        )
     again = read(with_another(None, saved, "here"), "here")[0]
     assert np.array_equal(again.information, saved.information)
     assert np.array_equal(again.p, saved.p)
@@ -71,7 +78,9 @@ def test_the_latest_calibrations_are_kept(kept: tuple[Any, ...]) -> None:
 
 def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...], tmp_path: Path) -> None:
     model, _, two, _ = kept
-    told = run("compare", model, two, "--frozen", "--json", tmp_path / "f.json", "--report", tmp_path / "f.html")
+    told = run(
+        "compare", model, two, "--frozen", "--json", tmp_path / "f.json", "--report", tmp_path / "f.html"
+    )
     f = json.loads((tmp_path / "f.json").read_text())
     assert f["frozen"]["holds"] is True
     assert 0.01 < f["frozen"]["p_value"] <= 1

