@@ -36,7 +36,8 @@ def difference(root: Path) -> str:
     parts = []
     for folder, files in below(root).items():
         if folder == GENERATED:
-            files = {**files, MANIFEST: _with_version(files[MANIFEST], committed_with(root))}
+            version = committed_with(root)
+            files = {n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in files.items()}
         found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
         if found:
             parts.append(f"{folder}/ differs from the derivation:\n{found}")
@@ -45,8 +46,10 @@ def difference(root: Path) -> str:
 
 def committed_with(root: Path) -> str:
     """The version of SymPy that the code below ``root`` was derived with; that of this machine if none is told."""
+    place = root / GENERATED / MANIFEST
     try:
-        found = json.loads((root / GENERATED / MANIFEST).read_text("utf-8"))["sympy"]
+        # a pipe would be waited for
+        found = json.loads(place.read_text("utf-8"))["sympy"] if place.is_file() else None
     except (OSError, ValueError, KeyError, TypeError):
         return str(sympy.__version__)
     return found if isinstance(found, str) else str(sympy.__version__)

@@ -11,14 +11,13 @@ import ast
 import re
 import warnings
 from collections.abc import Mapping
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
 from derive.effect import ID, Effect, EffectParameter, Values
 from derive.stages import SensedForce
-from derive.symbols import MOTION, symbol
+from derive.symbols import MOTION, RATES, symbol
 
 if TYPE_CHECKING:
     from derive.context import Context
@@ -47,22 +46,8 @@ _BITS = 512  # of a number that powers and products of numbers may yield: 1e154
 _LARGEST = 1e30
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 _LONGEST_NAME = 64
-_SHARED = re.compile(r"x[0-9]+|(bar|rate)_.*")  # names that the derivation gives to subexpressions
-# What generated Python and C call their own; a variable of that name would hide it.
-_RESERVED = frozenset(
-    re.findall(
-        r"\S+",
-        """time t c s cos_phi sin_phi cos_j sin_j cos sin inputs q j i n p D V angle phi np len range sum numpy
-    Array NDArray INPUTS PARAMETERS ROWS SIZE SIGNS COS_J SIN_J
-    auto bool break case char const continue default do double else enum extern false float for goto if in
-    inline int lambda long register restrict return short signed sizeof static struct switch true typedef
-    union unsigned void volatile while
-    accelerometer derivatives disc_angle slopes exp fabs floor fma fmod log pow sqrt tan tanh""",
-    )
-)
-
-
-_TAKEN = frozenset({"time", "cos_phi", "sin_phi", *FORCES, *FUNCTIONS, *(c.name for c in MOTION)})
+# Words of the grammar, which stand for themselves.
+_TAKEN = frozenset({"time", "cos_phi", "sin_phi", *FORCES, *FUNCTIONS, *(c.name for c in MOTION), *RATES})
 
 
 class ExpressionError(ValueError):
@@ -79,8 +64,9 @@ def from_expression(
     stage
         ``transducer``: ``add`` is specific force, in m/s^2 once names stand for SI values.
     add
-        Names: f_i, f_o, f_p (force along input, output, pendulous axis), the motion channels, ``time``,
-        ``cos_phi``, ``sin_phi``, any recorded channel, and the parameters.
+        Names: f_i, f_o, f_p (force along input, output, pendulous axis), the motion channels, their time
+        derivatives (``d_a_x``, ``d2_a_x``), ``time``, ``cos_phi``, ``sin_phi``, any recorded channel, and the
+        parameters. The last two may have any other name.
     parameters
         Name -> {"unit": ..., optionally "shared": bool, "plausible": number}.
 
@@ -105,14 +91,14 @@ def from_expression(
         raise ExpressionError("an effect needs at least one parameter with a unit")
     channels = tuple(n for n in names if n not in _TAKEN and n not in parameters)
     for name in channels:
-        if not _is_free(name) or name in _internal():
+        if not _is_name(name):
             raise ExpressionError(f"{name!r} cannot name a channel")
 
     def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
         values: dict[str, sp.Expr] = {f"f_{axis}": v for axis, v in zip("iop", f, strict=True)}
         values |= {"cos_phi": c.cos_phi, "sin_phi": c.sin_phi, "time": c.time}
         values |= dict(p.items())
-        return i + _translate(tree.body, lambda n: values.get(n, symbol(n)))
+        return i + _translate(tree.body, lambda n: values[n] if n in values else c.channel(n))
 
     effect = Effect(
         id=identifier,
@@ -142,7 +128,7 @@ def _check_size(tree: ast.Expression, add: str, parameters: list[str]) -> None:
     """Refuse what does not vanish with its parameters, or grows without bound as they begin to."""
     probe = _translate(tree.body, symbol)
     neutral = {symbol(m): sp.Integer(0) for m in parameters}
-    bad = (sp.zoo, sp.nan, sp.oo, -sp.oo)
+    bad = (sp.zoo, sp.nan, sp.oo, -sp.oo, sp.DiracDelta)
     if probe.has(*bad) or probe.xreplace(neutral) != 0:
         raise ExpressionError(
             f"{add!r} does not vanish when its parameters ({', '.join(parameters)}) are zero"
@@ -158,19 +144,6 @@ def _check_size(tree: ast.Expression, add: str, parameters: list[str]) -> None:
 
 def _is_name(name: str) -> bool:
     return len(name) <= _LONGEST_NAME and _NAME.fullmatch(name) is not None
-
-
-def _is_free(name: str) -> bool:
-    """Whether a name is none that generated code or the derivation uses itself."""
-    return _is_name(name) and name not in _RESERVED and not _SHARED.fullmatch(name)
-
-
-@cache
-def _internal() -> frozenset[str]:
-    """The names of the chain's own intermediate values."""
-    from derive.chain import accelerometer
-
-    return frozenset(s.name for s, _ in accelerometer().tape.assignments)
 
 
 def _plausible(name: str, value: object) -> float:

@@ -21,8 +21,13 @@ class Channel:
     meaning: str
 
     @property
+    def local(self) -> str:
+        """Its name in the derivation and in generated code (:func:`local`)."""
+        return local(self.name)
+
+    @property
     def symbol(self) -> sp.Symbol:
-        return symbol(self.name)
+        return symbol(self.local)
 
 
 @dataclass(frozen=True)
@@ -107,3 +112,41 @@ SIGNS: tuple[int, ...] = (1, 1, -1, -1)
 COS_PHI, SIN_PHI = symbol("cos_phi"), symbol("sin_phi")
 COS_J, SIN_J = symbol("cos_j"), symbol("sin_j")
 TIME = symbol("time")
+
+AUXILIARY: tuple[str, ...] = ("temperature", "pressure", "roll", "pitch", "B_x", "B_y", "B_z")
+"""Channels beyond the motion that packaged effects need."""
+
+RATES: tuple[str, ...] = (
+    *(f"{d}_{c.name}" for d in ("d", "d2") for c in MOTION),
+    "d_spin_angle",
+    "d2_spin_angle",
+)
+"""First and second time derivatives of the motion and of the disc angle: formed from it, never read from a file."""
+
+_COLUMN = "C__"
+_OWN = frozenset((*(c.name for c in MOTION), *AUXILIARY, *RATES))
+_INPUTS = _OWN | {q.name for q in INSTRUMENT} | {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"}
+
+
+def local(column: str) -> str:
+    """The name of a recorded channel in the derivation and in generated code.
+
+    A column may have any name, that of an intermediate value or of a word of C among them. Those that the
+    derivation does not know have a name space of their own: parameters of effects are ``<id>__<name>`` with an id in
+    small letters, and nothing else has two underscores but second names of intermediate values, ``V2__<name>``.
+    """
+    return column if column in _OWN else _COLUMN + column
+
+
+def column_of(name: str) -> str:
+    """The recorded channel that has this :func:`local` name."""
+    return name.removeprefix(_COLUMN)
+
+
+def is_taken(name: str) -> bool:
+    """Whether an intermediate value must not have this name: an input has it, or the emitters make it of one."""
+    return name in _INPUTS or name.startswith(("in_", "out_", _COLUMN))
+
+
+# Rate and acceleration of the disc angle: of the encoder, or 2 pi spin_frequency and zero where there is none.
+SPIN_RATE, SPIN_ACCELERATION = symbol("d_spin_angle"), symbol("d2_spin_angle")

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive.symbols import symbol
+from derive.symbols import is_taken, symbol
 
 
 def variables(e: sp.Expr) -> list[sp.Symbol]:
@@ -42,11 +42,16 @@ def partials(e: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
             descend(e.base, sp.Mul(factor, e.exp, sp.Pow(e.base, e.exp - 1)))
         else:
             for s in variables(e):
-                found.setdefault(s, []).append(factor * sp.diff(e, s))
+                found.setdefault(s, []).append(factor * _slope(e, s))
 
     descend(e, sp.Integer(1))
     sums = {s: sp.Add(*found[s]) for s in sorted(found, key=lambda s: s.name)}
     return {s: d for s, d in sums.items() if d != 0}
+
+
+def _slope(e: sp.Expr, s: sp.Symbol) -> sp.Expr:
+    """The derivative of a function; of a step that is zero, but at the step itself, where no sample ever is."""
+    return sp.diff(e, s).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
 
 
 @dataclass(frozen=True)
@@ -74,15 +79,17 @@ class Tape:
     def let(self, name: str, value: sp.Expr) -> sp.Expr:
         """Name a value. Constants, symbols and their negatives are passed through.
 
-        Naming the same value again by the same name gives the same symbol.
+        Naming the same value again by the same name gives the same symbol; another value gets another one, and
+        so does a name that stands for an input: names are made of the ids of effects, which may be anything.
         """
-        value = sp.sympify(value)
+        value = sp.sympify(value, strict=True)
         if value.is_Atom or (-value).is_Atom:
             return value
-        s = symbol(name)
+        s, tried = symbol(name), 1
+        while is_taken(s.name) or self._values.get(s, value) != value:
+            tried += 1
+            s = symbol(f"V{tried}__{name}")
         if s in self._values:
-            if self._values[s] != value:
-                raise ValueError(f"{name} is assigned twice")
             return s
         self.assignments.append((s, value))
         self._values[s] = value
@@ -128,7 +135,7 @@ def simplify(
             known[s] = e
         else:
             kept.append((s, e))
-    final = [(name, sp.sympify(e).xreplace(known)) for name, e in outputs]
+    final = [(name, sp.sympify(e, strict=True).xreplace(known)) for name, e in outputs]
     return _share(_live(kept, final), final)
 
 

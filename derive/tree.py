@@ -61,5 +61,10 @@ def difference(files: Mapping[str, str], folder: Path, *, exclusive: bool = True
 
 
 def _present(folder: Path) -> list[str]:
-    found = (p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
+    """The files below a folder; links are none, for what they lead to is elsewhere."""
+    if folder.is_symlink():
+        return []
+    found = (
+        p for p in folder.rglob("*") if p.is_file() and not p.is_symlink() and "__pycache__" not in p.parts
+    )
     return sorted(p.relative_to(folder).as_posix() for p in found)

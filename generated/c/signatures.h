@@ -1,8 +1,8 @@
 /* Signatures: what each candidate effect would add to V_j.
  *
  * Derived; do not edit: change the derivation and derive again. Units are SI, outputs V.
- * Effects beyond the paper's instrument: arm-sag, arm-stretch, bias-drift, cubic-cross, cubic-input, encoder-harmonic, gain-drift, gain-step, gyro-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, pendulum-angular, pressure-bias, second-order-misalignment, self-gradient, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, thermal-bias, thermal-scale, time-offset, vibration-rectification.
- * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z pitch pressure roll temperature
+ * Effects beyond the paper's instrument: arm-sag, arm-stretch, bias-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, gain-drift, gain-step, gyro-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, pendulum-angular, pressure-bias, second-order-misalignment, self-gradient, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, thermal-bias, thermal-scale, time-offset, vibration-rectification.
+ * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle pitch pressure roll temperature
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
  *   spin_frequency (1): rotation frequency of the disc
@@ -31,9 +31,9 @@
 extern "C" {
 #endif
 
-#define RAGG_SIGNATURES_INPUTS 28
+#define RAGG_SIGNATURES_INPUTS 36
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 77
+#define RAGG_SIGNATURES_ROWS 78
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -58,6 +58,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   cubic-cross.K_opp
  *   cubic-cross.K_ppp
  *   cubic-input.K_iii
+ *   disc-spin.share
  *   encoder-harmonic.c_1
  *   encoder-harmonic.s_1
  *   encoder-harmonic.c_2

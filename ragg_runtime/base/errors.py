@@ -32,7 +32,7 @@ class UserError(Exception):
         remedy: str | None = None,
     ) -> None:
         self.what = what
-        self.where = None if where is None else str(where)
+        self.where = None if where is None else one_line(str(where))  # names of files may hold anything
         self.found = None if found is None else str(found)
         self.expected = None if expected is None else str(expected)
         self.remedy = remedy
@@ -43,7 +43,9 @@ class UserError(Exception):
         """The whole message, one fact a line."""
         head = self.what if self.where is None else f"{self.where}: {self.what}"
         facts = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
-        return "\n".join([head, *(f"  {name}: {text}" for name, text in facts if text is not None)])
+        # Further lines of a fact are set in: names in it could otherwise pass for facts of ours.
+        told = (f"  {name}: {text}".replace("\n", "\n    ") for name, text in facts if text is not None)
+        return "\n".join([head, *told])
 
     def __reduce__(self) -> tuple[object, ...]:
         # Keyword arguments would be lost between processes otherwise.
@@ -72,3 +74,8 @@ def did_you_mean(name: str, known: Iterable[str]) -> str | None:
 def printable(text: str) -> str:
     """``text`` without what would steer a terminal: names in files of strangers may hold anything."""
     return "".join(c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text)
+
+
+def one_line(text: str) -> str:
+    """As :func:`printable`, line ends and tabs too: a name of several lines could pass for further messages."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
 
 if TYPE_CHECKING:
@@ -54,9 +54,13 @@ def _load(model_dir: Path) -> Loaded:
     from ragg_runtime.workflow import loop
 
     m = loop.load(model_dir)
-    for note in m.notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+    _notes(model_dir, m.notes)
     return m
+
+
+def _notes(model_dir: Path, notes: Sequence[str]) -> None:
+    for note in notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -98,11 +102,11 @@ def _command() -> str:
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
     from derive import everything
-    from ragg_runtime.cli.publish import publish, settle
+    from ragg_runtime.cli.publish import check_settled, publish
 
     root = out if out is not None else Path(str(everything.__file__)).parents[1]
-    settle(root)
     if check:
+        check_settled(root)
         found, versions = everything.difference(root), everything.about_versions(root)
         if found:
             raise UserError(
@@ -132,6 +136,8 @@ def new(model_dir: Path, source: Path | None) -> None:
     from ragg_runtime.workflow import loop
 
     m = loop.new(model_dir, source)
+    for note in m.notes:
+        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
     click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
     click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
 
@@ -154,6 +160,7 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
 @click.option(
     "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
 )
@@ -163,6 +170,7 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 def compare(
     model_dir: Path,
     flights: Sequence[Path],
+    ladder: bool,
     frozen: bool,
     calibration: str,
     json_file: str | None,
@@ -182,7 +190,7 @@ def compare(
     read = loop.read_flights(m, flights)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
-        c = loop.compare(m, read)
+        c = loop.compare(m, read, ladder=ladder)
 
     def page() -> str:
         from ragg_runtime.report import compare_html
@@ -245,7 +253,15 @@ def diagnose(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Let the workers of a Dask cluster do it.")
+@click.option(
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only, "
+    "tls://HOST:PORT beyond your own walls.",
+)
+@click.option("--tls-ca", type=DIRECTORY, metavar="FILE", help="Of a tls:// scheduler: who signed it (PEM).")
+@click.option("--tls-cert", type=DIRECTORY, metavar="FILE", help="Your certificate for it (PEM).")
+@click.option("--tls-key", type=DIRECTORY, metavar="FILE", help="The key of your certificate (PEM).")
 @click.option(
     "--resume",
     type=DIRECTORY,
@@ -259,6 +275,9 @@ def survey(
     flights: Sequence[Path],
     jobs: int | None,
     scheduler: str | None,
+    tls_ca: Path | None,
+    tls_cert: Path | None,
+    tls_key: Path | None,
     resume: Path | None,
     json_file: str | None,
     report_file: str | None,
@@ -268,11 +287,16 @@ def survey(
     from ragg_runtime.report import survey_text as text
     from ragg_runtime.survey import progress
     from ragg_runtime.survey.journal import sha256
+    from ragg_runtime.survey.tls import tls_of, unproven
     from ragg_runtime.workflow import loop
 
+    tls = tls_of(tls_ca, tls_cert, tls_key)
     m = _load(model_dir)
+    warning = None if scheduler is None else unproven(scheduler)
+    if warning is not None:
+        click.echo(printable(f"note: {warning}"), err=True)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = loop.survey(m, flights, jobs=jobs, scheduler=scheduler, resume=file, progress=show)
+        s = loop.survey(m, flights, jobs=jobs, scheduler=scheduler, tls=tls, resume=file, progress=show)
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*loop.sources(m, []), *read]
@@ -358,30 +382,49 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
-@click.option("--forget", is_flag=True, help="Trust them no longer.")
-def trust(model_dir: Path, forget: bool) -> None:
-    """Let the Python files of the model's effects_folder be executed, as they are now.
+@click.option("--list", "only_list", is_flag=True, help="Only say what would be executed.")
+@click.option("--forget", is_flag=True, help="Trust these files no longer.")
+def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
+    """Let the Python files of the model's effects_folder be executed, exactly as they are now.
 
-    Needed only where they are not your own, or do more than describe effects. Read them first.
+    Without this none is: read them first. MODEL_DIR may be a model.toml as well.
     """
+    from ragg_runtime.instrument.read_toml import read_instrument
     from ragg_runtime.model_dir import trust as _trust
     from ragg_runtime.model_dir.directory import load_model_dir
 
-    instrument = load_model_dir(model_dir).instrument
+    is_file = model_dir.is_file()
+    instrument = read_instrument(model_dir) if is_file else load_model_dir(model_dir).instrument
     if instrument.effects_folder is None:
         raise UserError(
             "the model names no effects_folder", where=model_dir, remedy="there is nothing to trust"
         )
-    found = _trust.read_effects(instrument.effects_folder, instrument.path)
-    for path in found.sources:
-        click.echo(str(path))
-    for doubt in found.doubts:
-        click.echo(f"note: {doubt}")
+    found = _trust.read_effects(instrument.effects_folder)
+    for line in found.lines():
+        click.echo(line)
     if forget:
         was = _trust.forget(found)
         click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
+    elif only_list:
+        click.echo(f"{'On' if _trust.is_trusted(found) else 'Not on'} the list of trusted files.")
     else:
-        click.echo(f"Trusted as long as they stay as they are; written to {_trust.trust(found)}")
+        place = one_line(str(_trust.trust(found)))
+        click.echo(f"They will be executed as long as they stay as they are; written to {place}")
+
+
+@cli.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.option("--look", is_flag=True, help="Change nothing.")
+def doctor(model_dir: Path, look: bool) -> None:
+    """What is damaged in a model directory; what can be mended without loss, is."""
+    from ragg_runtime.model_dir.doctor import examined
+
+    found = examined(model_dir, mend=not look)
+    for f in found:
+        click.echo(printable(f"{f.what}\n  -> {f.way_back}" if f.way_back else f.what))
+    if any(f.open for f in found):
+        sys.exit(2)
+    click.echo(f"{one_line(str(model_dir))}: {'mended' if found else 'in order'}")
 
 
 @cli.command()
@@ -411,6 +454,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
     from ragg_runtime.model_dir.provenance import provenance
 
     directory = load_model_dir(model_dir)
+    _notes(model_dir, directory.notes)
     steps = [s.as_json() for s in directory.history]
     made = provenance(_command(), directory)
     _emit({"steps": steps, "provenance": made}, json_file, terminal.history(steps))

@@ -22,7 +22,7 @@ def publish(root: Path, folders: Folders, whole: tuple[str, ...]) -> list[str]:
     Of the folders in ``whole``, files that are not given are removed, byte code with them if anything
     changed; in the others the rest is left alone. Raises UserError if that cannot be written.
     """
-    with _held(root):
+    with _held(root, tuple(folders)):
         changed = [
             f"{folder}/{name}" for folder in folders for name in _changed(root, folder, folders, whole)
         ]
@@ -40,19 +40,22 @@ def publish(root: Path, folders: Folders, whole: tuple[str, ...]) -> list[str]:
     return changed
 
 
-def settle(root: Path) -> None:
-    """Finish what a killed `ragg derive` left half done, if there is such a thing."""
-    if (root / transaction.WORK).exists():
-        with _held(root):
-            pass
+def check_settled(root: Path) -> None:
+    """UserError if a killed ``ragg derive`` left something half done: who only looks does not finish it."""
+    if transaction.is_committing(root):
+        raise UserError(
+            "an earlier `ragg derive` was cut off before all that it made was in place",
+            where=root,
+            remedy=f"finish it with: ragg derive --out {root}",
+        )
 
 
 @contextlib.contextmanager
-def _held(root: Path) -> Iterator[None]:
+def _held(root: Path, among: tuple[str, ...]) -> Iterator[None]:
     try:
         root.mkdir(parents=True, exist_ok=True)
         with locked(root, _PATIENCE):
-            transaction.finish(root)
+            transaction.finish(root, among)
             try:
                 yield
             finally:
@@ -78,4 +81,4 @@ def _changed(root: Path, folder: str, folders: Folders, whole: tuple[str, ...]) 
 
 
 def _holds(path: Path, content: bytes) -> bool:
-    return path.is_file() and path.read_bytes() == content
+    return path.is_file() and not path.is_symlink() and path.read_bytes() == content

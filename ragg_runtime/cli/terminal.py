@@ -14,6 +14,7 @@ from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.form import Form
 from ragg_runtime.model_dir.provenance import provenance
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
@@ -84,6 +85,33 @@ def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Seque
     ]
 
 
+def ladder(c: Comparison) -> list[str]:
+    """What each simplification of the model is worth, a line a form, if that was asked for."""
+    if not c.ladder:
+        return []
+    names = [_in_short(r.form) for r in c.ladder]
+    width = max(map(len, names))
+    lines = [
+        "",
+        "what simplifications cost, Eo (step: what a form changes in the prediction of the one before it):",
+        f"{'':{width}} {'nominal':>10} {'calibrated':>10} {'step':>10} {'inline':>10} {'cross':>10}",
+    ]
+    for name, r in zip(names, c.ladder, strict=True):
+        step = "" if r.step is None else _columns((r.step.rms_Eo, r.step.inline_Eo, r.step.cross_Eo))
+        here = "  <- model.toml" if r.form == c.fitted.instrument.form else ""
+        lines.append(f"{name:{width}} {_columns((r.nominal.rms_Eo, r.calibrated.rms_Eo))} {step}{here}")
+    return lines
+
+
+def _columns(values: Sequence[float]) -> str:
+    return " ".join(f"{x:10.4g}" if np.isfinite(x) else f"{'-':>10}" for x in values)
+
+
+def _in_short(form: Form) -> str:
+    kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in form.beyond_paper())
+    return f"{form.kinematics}, {form.preset or ', '.join(kept)}"
+
+
 def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     """The result of ``compare``."""
     f = c.fitted
@@ -97,6 +125,7 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
         ),
         "",
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
+        *ladder(c),
     ]
     where: Any = c.as_json()["where"]
     if where["motion"]:

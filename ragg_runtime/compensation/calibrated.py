@@ -228,6 +228,7 @@ def to_save(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
     return Saved(
         time=time,
         effects=tuple(e.id for e in f.model.effects),
+        form=f.instrument.form.words(),
         derivation=f.model.digest,
         layout=tuple(f.model.chain.PARAMETERS),
         p=q.p,

@@ -53,12 +53,13 @@ def in_force(directory: ModelDir, model: Model) -> Saved:
     saved = read(directory.calibration, where)[-1]
     nominal = vector(model, directory.instrument)
     names = tuple(model.chain.PARAMETERS)
-    if saved.layout != names or saved.effects != tuple(e.id for e in model.effects):
+    here = (tuple(e.id for e in model.effects), directory.instrument.form.words())
+    if saved.layout != names or (saved.effects, saved.form) != here:
         raise UserError(
             "the saved calibration is of another model",
             where=where,
-            found=f"effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
-            expected=f"effects {', '.join(e.id for e in model.effects) or 'none'}",
+            found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            expected=f"{here[1]}, effects {', '.join(here[0]) or 'none'}",
             remedy=again,
         )
     current = {(c.name, c.accelerometer): k for c, k in base_columns(model, directory.instrument)}

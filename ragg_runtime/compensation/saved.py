@@ -39,8 +39,8 @@ class Saved:
     ----------
     time
         When it was made, UTC, ISO 8601.
-    effects, derivation
-        Ids of the effects in the model, and the digest of its derivation.
+    effects, form, derivation
+        Ids of the effects in the model, kinematics and order in words, and the digest of its derivation.
     layout
         The parameters of the model's chain and how many values each has.
     p, sheet
@@ -62,6 +62,7 @@ class Saved:
 
     time: str
     effects: tuple[str, ...]
+    form: str
     derivation: str
     layout: tuple[tuple[str, int], ...]
     p: Array
@@ -79,7 +80,7 @@ class Saved:
         return {
             "time": self.time,
             "converged": self.converged,
-            "model": {"effects": list(self.effects), "derivation": self.derivation},
+            "model": {"effects": list(self.effects), "form": self.form, "derivation": self.derivation},
             "values": _by_name(self.layout, self.p),
             "sheet": _by_name(self.layout, self.sheet),
             "fitted": [
@@ -161,6 +162,7 @@ def _entry(e: Mapping[str, Any]) -> Saved:
     return Saved(
         time=_text(e["time"]),
         effects=tuple(_text(x) for x in e["model"]["effects"]),
+        form=_text(e["model"]["form"]),
         derivation=_text(e["model"]["derivation"]),
         layout=layout,
         p=p,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit import columns
@@ -42,6 +43,7 @@ class Comparison:
     adequate: bool
     remainder: Remainder
     nominal_values: Array
+    ladder: tuple[Rung, ...] = ()
 
     @property
     def calibrated(self) -> Error:
@@ -99,6 +101,7 @@ class Comparison:
                 "time": self.by_time(),
                 "motion": self.terms(),
             },
+            **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
         }
 
     @cached_property

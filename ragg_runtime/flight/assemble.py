@@ -17,6 +17,7 @@ from ragg_runtime.flight.record import (
     DEMODULATED,
     GRADIENT,
     OUTPUTS,
+    RATES,
     SI_UNITS,
     SPECIFIC_FORCE,
     VOLTAGES,
@@ -60,6 +61,7 @@ class Layout:
             if self.need_output:
                 _check_output(self.path, list(si))
         placed = {c: _placed(v, grid) for c, v in si.items()}
+        notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
         outputs = {c: placed.pop(c) for c in OUTPUTS if c in placed}
         valid = _valid(placed | outputs, grid, notes)
         _derive_output(outputs, notes)

@@ -59,18 +59,35 @@ def write_netcdf(path: Path, columns: list[tuple[Column, Array]]) -> None:
 def _dataset(path: Path) -> Any:
     import xarray  # slow to import, and only this format needs it
 
+    from ragg_runtime.flight.hdf5_self_contained import leads_elsewhere
+
     # What h5netcdf leaves of a file that it failed to open complains on stderr when it is finalised.
     hook, sys.unraisablehook = sys.unraisablehook, lambda _: None
     try:
         try:
+            elsewhere = leads_elsewhere(path)
+            if elsewhere is not None:
+                raise _not_whole(path, elsewhere)
             # CF decoding would turn a time "in seconds" into durations.
             return xarray.open_dataset(path, engine="h5netcdf", decode_times=False)
+        except UserError:
+            raise
         except Exception as error:  # h5py, h5netcdf and xarray each raise their own
             fault = str(error).split("\n", 1)[0][:200]
         gc.collect()
     finally:
         sys.unraisablehook = hook
     raise _damaged(path, fault)
+
+
+def _not_whole(path: Path, found: str) -> UserError:
+    return UserError(
+        "the file does not hold its numbers itself",
+        where=path,
+        found=found,
+        expected="a file whose numbers all stand in it",
+        remedy="copy the data into one file, with nccopy or h5repack for example",
+    )
 
 
 def _damaged(path: Path, fault: str) -> UserError:

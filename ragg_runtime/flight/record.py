@@ -22,6 +22,13 @@ ANGULAR_ACCELERATION = ("omegadot_x", "omegadot_y", "omegadot_z")
 GRADIENT = ("Gamma_xx", "Gamma_xy", "Gamma_xz", "Gamma_yy", "Gamma_yz", "Gamma_zz")
 VOLTAGES = ("V_1", "V_2", "V_3", "V_4")
 DEMODULATED = ("inline", "cross")
+RATES = frozenset(
+    f"{d}_{name}"
+    for d in ("d", "d2")
+    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION, *GRADIENT)
+)
+"""Time derivatives of the motion: models form them from it, whatever columns of these names hold."""
+
 OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
 
 AUXILIARY: Mapping[str, str] = MappingProxyType(

@@ -8,6 +8,7 @@ from math import comb
 
 from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
+from ragg_runtime.flight.record import RATES
 from ragg_runtime.lack_of_fit.dictionary import Term
 
 _FUNCTIONS = {"abs": "absolute value", "sign": "sign", "square": "square"}
@@ -39,7 +40,7 @@ def columns(term: Term) -> list[str]:
         s = series_name.series(name)
         while isinstance(s, Function):
             s = s.of
-        if not isinstance(s, Channel):
+        if not isinstance(s, Channel) and str(s) not in RATES:
             found[_column(s)] = f"{_column(s)} ({in_words(s)})"
     return list(found.values())
 

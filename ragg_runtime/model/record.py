@@ -8,8 +8,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Chain, Effect
@@ -17,11 +19,21 @@ from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
-GRADIENTS = tuple(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz"))
 
+GRADIENTS = GRADIENT
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
+
+
+SPIN = ("d_spin_angle", "d2_spin_angle")
+"""Rate and acceleration of the disc angle: in every record, with an encoder or without."""
+
+SPIN_WINDOW = 0.6
+"""Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
+differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn."""
+
+_SPIN_DEGREE = 5
 
 
 @dataclass(frozen=True)
@@ -113,11 +125,31 @@ class Record:
     def _wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
+        if name in SPIN:
+            encoder = self.wide.get("spin_angle")
+            length = len(self.time) + sum(self.halo)
+            return spin(name, encoder, length, self.rate, self.spin_frequency)
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
                 return None if inner is None else differentiate(inner, self.rate)
         return None
+
+
+def spin(name: str, encoder: Array | None, samples: int, rate: float, spin_frequency: float) -> Array:
+    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad) if there is one.
+
+    By least squares a polynomial of the fifth degree is laid through ``SPIN_WINDOW`` on either side of a sample.
+    """
+    order = SPIN.index(name) + 1
+    if encoder is None:
+        return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
+    half = min(max(round(SPIN_WINDOW * rate), _SPIN_DEGREE), HALO, (samples - 1) // 2)
+    if 2 * half < _SPIN_DEGREE:
+        return np.full(samples, np.nan)
+    angle = np.unwrap(encoder)
+    smooth = savgol_filter(angle - angle[0], 2 * half + 1, _SPIN_DEGREE, deriv=order, delta=1 / rate)
+    return np.asarray(smooth, dtype=np.float64)
 
 
 def disc_angle(time: Array, spin_frequency: float) -> Array:
@@ -135,7 +167,8 @@ def record(flight: Flight, instrument: Instrument) -> Record:
     """What of this flight enters a model of this instrument."""
     # a long flight's columns stay on disk, unless they have to be shifted
     time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
-    return Record(time, flight.channels, flight.rate, flight.valid, instrument.spin_frequency)
+    wide = {name: x for name, x in flight.channels.items() if name not in RATES}
+    return Record(time, wide, flight.rate, flight.valid, instrument.spin_frequency)
 
 
 def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:

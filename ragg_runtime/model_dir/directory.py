@@ -1,7 +1,8 @@
 """A model directory: model.toml, generated/, history.json and calibration.json, changed all together or not at all.
 
 A change is a transaction (:mod:`ragg_runtime.base.transaction`): a process may be killed at any instant. Writers
-hold a lock; readers need none: they look again if a change came between.
+hold a lock; readers need none: they look again if a change came between. What a killed writer left unfinished
+is read in its new state and completed by the next writer, or by ``ragg doctor``: who reads moves nothing.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import shutil
 import stat
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ragg_runtime.base import transaction
@@ -29,6 +30,9 @@ __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_mo
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 Code = Mapping[str, str] | Path | None
 """Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
+
+NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION)
+"""All that a change of a model directory concerns."""
 
 _LONGEST = 1 << 26  # bytes of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
@@ -52,6 +56,8 @@ class ModelDir:
         The steps so far, oldest first.
     digest
         SHA-256 over all of it, hexadecimal: equal states have equal digests.
+    unfinished
+        Whether this is the new state of a change that was cut off before all of it was in its place.
     calibration
         The text of calibration.json; ``None``: nothing was ever saved.
     """
@@ -62,13 +68,24 @@ class ModelDir:
     generated: Path | None
     history: tuple[Step, ...]
     digest: str
+    unfinished: bool = False
     calibration: str | None = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is odd about the directory, in sentences."""
+        if not self.unfinished:
+            return ()
+        return (
+            "a change of this model was cut off after it had been made; its new state is read here, and put in "
+            f"place by the next command that changes the model, or by: ragg doctor {self.path}",
+        )
 
 
 def load_model_dir(path: Path | str) -> ModelDir:
-    """The model in a directory; a change that another process left unfinished is finished first.
+    """The model in a directory; of a change that another process left unfinished, the new state.
 
-    Raises UserError if it is not a model directory or one of its files is damaged.
+    Raises UserError if it is not a model directory or one of its files is damaged. Nothing is written.
     """
     path = Path(path)
     if not path.is_dir():
@@ -81,11 +98,13 @@ def load_model_dir(path: Path | str) -> ModelDir:
     deadline = time.monotonic() + _PATIENCE
     while time.monotonic() < deadline:
         if transaction.is_committing(path):
-            _recover(path)
+            unfinished = _unfinished(path)
+            if unfinished is not None:
+                return unfinished
             continue
         before = _stamp(path)
         try:
-            state = _read(path)
+            state = _read(path, {name: path / name for name in NAMES})
         except (UserError, FileNotFoundError):
             # Read amidst a change, a file may be missing.
             if _stamp(path) == before and not transaction.is_committing(path):
@@ -152,7 +171,7 @@ def replace_model_dir(
     with contextlib.ExitStack() as held:
         try:
             held.enter_context(locked(path, _PATIENCE))
-            transaction.finish(path)
+            transaction.finish(path, NAMES)
         except TimeoutError:
             raise UserError(
                 "another command is changing the model", where=path, remedy="wait for it to end and try again"
@@ -195,32 +214,31 @@ def _stage(
         place.write_bytes(content.encode())
 
 
-def _recover(path: Path) -> None:
-    """Finish a dead process's change; one that is alive gets a moment to finish its own."""
+def _unfinished(path: Path) -> ModelDir | None:
+    """The new state of a dead process's change; one that is alive gets a moment to finish its own (``None``)."""
     try:
         with locked(path, 0.0):
-            transaction.finish(path)
+            if not transaction.is_committing(path):
+                return None
+            return replace(_read(path, transaction.places(path, NAMES)), unfinished=True)
     except TimeoutError:
         time.sleep(0.002)
+        return None
     except OSError as error:
-        raise _cannot_complete(path, error) from None
-
-
-def _cannot_complete(path: Path, error: OSError) -> UserError:
-    return UserError(
-        "a change of the model was interrupted and cannot be completed",
-        where=path,
-        found=error.strerror,
-        remedy="make the directory writable and run any command on it",
-    )
+        raise UserError(
+            "a change of the model was interrupted, and what it made cannot be read",
+            where=error.filename or path,
+            found=error.strerror,
+            remedy=f"make the directory writable, then: ragg doctor {path}",
+        ) from None
 
 
 def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
     """What changes whenever one of these things is replaced or edited."""
     found: list[tuple[int, int, int] | None] = []
-    for name in (MODEL, GENERATED, HISTORY, CALIBRATION):
+    for name in NAMES:
         try:
-            status = (path / name).stat()
+            status = (path / name).lstat()
         except FileNotFoundError:
             found.append(None)
         else:
@@ -228,45 +246,60 @@ def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
     return tuple(found)
 
 
-def _read(path: Path) -> ModelDir:
-    if not (path / MODEL).exists():
+def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
+    """The state whose parts stand at these ``places`` (:func:`ragg_runtime.base.transaction.places`)."""
+    model, generated, history, calibration = (places[name] for name in NAMES)
+    if model is None or not os.path.lexists(model):
         raise UserError(
             "not a model directory: model.toml is missing",
             where=path,
             found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
             remedy="make a model with: ragg new",
         )
-    text = read_text(path / MODEL)
-    history = read_history(path / HISTORY)
-    calibration = read_text(path / CALIBRATION, _LONGEST) if (path / CALIBRATION).exists() else None
-    generated = path / GENERATED if (path / GENERATED).is_dir() else None
+    for place in (model, history, calibration):
+        if place is not None and place.is_symlink():
+            raise UserError(
+                "links in a model directory are not followed",
+                where=place,
+                found=f"a link to {os.readlink(place)}",
+                expected="the file itself",
+                remedy="put the file there in place of the link",
+            )
+    text = read_text(model)
     return ModelDir(
         path=path,
         text=text,
         instrument=parse_instrument(text, path / MODEL),
-        generated=generated,
-        history=history,
-        digest=_digest(path),
-        calibration=calibration,
+        generated=generated if generated is not None and generated.is_dir() else None,
+        history=() if history is None else read_history(history),
+        digest=_digest(places),
+        calibration=(
+            read_text(calibration, _LONGEST)
+            if calibration is not None and os.path.lexists(calibration)
+            else None
+        ),
     )
 
 
-def _digest(path: Path) -> str:
+def _digest(places: Mapping[str, Path | None]) -> str:
     """SHA-256 over all of it. Links and pipes in generated/ count by what they are, and are not followed."""
     total = hashlib.sha256()
-    for file in (path / MODEL, path / HISTORY, path / CALIBRATION, *_below(path / GENERATED)):
-        try:
-            status = file.lstat()
-            if stat.S_ISLNK(status.st_mode) and file.parent != path:
-                content = b"link " + os.fsencode(os.readlink(file))
-            elif stat.S_ISREG(status.st_mode) or file.parent == path:
-                content = file.read_bytes()
-            else:
-                content = b"neither file nor folder"
-        except (FileNotFoundError, IsADirectoryError):
-            continue
-        total.update(f"{file.relative_to(path).as_posix()} {len(content)}\n".encode(errors="surrogateescape"))
-        total.update(content)
+    for name in (MODEL, HISTORY, CALIBRATION, GENERATED):
+        top = places[name]
+        for file in [] if top is None else _below(top) if name == GENERATED else [top]:
+            try:
+                status = file.lstat()
+                if stat.S_ISLNK(status.st_mode):
+                    content = b"link " + os.fsencode(os.readlink(file))
+                elif stat.S_ISREG(status.st_mode):
+                    content = file.read_bytes()
+                else:
+                    content = b"neither file nor folder"
+            except FileNotFoundError:
+                continue
+            shown = Path(name, file.relative_to(top)) if top is not None else file
+            total.update(f"{shown.as_posix()} {len(content)}\n".encode(errors="surrogateescape"))
+            total.update(content)
     return total.hexdigest()
 
 

@@ -80,5 +80,5 @@ def read_history(path: Path) -> tuple[Step, ...]:
             where=path,
             found=str(error),
             expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
-            remedy="restore the file, or remove it to start a new history",
+            remedy=f"restore the file, or let `ragg doctor {path.parent}` put it aside",
         ) from None

@@ -65,7 +65,7 @@ def provenance(
             found["model_digest_before"] = _sha256(before)
         folder = directory.instrument.effects_folder
         if folder is not None:
-            found["effects_folder_digest"] = read_effects(folder, None).digest
+            found["effects_folder_digest"] = read_effects(folder).digest
     if derivation is not None:
         found["derivation_digest"] = derivation
     every = [*((_path(x.path, x.name), x.digest) for x in flights), *files]

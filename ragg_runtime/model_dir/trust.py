@@ -1,13 +1,9 @@
-"""Whose Python may be executed: the effects of a user's own folder, and nobody else's.
+"""Which Python of a model directory may be executed: exactly the files that the user has listed, and no other.
 
-A model.toml may name a folder of Python files (``effects_folder``). They are executed if
-
-- folder, files and model.toml belong to the user who runs the command (or to the system's administrator),
-  nobody else may write to them, and the files do what effect files do (:mod:`ragg_runtime.model_dir.effect_source`), or
-- the user has said ``ragg trust MODEL_DIR`` about exactly these files, byte for byte, or
-- the environment variable ``RAGG_TRUST_EFFECTS`` is ``all``.
-
-Where ``RAGG_TRUST_EFFECTS`` is ``listed``, belonging to the user is not enough.
+A model.toml may name a folder of Python files (``effects_folder``). Whose they are says nothing: an archive that is
+unpacked belongs to who unpacks it. What they do cannot be told from their text. So none is executed before the user
+has said ``ragg trust MODEL_DIR`` about these very files, byte for byte; the list of such digests is kept in the user's
+own configuration, out of reach of any model directory. ``RAGG_TRUST_EFFECTS=all`` switches the question off.
 """
 
 from __future__ import annotations
@@ -21,16 +17,16 @@ from pathlib import Path
 
 import platformdirs
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, one_line
 from ragg_runtime.base.files import write_text
-from ragg_runtime.base.ownership import _doubts, belongs_to_user
-from ragg_runtime.model_dir.effect_source import unusual
+from ragg_runtime.base.ownership import belongs_to_user
 
 VARIABLE = "RAGG_TRUST_EFFECTS"
-"""``all``: execute whatever a model directory names; ``listed``: only what `ragg trust` was told."""
+"""``all``: execute whatever a model directory names; ``listed`` or unset: only what `ragg trust` was told."""
 
 _LARGEST = 1 << 20  # bytes of one file
 _MOST = 200  # files
+_NAMED = 5  # files that the refusal names; `ragg trust` lists them all
 
 
 @dataclass(frozen=True)
@@ -42,17 +38,21 @@ class OwnEffects:
     folder
         The folder.
     sources
-        Path -> text of every ``*.py`` file in it.
+        Path -> text of every ``*.py`` file in it: what would be executed.
     digest
         SHA-256 over names and texts, hexadecimal.
-    doubts
-        Why they should not be executed unasked; none if they may be.
     """
 
     folder: Path
     sources: Mapping[Path, bytes]
     digest: str
-    doubts: tuple[str, ...]
+
+    def lines(self) -> list[str]:
+        """What would be executed, a line each file: its place, size and SHA-256."""
+        return [
+            f"{one_line(str(path))}  ({len(text)} bytes, SHA-256 {hashlib.sha256(text).hexdigest()})"
+            for path, text in self.sources.items()
+        ]
 
 
 def trusted_sources(folder: Path, model: Path | None) -> Mapping[Path, bytes]:
@@ -60,33 +60,30 @@ def trusted_sources(folder: Path, model: Path | None) -> Mapping[Path, bytes]:
 
     Raises UserError, with the remedy, where they may not, or cannot be read.
     """
-    found = read_effects(folder, model)
+    found = read_effects(folder)
     choice = os.environ.get(VARIABLE, "")
     if choice not in ("", "all", "listed"):
         raise UserError(f"{VARIABLE} has no such value", found=repr(choice), expected="all, listed, or unset")
-    if choice == "all" or found.digest in _listed():
+    if not found.sources or choice == "all" or is_trusted(found):
         return found.sources
-    doubts = found.doubts or (("not listed as trusted",) if choice == "listed" else ())
-    if doubts and found.sources:
-        place = model.parent if model is not None else "MODEL_DIR"
-        raise UserError(
-            "the model names Python files that are not executed unasked",
-            where=at(model, "effects_folder"),
-            found="; ".join(doubts[:5]),
-            expected="files of your own that nobody else can write to and that only describe effects",
-            remedy=f"read the files in {folder}; if you trust them: ragg trust {place}",
-        )
-    return found.sources
+    lines = found.lines()
+    more = [f"and {len(lines) - _NAMED} more"] if len(lines) > _NAMED else []
+    place: Path | str = "MODEL_DIR"
+    if model is not None:
+        place = model.parent if model.name == "model.toml" else model
+    raise UserError(
+        "the model names Python files, and they have not been listed as trusted as they are now: none was executed",
+        where=at(model, "effects_folder"),
+        found="\n".join(["these would run:", *lines[:_NAMED], *more]),
+        expected="files that you have read; whose they are is no matter: what you unpack is yours",
+        remedy=f"read them; if you want them to run: ragg trust {place}",
+    )
 
 
-def read_effects(folder: Path, model: Path | None) -> OwnEffects:
-    """Read every ``*.py`` of a folder, and look whose they are. Raises UserError if that fails."""
-    doubts: list[str] = []
+def read_effects(folder: Path) -> OwnEffects:
+    """Read every ``*.py`` of a folder; nothing is executed. Raises UserError if that fails."""
     sources: dict[Path, bytes] = {}
     try:
-        for place in (folder, *(() if model is None else (model,))):
-            if place.exists():
-                doubts += _whose(place, place.stat())
         names = sorted(p for p in folder.iterdir() if p.suffix == ".py" and not p.name.startswith("."))
         if len(names) > _MOST:
             raise UserError(
@@ -96,10 +93,7 @@ def read_effects(folder: Path, model: Path | None) -> OwnEffects:
                 expected=_MOST,
             )
         for path in names:
-            sources[path], status = _read(path)
-            doubts += _whose(path, status)
-            strange = unusual(sources[path])
-            doubts += [] if strange is None else [f"{path}, {strange}"]
+            sources[path], _ = _read(path)
     except OSError as error:
         raise UserError(
             "the folder of own effects cannot be read", where=error.filename or folder, found=error.strerror
@@ -107,7 +101,12 @@ def read_effects(folder: Path, model: Path | None) -> OwnEffects:
     total = hashlib.sha256()
     for path, text in sources.items():
         total.update(f"{path.name} {len(text)}\n".encode("utf-8", "surrogateescape") + text)
-    return OwnEffects(folder, sources, total.hexdigest(), tuple(doubts))
+    return OwnEffects(folder=folder, sources=sources, digest=total.hexdigest())
+
+
+def is_trusted(found: OwnEffects) -> bool:
+    """Whether exactly these files are on the user's list."""
+    return found.digest in _listed()
 
 
 def trust(found: OwnEffects) -> Path:
@@ -115,7 +114,7 @@ def trust(found: OwnEffects) -> Path:
     place = _list_file()
     place.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     lines = [line for line in _lines() if not line.startswith(found.digest)]
-    shown = str(found.folder.resolve()).encode(errors="replace").decode().replace("\n", " ")
+    shown = one_line(str(found.folder.resolve()))
     write_text(place, "".join(f"{line}\n" for line in (*lines, f"{found.digest}  {shown}")))
     return place
 
@@ -143,10 +142,6 @@ def _read(path: Path) -> tuple[bytes, os.stat_result]:
                 expected=f"a text of at most {_LARGEST} bytes",
             )
         return stream.read(_LARGEST + 1), status
-
-
-def _whose(path: Path, status: os.stat_result) -> list[str]:
-    return [f"{path} {doubt}" for doubt in _doubts(status)]
 
 
 def _list_file() -> Path:

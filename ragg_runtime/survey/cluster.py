@@ -1,8 +1,8 @@
 """An existing Dask cluster, given by its scheduler's address.
 
 The scheduler hands flights to workers by path; those of a worker that dies go to another one. Whoever can
-reach a scheduler can run code on its workers: that is how Dask works, and why it belongs behind a wall or TLS
-(``distributed.comm`` in Dask's own configuration, which is honoured).
+reach a scheduler can run code on its workers, and whoever answers as the scheduler can run code here, since its
+answers are unpickled: that is how Dask works, and why it belongs behind a wall or TLS (:mod:`ragg_runtime.survey.tls`).
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import Any
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey.local import ATTEMPTS, lost
 from ragg_runtime.survey.task import Job, Record, examine, fingerprint
+from ragg_runtime.survey.tls import Tls, security
 
 PATIENCE = 5.0
 """How long the scheduler, and then its first worker, is waited for, s."""
@@ -32,12 +33,14 @@ WITHOUT_WORKERS = 60.0
 """How long a survey waits for a worker when all are gone, s."""
 
 
-def examined(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
+def examined(
+    job: Job, files: Sequence[str], address: str, tls: Tls | None = None
+) -> Generator[tuple[str, Record]]:
     """(file, record) of every flight, in the order in which they are done.
 
     Raises UserError if the cluster cannot be used, or is lost on the way.
     """
-    with _client(address) as client:
+    with _client(address, tls) as client:
         _check(client, address)
         done: queue.Queue[tuple[str, Any]] = queue.Queue()
         futures = client.map(
@@ -128,7 +131,7 @@ def _gone(address: str) -> UserError:
 
 
 @contextlib.contextmanager
-def _client(address: str) -> Iterator[Any]:
+def _client(address: str, tls: Tls | None) -> Iterator[Any]:
     try:
         distributed: Any = importlib.import_module("distributed")
     except ImportError:
@@ -144,15 +147,18 @@ def _client(address: str) -> Iterator[Any]:
             "not the address of a scheduler",
             where="--scheduler",
             found=repr(address),
-            expected="tcp://host:port, as the scheduler prints it",
+            expected="tcp://host:port or tls://host:port, as the scheduler prints it",
         )
+    proof = security(address, tls)
     log = logging.getLogger("distributed")
     level = log.level
     log.setLevel(logging.CRITICAL)  # what it has to say is said here, in one message
     try:
         try:
-            _greet(address)
-            client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
+            _greet(address, proof)
+            client = distributed.Client(
+                address, timeout=PATIENCE, set_as_default=False, name="ragg-survey", security=proof
+            )
         except Exception as error:
             raise UserError(
                 "the scheduler cannot be reached",
@@ -172,12 +178,12 @@ def _client(address: str) -> Iterator[Any]:
         log.setLevel(level)
 
 
-def _greet(address: str) -> None:
+def _greet(address: str, proof: Any) -> None:
     """Ask who is there: Dask's own client waits for ever for a listener that says nothing."""
     from distributed.core import rpc
 
     async def asked() -> Any:
-        scheduler = rpc(address)
+        scheduler = rpc(address, connection_args=proof.get_connection_args("client"))
         try:
             return await asyncio.wait_for(scheduler.identity(), PATIENCE)
         finally:

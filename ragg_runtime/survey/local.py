@@ -18,6 +18,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
+from ragg_runtime.base import safe_path
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.memory import reuse_memory
 from ragg_runtime.survey.task import Job, Record, examine
@@ -95,8 +96,8 @@ class _Worker:
 
     def _start(self) -> None:
         context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
-        self.pool = ProcessPoolExecutor(1, context, initializer=_begin)
         with _inherited():
+            self.pool = ProcessPoolExecutor(1, context, initializer=_begin)
             self.ready = self.pool.submit(os.getpid)
 
     def renew(self) -> None:
@@ -132,9 +133,13 @@ class _Worker:
 
 @contextlib.contextmanager
 def _inherited() -> Iterator[None]:
-    """What a new process inherits: linear algebra on one thread, and no Ctrl-C (that is the parent's)."""
-    old = {name: os.environ.get(name) for name in _ONE_THREAD}
-    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
+    """What a new process inherits: linear algebra on one thread, no Ctrl-C (that is the parent's), a safe path.
+
+    Python would let it look for its own modules in the current folder first, whoever's that is. Once it is up,
+    it imports from where this process does.
+    """
+    old = {name: os.environ.get(name) for name in (*_ONE_THREAD, safe_path.VARIABLE)}
+    os.environ.update(dict.fromkeys(old, "1"))
     mask = (
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         if hasattr(signal, "pthread_sigmask")

@@ -11,6 +11,7 @@ from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Job, Record, job
+from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
@@ -23,6 +24,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
 ) -> Survey:
@@ -37,7 +39,10 @@ def survey(
     jobs
         Worker processes on this machine (default: one a processor).
     scheduler
-        Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead.
+        Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead. What answers there
+        can run code in this process: name addresses that you trust.
+    tls
+        Certificates for a scheduler at ``tls://host:port``; by default those of Dask's own configuration.
     resume
         Results file: what stands in it is not done again (flights in error are), what is done is added.
 
@@ -62,7 +67,7 @@ def survey(
             progress(len(records), len(files), None)
         left = [f for f in files if f not in records]
         if left:
-            with contextlib.closing(_examined(given, left, jobs, scheduler)) as found:
+            with contextlib.closing(_examined(given, left, jobs, scheduler, tls)) as found:
                 for file, record in found:
                     records[file] = record
                     if kept is not None:
@@ -79,10 +84,10 @@ def ordered(flights: Sequence[Path | str]) -> list[str]:
 
 
 def _examined(
-    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None
+    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None, tls: Tls | None
 ) -> Generator[tuple[str, Record]]:
     if scheduler is not None:
-        return cluster.examined(given, files, scheduler)
+        return cluster.examined(given, files, scheduler, tls)
     return local.examined(given, files, jobs or local.processors())
 
 

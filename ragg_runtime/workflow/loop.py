@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import hashlib
+import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
@@ -19,10 +20,11 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -40,7 +42,14 @@ from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
 from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
+
+NO_FORM = (
+    'model.toml has no [model], which means kinematics = "platform" and order = "paper": as in Eq. 9 of the paper '
+    "the accelerometers do not feel that they turn with the disc. Real ones do: with "
+    '[model] kinematics = "full" the model knows it'
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -127,7 +136,8 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", _now()),)
-    return _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
+    made = _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
+    return made if tomllib.loads(text).get("model") else replace(made, notes=(*made.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -138,10 +148,8 @@ def load(path: Path | str) -> Loaded:
 def _loaded(directory: ModelDir) -> Loaded:
     model = derive.model_of(directory.instrument, directory.generated)
     check_settings(model, directory.instrument)
-    note = (
-        derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
-    )
-    return Loaded(directory, model, () if note is None else (note,))
+    note = derive.departure(directory.instrument, directory.generated)
+    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
 def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
@@ -149,9 +157,17 @@ def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
     return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
 
 
-def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
-    """How far the model is from the flights, and where it fails."""
-    return _compare.compare(m.model, m.instrument, flights)
+def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
+    """How far the model is from the flights, and where it fails.
+
+    With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
+    """
+    c = _compare.compare(m.model, m.instrument, flights)
+    if not ladder:
+        return c
+    return replace(
+        c, ladder=climb(m.instrument, flights, lambda form: derive.without_signatures(m.instrument, form))
+    )
 
 
 def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
@@ -191,6 +207,7 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
+    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
 ) -> Survey:
@@ -200,7 +217,14 @@ def survey(
     """
     place = m.directory.path / "model.toml"
     return _survey(
-        m.directory.text, place, flights, jobs=jobs, scheduler=scheduler, resume=resume, progress=progress
+        m.directory.text,
+        place,
+        flights,
+        jobs=jobs,
+        scheduler=scheduler,
+        tls=tls,
+        resume=resume,
+        progress=progress,
     )
 
 
@@ -211,8 +235,7 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     The directory is changed whole or not at all.
     """
     instrument = m.instrument
-    known = derive.known(instrument)
-    symbolic = known.get(effect, at(m.directory.path))
+    symbolic = derive.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
     if present is not None and present.values:
         raise UserError(

@@ -60,12 +60,6 @@ K = {"K": {"unit": "ug"}}
         ("sqrt(K)*f_i", "no finite slope"),
         ("f_i/(1 + 1/K)*K/K", "vanish|slope"),
         ("K*__class__", "cannot name a channel"),
-        ("K*double", "cannot name a channel"),
-        ("K*np", "cannot name a channel"),
-        ("K*len", "cannot name a channel"),
-        ("K*x0", "cannot name a channel"),
-        ("K*cos_psi", "cannot name a channel"),
-        ("K*bar_V", "cannot name a channel"),
         ("K*" + "a" * 100, "cannot name a channel"),
     ],
 )

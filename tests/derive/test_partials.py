@@ -29,7 +29,12 @@ def test_partials_are_derivatives(e: sp.Expr) -> None:
     assert list(found) == sorted(found, key=lambda s: s.name)
     assert 0 not in found.values()
     for s in (X, Y, Z):
-        assert sp.simplify(found.get(s, sp.Integer(0)) - sp.diff(e, s)) == 0
+        assert (
+            sp.simplify(
+                found.get(s, sp.Integer(0)) - sp.diff(e, s).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+            )
+            == 0
+        )
 
 
 def test_what_cancels_is_left_out() -> None:
@@ -41,5 +46,8 @@ def test_a_name_holds_one_value() -> None:
     first = tape.let("product", X * Y)
     assert tape.let("product", Y * X) is first
     assert len(tape.assignments) == 1
-    with pytest.raises(ValueError, match="product is assigned twice"):
-        tape.let("product", X + Y)
+    other = tape.let("product", X + Y)
+    assert other != first
+    assert tape.let("product", X + Y) is other
+    assert [v for _, v in tape.assignments] == [X * Y, X + Y]
+    assert tape.let("a_x", X**2).name != "a_x", "a channel has this name"

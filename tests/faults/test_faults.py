@@ -11,18 +11,18 @@ from pathlib import Path
 import pytest
 
 from derive import everything
-from ragg_runtime.base import transaction
+from ragg_runtime.base import folder
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import clear_stale, temporary_name, write_text
 from ragg_runtime.base.lock import locked
 from ragg_runtime.cli.main import main
-from ragg_runtime.cli.publish import publish, settle
+from ragg_runtime.cli.publish import publish
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.workflow import loop
 
 from . import surveys
 from .injected import Fault, run
-from .trials import COMMANDS, KINDS, model_state, trial, warm
+from .trials import COMMANDS, KINDS, model_state, settle, trial, warm
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs fork and SIGKILL")
 
@@ -99,13 +99,13 @@ def test_derive_changes_only_what_differs(tmp_path: Path) -> None:
 
 def test_without_an_exchange_of_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where the system cannot exchange folders at a stroke, a killed change is still finished by the next."""
-    monkeypatch.setattr(transaction, "_renameat2", lambda: None)
+    monkeypatch.setattr(folder, "renameat2", lambda: None)
     publish(tmp_path, {"a": {"x": "1"}}, ("a",))
     for after in range(1, 80):
         (tmp_path / "scratch").mkdir()
         text = str(after + 1)
         ended = run([text], Fault("kill", after), tmp_path / "scratch", lambda t: _publish(tmp_path, t[0]))
-        settle(tmp_path)
+        settle(tmp_path, ("a",))
         assert (tmp_path / "a" / "x").read_text() in (str(after), text)
         (tmp_path / "scratch").rmdir()
         publish(tmp_path, {"a": {"x": text}}, ("a",))

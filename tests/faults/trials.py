@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from derive import everything, tree
+from ragg_runtime.base import transaction
+from ragg_runtime.base.lock import locked
 from ragg_runtime.cli.main import main
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import load_model_dir
@@ -118,9 +120,7 @@ def _project(base: Path) -> Path:
 
 def project_state(root: Path) -> str:
     """As ``ragg derive --check`` sees it, after it has finished what was begun."""
-    from ragg_runtime.cli.publish import settle
-
-    settle(root)
+    settle(root, tuple(derived()))
     assert (root / "docs" / "mine.md").read_text() == "mine\n"
     found = {}
     for folder, files in derived().items():
@@ -132,6 +132,12 @@ def project_state(root: Path) -> str:
         found[folder] = "plain" if old else "derived"
     assert len(set(found.values())) == 1, found
     return found[everything.GENERATED]
+
+
+def settle(root: Path, among: Sequence[str]) -> None:
+    """Finish what a killed change left, as the next command does that writes there."""
+    with locked(root, 5.0):
+        transaction.finish(root, among)
 
 
 def _derive(place: Path) -> Sequence[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 from collections.abc import Callable, Mapping
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.record import record
 
 G0 = 9.8
 RATE = 16.0
@@ -361,3 +364,16 @@ def test_flights_in_memory() -> None:
         made.channels["a_x"][0] = 1.0
     with pytest.raises(UserError, match="length"):
         Flight(time=t, channels={"a_x": t[:-1]}, outputs={})
+
+
+def test_the_derivative_of_the_motion_is_no_column(load: Load) -> None:
+    """A column that is called like a series which models form themselves does not take its place."""
+    table = columns() | {"d_a_x": np.full(N, 1e6), "d_temp": np.full(N, 3.0)}
+    flight = load(table, {"d_a_x": "m/s^3", "d_temp": "K/s"})
+    assert "d_a_x: not used; models form this derivative themselves" in flight.notes
+    instrument = parse_instrument(resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8"))
+    r = record(flight, instrument)
+    formed, recorded = r.series("d_a_x"), r.series("d_temp")
+    assert formed is not None and recorded is not None
+    assert np.max(np.abs(formed)) < 1e3
+    assert np.all(recorded == 3.0)

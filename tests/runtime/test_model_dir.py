@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 
+from ragg_runtime.base import folder
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.lock import locked
 from ragg_runtime.model_dir import directory as md
@@ -142,7 +143,7 @@ def die(moves: Iterator[int], after: int) -> None:
 
 def _moves(monkeypatch: pytest.MonkeyPatch, when: Callable[[], None]) -> None:
     """Call ``when`` after every single move of a file or folder."""
-    for owner, name in ((Path, "rename"), (os, "replace")):
+    for owner, name in ((folder.Folder, "move"), (folder.Folder, "exchange")):
         original = getattr(owner, name)
 
         def moved(*a: object, _original: Callable[..., object] = original, **k: object) -> object:

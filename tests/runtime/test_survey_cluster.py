@@ -41,12 +41,21 @@ def whole(flights: Flights) -> Survey:
 class Cluster:
     """A scheduler and workers, each a process of its own, without nannies: a killed worker stays dead."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *options: object) -> None:
         self.folder = folder
+        self.options = options
         self.processes: list[subprocess.Popen[bytes]] = []
         file = folder / "scheduler.json"
         self.scheduler = self._start(
-            "dask_scheduler", "--host", HERE, "--port", "0", "--no-dashboard", "--scheduler-file", file
+            "dask_scheduler",
+            "--host",
+            HERE,
+            "--port",
+            "0",
+            "--no-dashboard",
+            "--scheduler-file",
+            file,
+            *options,
         )
         self.address = str(self._wait(lambda: json.loads(file.read_text())["address"]))
 
@@ -63,7 +72,8 @@ class Cluster:
 
     def worker(self) -> subprocess.Popen[bytes]:
         return self._start(
-            "dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"
+            *("dask_worker", self.address, "--host", HERE, "--no-nanny", "--nthreads", "1", "--no-dashboard"),
+            *self.options,
         )
 
     @staticmethod

@@ -10,7 +10,7 @@ import pytest
 
 from derive import pipeline
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir import derive, derived_cache
+from ragg_runtime.model_dir import derive, derived_cache, trust
 from ragg_runtime.workflow import loop
 
 ROOT = Path(loop.__file__).parents[1]
@@ -123,6 +123,7 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path) -> None:
     instrument = parse_instrument('effects_folder = "own"\n' + text, tmp_path / "model.toml")
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "own" / "a.py").write_text(source)
+        trust.trust(trust.read_effects(tmp_path / "own"))
         found.add(derived_cache.request(instrument))
     assert len(found) == len(lists) + 2
 

@@ -74,6 +74,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "spin-phase-offset": _shared("rad", "phi_0"),
     "encoder-harmonic": _shared("rad", "c_1", "s_1", "c_2", "s_2", "c_3", "s_3", "c_4", "s_4"),
     "spin-rate-jitter": _shared("rad", "sigma_phi") | _shared("rad/s^0.5", "sigma_walk"),
+    "disc-spin": _shared("1", "share"),
     "time-offset": _shared("s", "delta_t"),
     "imu-lever-arm": _shared("m", "l_x", "l_y", "l_z"),
     "imu-misalignment": _shared("rad", "e_x", "e_y", "e_z"),

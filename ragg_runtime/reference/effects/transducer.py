@@ -9,9 +9,12 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.motion import MotionState
+from ragg_runtime.reference.taylor import Taylor, carried
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
+Triad = tuple[Taylor, Taylor, Taylor]
 
 REFERENCE_TEMPERATURE = 293.15
 """Temperature (K) at which bias and scale factor have their test-sheet values."""
@@ -60,17 +63,28 @@ def angles_in_second_order(effects: Injected) -> float:
     return 1.0 if order is None else float(order["kappa"])
 
 
+def case_acceleration(triad: Triad, motion: MotionState) -> Triple:
+    """Angular acceleration of a case about its x, y and z axes, rad/s^2, from where these axes turn to."""
+    x, y, z = ((v.value, carried(v, motion.omega, motion.omegadot)) for v in triad)
+
+    def about(next_: tuple[Array, Array], last: tuple[Array, Array]) -> Array:
+        # u'' = alpha x u + Omega x (Omega x u); of the two, the first alone is antisymmetric.
+        return np.asarray(np.sum(next_[1] * last[0] - last[1] * next_[0], axis=0) / 2)
+
+    return about(y, z), about(z, x), about(x, y)
+
+
 def further_terms(
     j: int,
     f: Triple,
-    triad: Triple,
-    omegadot: Array,
+    triad: Triad,
+    motion: MotionState,
     auxiliaries: Mapping[str, Array],
     effects: Injected,
 ) -> Array | float:
     """What accelerometer j adds to Eq. 1, m/s^2.
 
-    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``omegadot`` (3, N) rad/s^2.
+    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``motion`` the platform's.
     """
     f_i = f[0]
     total: Array | float = 0.0
@@ -82,10 +96,10 @@ def further_terms(
     if odd := effects.get("odd-quadratic"):
         total = total + odd["K_oq"][j] * f_i * np.abs(f_i)
     if pendulum := effects.get("pendulum-angular"):
-        total = total + pendulum["K_pa"][j] * np.sum(omegadot * triad[1], axis=0)
+        total = total + pendulum["K_pa"][j] * case_acceleration(triad, motion)[1]
     if magnetic := effects.get("magnetic-bias"):
         field = np.stack([auxiliaries[f"B_{axis}"] for axis in "xyz"])
-        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0], axis=0)
+        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0].value, axis=0)
     return total
 
 

@@ -1,0 +1,772 @@
+"""Signatures: what each candidate effect would add to V_j.
+
+Derived; do not edit: change the derivation and derive again.
+
+Effects beyond the paper's instrument: arm-sag, arm-stretch, bias-drift, cubic-cross, cubic-input, encoder-harmonic, gain-drift, gain-step, gyro-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, pendulum-angular, pressure-bias, second-order-misalignment, self-gradient, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, thermal-bias, thermal-scale, time-offset, vibration-rectification.
+The instrument unexpanded, one accelerometer at a time: V_j at the disc angle plus the constant angle of
+its nominal place, and its derivatives; G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15). Units are SI, V in volts.
+`inputs` is a (n_inputs, N) array in the order of INPUTS; `p` a vector in the order of PARAMETERS
+(one value, or four in the order A1, A2, A3, A4).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+INPUTS: tuple[str, ...] = (
+    "a_x",
+    "a_y",
+    "a_z",
+    "omega_x",
+    "omega_y",
+    "omega_z",
+    "omegadot_x",
+    "omegadot_y",
+    "omegadot_z",
+    "Gamma_xx",
+    "Gamma_xy",
+    "Gamma_xz",
+    "Gamma_yy",
+    "Gamma_yz",
+    "Gamma_zz",
+    "B_x",
+    "B_y",
+    "B_z",
+    "d2_a_x",
+    "d2_a_y",
+    "d2_a_z",
+    "d2_omegadot_x",
+    "d2_omegadot_y",
+    "d2_omegadot_z",
+    "d2_spin_angle",
+    "d_a_x",
+    "d_a_y",
+    "d_a_z",
+    "d_omegadot_x",
+    "d_omegadot_y",
+    "d_omegadot_z",
+    "d_spin_angle",
+    "pitch",
+    "pressure",
+    "roll",
+    "temperature",
+)
+PARAMETERS: tuple[tuple[str, int], ...] = (
+    ("radius", 1),
+    ("spin_frequency", 1),
+    ("dR", 4),
+    ("beta_x", 4),
+    ("beta_z", 4),
+    ("vartheta_x", 4),
+    ("vartheta_y", 4),
+    ("vartheta_z", 4),
+    ("K0", 4),
+    ("K1", 4),
+    ("K2", 4),
+    ("K4", 4),
+    ("K5", 4),
+    ("K6", 4),
+    ("K7", 4),
+    ("K8", 4),
+    ("k_VI", 4),
+)
+ROWS: tuple[tuple[str, bool], ...] = (  # derivative of V_j by; True: one value for the instrument
+    ("arm-sag.c_z", False),
+    ("arm-stretch.c_r", False),
+    ("bias-drift.dK0_dt", False),
+    ("cubic-cross.K_iio", False),
+    ("cubic-cross.K_iip", False),
+    ("cubic-cross.K_ioo", False),
+    ("cubic-cross.K_iop", False),
+    ("cubic-cross.K_ipp", False),
+    ("cubic-cross.K_ooo", False),
+    ("cubic-cross.K_oop", False),
+    ("cubic-cross.K_opp", False),
+    ("cubic-cross.K_ppp", False),
+    ("cubic-input.K_iii", False),
+    ("encoder-harmonic.c_1", True),
+    ("encoder-harmonic.s_1", True),
+    ("encoder-harmonic.c_2", True),
+    ("encoder-harmonic.s_2", True),
+    ("encoder-harmonic.c_3", True),
+    ("encoder-harmonic.s_3", True),
+    ("encoder-harmonic.c_4", True),
+    ("encoder-harmonic.s_4", True),
+    ("gain-drift.dK1_dt", False),
+    ("gain-step.dK1", False),
+    ("gyro-scale.s_x", True),
+    ("gyro-scale.s_y", True),
+    ("gyro-scale.s_z", True),
+    ("imu-lever-arm.l_x", True),
+    ("imu-lever-arm.l_y", True),
+    ("imu-lever-arm.l_z", True),
+    ("imu-misalignment.e_x", True),
+    ("imu-misalignment.e_y", True),
+    ("imu-misalignment.e_z", True),
+    ("lag.tau", False),
+    ("magnetic-bias.dK0_dB", False),
+    ("mount-compliance.c_yx", False),
+    ("mount-compliance.c_yy", False),
+    ("mount-compliance.c_yz", False),
+    ("mount-compliance.c_zx", False),
+    ("mount-compliance.c_zy", False),
+    ("mount-compliance.c_zz", False),
+    ("near-mass.T_xxx", True),
+    ("near-mass.T_xxy", True),
+    ("near-mass.T_xxz", True),
+    ("near-mass.T_xyy", True),
+    ("near-mass.T_xyz", True),
+    ("near-mass.T_yyy", True),
+    ("near-mass.T_yyz", True),
+    ("odd-quadratic.K_oq", False),
+    ("pendulum-angular.K_pa", False),
+    ("pressure-bias.dK0_dp", False),
+    ("second-order-misalignment.kappa", True),
+    ("self-gradient.G_xx_roll", True),
+    ("self-gradient.G_xy_roll", True),
+    ("self-gradient.G_xz_roll", True),
+    ("self-gradient.G_yy_roll", True),
+    ("self-gradient.G_yz_roll", True),
+    ("self-gradient.G_xx_pitch", True),
+    ("self-gradient.G_xy_pitch", True),
+    ("self-gradient.G_xz_pitch", True),
+    ("self-gradient.G_yy_pitch", True),
+    ("self-gradient.G_yz_pitch", True),
+    ("spin-axis-tilt.alpha_x", True),
+    ("spin-axis-tilt.alpha_y", True),
+    ("spin-axis-wobble.w_x", True),
+    ("spin-axis-wobble.w_y", True),
+    ("spin-phase-offset.phi_0", True),
+    ("spin-rate-jitter.sigma_phi", True),
+    ("spin-rate-jitter.sigma_walk", True),
+    ("thermal-bias.dK0_dT", False),
+    ("thermal-scale.dK1_dT", False),
+    ("time-offset.delta_t", True),
+    ("vibration-rectification.P_xx", True),
+    ("vibration-rectification.P_xy", True),
+    ("vibration-rectification.P_xz", True),
+    ("vibration-rectification.P_yy", True),
+    ("vibration-rectification.P_yz", True),
+    ("vibration-rectification.P_zz", True),
+)
+SIZE: int = sum(size for _, size in PARAMETERS)
+SIGNS: tuple[int, ...] = (1, 1, -1, -1, )
+COS_J: tuple[float, ...] = (1.0, -1.0, 0.0, 0.0, )
+SIN_J: tuple[float, ...] = (0.0, 0.0, 1.0, -1.0, )
+
+
+def accelerometer(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array) -> Array:
+    """V_j, (N,), V, of accelerometer j = 0 ... 3; q holds its own value of every parameter."""
+    a_x = inputs[0]
+    a_y = inputs[1]
+    a_z = inputs[2]
+    omega_x = inputs[3]
+    omega_y = inputs[4]
+    omega_z = inputs[5]
+    omegadot_x = inputs[6]
+    omegadot_y = inputs[7]
+    omegadot_z = inputs[8]
+    Gamma_xx = inputs[9]
+    Gamma_xy = inputs[10]
+    Gamma_xz = inputs[11]
+    Gamma_yy = inputs[12]
+    Gamma_yz = inputs[13]
+    Gamma_zz = inputs[14]
+    d2_spin_angle = inputs[24]
+    d_spin_angle = inputs[31]
+    radius = q[0]
+    dR = q[2]
+    beta_x = q[3]
+    beta_z = q[4]
+    vartheta_y = q[6]
+    vartheta_z = q[7]
+    K0 = q[8]
+    K1 = q[9]
+    K2 = q[10]
+    K4 = q[11]
+    K5 = q[12]
+    K6 = q[13]
+    K7 = q[14]
+    K8 = q[15]
+    k_VI = q[16]
+    cos_j, sin_j = COS_J[j], SIN_J[j]
+    x0 = omega_y**2.0
+    x1 = d_spin_angle + omega_z
+    x2 = -x1
+    x3 = -x1*x2
+    M_xx = -Gamma_xx - x0 - x3
+    x4 = d2_spin_angle + omegadot_z
+    M_xy = -Gamma_xy + omega_x*omega_y - x4
+    x5 = d_spin_angle*omega_x
+    M_xz = -Gamma_xz - omega_x*x2 + omegadot_y - x5
+    M_yx = -Gamma_xy + omega_x*omega_y + x4
+    x6 = omega_x**2.0
+    M_yy = -Gamma_yy - x3 - x6
+    x7 = d_spin_angle*omega_y
+    M_yz = -Gamma_yz + omega_y*x1 - omegadot_x - x7
+    M_zx = -Gamma_xz + omega_x*x1 - omegadot_y + x5
+    M_zy = -Gamma_yz - omega_y*x2 + omegadot_x + x7
+    M_zz = -Gamma_zz - x0 - x6
+    cos_psi = cos_j*cos_phi - sin_j*sin_phi
+    sin_psi = cos_j*sin_phi + cos_phi*sin_j
+    x8 = dR + radius
+    f_disc_r_x = x8
+    f_disc_r_y = beta_z*x8
+    f_disc_r_z = beta_x*x8
+    f_disc_tau_zy = -beta_x*beta_z
+    f_r_x = cos_psi*f_disc_r_x - f_disc_r_y*sin_psi
+    f_r_y = cos_psi*f_disc_r_y + f_disc_r_x*sin_psi
+    x9 = beta_z*cos_psi + sin_psi
+    f_tau_xx = -x9
+    x10 = -beta_z*sin_psi + cos_psi
+    f_tau_xy = x10
+    f_tau_yx = x10
+    f_tau_yy = x9
+    f_tau_zx = -beta_x*cos_psi - f_disc_tau_zy*sin_psi
+    f_tau_zy = -beta_x*sin_psi + cos_psi*f_disc_tau_zy
+    f_f_x = M_xx*f_r_x + M_xy*f_r_y + M_xz*f_disc_r_z + a_x
+    f_f_y = M_yx*f_r_x + M_yy*f_r_y + M_yz*f_disc_r_z + a_y
+    f_f_z = M_zx*f_r_x + M_zy*f_r_y + M_zz*f_disc_r_z + a_z
+    f_f_xj = f_f_x*f_tau_xx + f_f_y*f_tau_xy
+    f_f_yj = -beta_x*f_f_z + f_f_x*f_tau_yx + f_f_y*f_tau_yy
+    f_f_zj = f_f_x*f_tau_zx + f_f_y*f_tau_zy - f_f_z
+    f_f_i = f_f_xj + f_f_yj*vartheta_z - f_f_zj*vartheta_y
+    q_disc_r_x = x8
+    q_r_x = cos_psi*q_disc_r_x
+    q_r_y = q_disc_r_x*sin_psi
+    q_f_x = M_xx*q_r_x + M_xy*q_r_y + a_x
+    q_f_y = M_yx*q_r_x + M_yy*q_r_y + a_y
+    q_f_z = M_zx*q_r_x + M_zy*q_r_y + a_z
+    q_f_xj = cos_psi*q_f_y - q_f_x*sin_psi
+    q_f_yj = cos_psi*q_f_x + q_f_y*sin_psi
+    i_sensed = K0 + K2*q_f_xj**2.0 - K4*q_f_xj*q_f_z + K5*q_f_yj**2.0 + K6*q_f_xj*q_f_yj + K7*q_f_z**2.0 - K8*q_f_yj*q_f_z + f_f_i
+    V = K1*i_sensed*k_VI
+
+    return np.asarray(V) + np.zeros(len(time))
+
+
+def derivatives(j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array) -> Array:
+    """Derivatives of V_j, (len(ROWS), N), in the order of ROWS."""
+    a_x = inputs[0]
+    a_y = inputs[1]
+    a_z = inputs[2]
+    omega_x = inputs[3]
+    omega_y = inputs[4]
+    omega_z = inputs[5]
+    omegadot_x = inputs[6]
+    omegadot_y = inputs[7]
+    omegadot_z = inputs[8]
+    Gamma_xx = inputs[9]
+    Gamma_xy = inputs[10]
+    Gamma_xz = inputs[11]
+    Gamma_yy = inputs[12]
+    Gamma_yz = inputs[13]
+    Gamma_zz = inputs[14]
+    B_x = inputs[15]
+    B_y = inputs[16]
+    B_z = inputs[17]
+    d2_a_x = inputs[18]
+    d2_a_y = inputs[19]
+    d2_a_z = inputs[20]
+    d2_omegadot_x = inputs[21]
+    d2_omegadot_y = inputs[22]
+    d2_omegadot_z = inputs[23]
+    d2_spin_angle = inputs[24]
+    d_a_x = inputs[25]
+    d_a_y = inputs[26]
+    d_a_z = inputs[27]
+    d_omegadot_x = inputs[28]
+    d_omegadot_y = inputs[29]
+    d_omegadot_z = inputs[30]
+    d_spin_angle = inputs[31]
+    pitch = inputs[32]
+    pressure = inputs[33]
+    roll = inputs[34]
+    temperature = inputs[35]
+    radius = q[0]
+    dR = q[2]
+    beta_x = q[3]
+    beta_z = q[4]
+    vartheta_x = q[5]
+    vartheta_y = q[6]
+    vartheta_z = q[7]
+    K0 = q[8]
+    K1 = q[9]
+    K2 = q[10]
+    K4 = q[11]
+    K5 = q[12]
+    K6 = q[13]
+    K7 = q[14]
+    K8 = q[15]
+    k_VI = q[16]
+    cos_j, sin_j = COS_J[j], SIN_J[j]
+    x0 = omega_y**2.0
+    x1 = d_spin_angle + omega_z
+    x2 = -x1
+    x3 = -x1*x2
+    M_xx = -Gamma_xx - x0 - x3
+    x4 = omega_x*omega_y
+    x5 = d2_spin_angle + omegadot_z
+    M_xy = -Gamma_xy + x4 - x5
+    x6 = -omegadot_y
+    x7 = d_spin_angle*omega_x
+    x8 = x6 + x7
+    M_xz = -Gamma_xz - omega_x*x2 - x8
+    x9 = omegadot_z + x4
+    M_yx = -Gamma_xy + d2_spin_angle + x9
+    x10 = omega_x**2.0
+    M_yy = -Gamma_yy - x10 - x3
+    x11 = d_spin_angle*omega_y
+    x12 = omegadot_x + x11
+    M_yz = -Gamma_yz + omega_y*x1 - x12
+    M_zx = -Gamma_xz + omega_x*x1 - omegadot_y + x7
+    x13 = -omegadot_x
+    M_zy = -Gamma_yz - omega_y*x2 + x11 - x13
+    x14 = x0 + x10
+    M_zz = -Gamma_zz - x14
+    cos_psi = cos_j*cos_phi - sin_j*sin_phi
+    sin_psi = cos_j*sin_phi + cos_phi*sin_j
+    x15 = dR + radius
+    b_disc_r_x = x15
+    x16 = beta_z*x15
+    b_disc_r_y = x16
+    x17 = beta_x*x15
+    b_disc_r_z = x17
+    x18 = -beta_x*beta_z
+    b_disc_tau_zy = x18
+    b_r_x = b_disc_r_x*cos_psi - b_disc_r_y*sin_psi
+    b_r_y = b_disc_r_x*sin_psi + b_disc_r_y*cos_psi
+    x19 = beta_z*cos_psi + sin_psi
+    x20 = -x19
+    b_tau_xx = x20
+    x21 = -beta_z*sin_psi + cos_psi
+    b_tau_xy = x21
+    b_tau_yx = x21
+    b_tau_yy = x19
+    x22 = beta_x*cos_psi
+    b_tau_zx = -b_disc_tau_zy*sin_psi - x22
+    x23 = beta_x*sin_psi
+    b_tau_zy = b_disc_tau_zy*cos_psi - x23
+    b_f_x = M_xx*b_r_x + M_xy*b_r_y + M_xz*b_disc_r_z + a_x
+    b_f_y = M_yx*b_r_x + M_yy*b_r_y + M_yz*b_disc_r_z + a_y
+    b_f_z = M_zx*b_r_x + M_zy*b_r_y + M_zz*b_disc_r_z + a_z
+    b_f_xj = b_f_x*b_tau_xx + b_f_y*b_tau_xy
+    b_f_yj = b_f_x*b_tau_yx + b_f_y*b_tau_yy - b_f_z*beta_x
+    b_f_zj = b_f_x*b_tau_zx + b_f_y*b_tau_zy - b_f_z
+    f_disc_r_x = x15
+    f_disc_r_y = x16
+    f_disc_r_z = x17
+    f_disc_tau_zy = x18
+    f_r_x = cos_psi*f_disc_r_x - f_disc_r_y*sin_psi
+    f_r_y = cos_psi*f_disc_r_y + f_disc_r_x*sin_psi
+    f_tau_xx = x20
+    f_tau_xy = x21
+    f_tau_yx = x21
+    f_tau_yy = x19
+    f_tau_zx = -f_disc_tau_zy*sin_psi - x22
+    f_tau_zy = cos_psi*f_disc_tau_zy - x23
+    x24 = x15**(-1.0)
+    f_arm_x = f_r_x*x24
+    f_arm_y = f_r_y*x24
+    f_arm_z = f_disc_r_z*x24
+    x25 = 2.0*omega_y
+    x26 = omegadot_y*x25
+    x27 = 2.0*d_spin_angle
+    x28 = -2.0*omega_z - x27
+    x29 = d2_spin_angle*x28 + omegadot_z*x28
+    rate_M_xx = -x26 + x29
+    x30 = omega_x*omegadot_y + omega_y*omegadot_x
+    rate_M_xy = -d_omegadot_z + x30
+    x31 = omega_x*omegadot_z
+    rate_M_xz = d_omegadot_y + omega_z*omegadot_x + x31
+    x32 = d_spin_angle*sin_phi
+    rate_cos_phi_true = -x32
+    x33 = cos_phi*d_spin_angle
+    rate_sin_phi_true = x33
+    rate_cos_psi = cos_j*rate_cos_phi_true - rate_sin_phi_true*sin_j
+    rate_sin_psi = cos_j*rate_sin_phi_true + rate_cos_phi_true*sin_j
+    rate_b_r_x = b_disc_r_x*rate_cos_psi - b_disc_r_y*rate_sin_psi
+    rate_b_r_y = b_disc_r_x*rate_sin_psi + b_disc_r_y*rate_cos_psi
+    rate_b_f_x = M_xx*rate_b_r_x + M_xy*rate_b_r_y + b_disc_r_z*rate_M_xz + b_r_x*rate_M_xx + b_r_y*rate_M_xy + d_a_x
+    rate_M_yx = d_omegadot_z + x30
+    x34 = 2.0*omegadot_x
+    x35 = omega_x*x34
+    rate_M_yy = x29 - x35
+    x36 = omega_y*omegadot_z
+    rate_M_yz = -d_omegadot_x + omega_z*omegadot_y + x36
+    rate_b_f_y = M_yx*rate_b_r_x + M_yy*rate_b_r_y + b_disc_r_z*rate_M_yz + b_r_x*rate_M_yx + b_r_y*rate_M_yy + d_a_y
+    x37 = 2.0*d2_spin_angle
+    x38 = omega_z + x27
+    rate_M_zx = -d_omegadot_y + omega_x*x37 + omegadot_x*x38 + x31
+    rate_M_zy = d_omegadot_x + omega_y*x37 + omegadot_y*x38 + x36
+    rate_M_zz = -x26 - x35
+    rate_b_f_z = M_zx*rate_b_r_x + M_zy*rate_b_r_y + b_disc_r_z*rate_M_zz + b_r_x*rate_M_zx + b_r_y*rate_M_zy + d_a_z
+    x39 = -beta_z*rate_sin_psi + rate_cos_psi
+    rate_b_tau_yx = x39
+    x40 = beta_z*rate_cos_psi + rate_sin_psi
+    rate_b_tau_yy = x40
+    rate_b_f_yj = b_f_x*rate_b_tau_yx + b_f_y*rate_b_tau_yy + b_tau_yx*rate_b_f_x + b_tau_yy*rate_b_f_y - beta_x*rate_b_f_z
+    x41 = beta_x*rate_cos_psi
+    rate_b_tau_zx = -b_disc_tau_zy*rate_sin_psi - x41
+    x42 = beta_x*rate_sin_psi
+    rate_b_tau_zy = b_disc_tau_zy*rate_cos_psi - x42
+    rate_b_f_zj = b_f_x*rate_b_tau_zx + b_f_y*rate_b_tau_zy + b_tau_zx*rate_b_f_x + b_tau_zy*rate_b_f_y - rate_b_f_z
+    x43 = 2.0*omegadot_y**2.0
+    x44 = d_omegadot_y*x25
+    x45 = 2.0*omegadot_z
+    x46 = -x37 - x45
+    x47 = d2_spin_angle*x46 + d_omegadot_z*x28 + omegadot_z*x46
+    rate_rate_M_xx = -x43 - x44 + x47
+    x48 = d_omegadot_x*omega_y + d_omegadot_y*omega_x + omegadot_y*x34
+    rate_rate_M_xy = -d2_omegadot_z + x48
+    x49 = d_omegadot_z*omega_x
+    rate_rate_M_xz = d2_omegadot_y + d_omegadot_x*omega_z + omegadot_x*x45 + x49
+    x50 = d2_spin_angle*sin_phi
+    x51 = d_spin_angle**2.0
+    x52 = cos_phi*x51
+    x53 = -x50 - x52
+    rate_rate_cos_phi_true = x53
+    x54 = cos_phi*d2_spin_angle
+    x55 = sin_phi*x51
+    x56 = x54 - x55
+    rate_rate_sin_phi_true = x56
+    rate_rate_cos_psi = cos_j*rate_rate_cos_phi_true - rate_rate_sin_phi_true*sin_j
+    rate_rate_sin_psi = cos_j*rate_rate_sin_phi_true + rate_rate_cos_phi_true*sin_j
+    rate_rate_b_r_x = b_disc_r_x*rate_rate_cos_psi - b_disc_r_y*rate_rate_sin_psi
+    rate_rate_b_r_y = b_disc_r_x*rate_rate_sin_psi + b_disc_r_y*rate_rate_cos_psi
+    x57 = 2.0*rate_b_r_x
+    x58 = 2.0*rate_b_r_y
+    rate_rate_b_f_x = M_xx*rate_rate_b_r_x + M_xy*rate_rate_b_r_y + b_disc_r_z*rate_rate_M_xz + b_r_x*rate_rate_M_xx + b_r_y*rate_rate_M_xy + d2_a_x + rate_M_xx*x57 + rate_M_xy*x58
+    rate_rate_M_yx = d2_omegadot_z + x48
+    x59 = 2.0*omegadot_x**2.0
+    x60 = 2.0*omega_x
+    x61 = d_omegadot_x*x60
+    rate_rate_M_yy = x47 - x59 - x61
+    x62 = d_omegadot_z*omega_y
+    rate_rate_M_yz = -d2_omegadot_x + d_omegadot_y*omega_z + omegadot_y*x45 + x62
+    rate_rate_b_f_y = M_yx*rate_rate_b_r_x + M_yy*rate_rate_b_r_y + b_disc_r_z*rate_rate_M_yz + b_r_x*rate_rate_M_yx + b_r_y*rate_rate_M_yy + d2_a_y + rate_M_yx*x57 + rate_M_yy*x58
+    x63 = omegadot_z + x37
+    rate_rate_M_zx = -d2_omegadot_y + d_omegadot_x*x38 + omegadot_x*omegadot_z + omegadot_x*x37 + omegadot_x*x63 + x49
+    rate_rate_M_zy = d2_omegadot_x + d_omegadot_y*x38 + omegadot_y*omegadot_z + omegadot_y*x37 + omegadot_y*x63 + x62
+    rate_rate_M_zz = -x43 - x44 - x59 - x61
+    rate_rate_b_f_z = M_zx*rate_rate_b_r_x + M_zy*rate_rate_b_r_y + b_disc_r_z*rate_rate_M_zz + b_r_x*rate_rate_M_zx + b_r_y*rate_rate_M_zy + d2_a_z + rate_M_zx*x57 + rate_M_zy*x58
+    rate_rate_b_tau_yx = -beta_z*rate_rate_sin_psi + rate_rate_cos_psi
+    rate_rate_b_tau_yy = beta_z*rate_rate_cos_psi + rate_rate_sin_psi
+    x64 = 2.0*rate_b_f_x
+    x65 = 2.0*rate_b_f_y
+    rate_rate_b_f_yj = b_f_x*rate_rate_b_tau_yx + b_f_y*rate_rate_b_tau_yy + b_tau_yx*rate_rate_b_f_x + b_tau_yy*rate_rate_b_f_y - beta_x*rate_rate_b_f_z + rate_b_tau_yx*x64 + rate_b_tau_yy*x65
+    rate_rate_b_tau_zx = -b_disc_tau_zy*rate_rate_sin_psi - beta_x*rate_rate_cos_psi
+    rate_rate_b_tau_zy = b_disc_tau_zy*rate_rate_cos_psi - beta_x*rate_rate_sin_psi
+    rate_rate_b_f_zj = b_f_x*rate_rate_b_tau_zx + b_f_y*rate_rate_b_tau_zy + b_tau_zx*rate_rate_b_f_x + b_tau_zy*rate_rate_b_f_y + rate_b_tau_zx*x64 + rate_b_tau_zy*x65 - rate_rate_b_f_z
+    f_f_x = M_xx*f_r_x + M_xy*f_r_y + M_xz*f_disc_r_z + a_x
+    f_f_y = M_yx*f_r_x + M_yy*f_r_y + M_yz*f_disc_r_z + a_y
+    f_f_z = M_zx*f_r_x + M_zy*f_r_y + M_zz*f_disc_r_z + a_z
+    f_f_xj = f_f_x*f_tau_xx + f_f_y*f_tau_xy
+    f_f_yj = -beta_x*f_f_z + f_f_x*f_tau_yx + f_f_y*f_tau_yy
+    f_f_zj = f_f_x*f_tau_zx + f_f_y*f_tau_zy - f_f_z
+    f_f_i = f_f_xj + f_f_yj*vartheta_z - f_f_zj*vartheta_y
+    f_f_o = -f_f_xj*vartheta_z + f_f_yj + f_f_zj*vartheta_x
+    f_f_p = f_f_xj*vartheta_y - f_f_yj*vartheta_x + f_f_zj
+    q_disc_r_x = x15
+    q_r_x = cos_psi*q_disc_r_x
+    q_r_y = q_disc_r_x*sin_psi
+    q_arm_x = q_r_x*x24
+    q_arm_y = q_r_y*x24
+    q_f_x = M_xx*q_r_x + M_xy*q_r_y + a_x
+    q_f_y = M_yx*q_r_x + M_yy*q_r_y + a_y
+    q_f_z = M_zx*q_r_x + M_zy*q_r_y + a_z
+    q_f_xj = cos_psi*q_f_y - q_f_x*sin_psi
+    q_f_yj = cos_psi*q_f_x + q_f_y*sin_psi
+    x66 = K6*q_f_xj
+    x67 = K4*q_f_xj
+    x68 = K8*q_f_yj
+    i_sensed = K0 + K2*q_f_xj**2.0 + K5*q_f_yj**2.0 + K7*q_f_z**2.0 + f_f_i + q_f_yj*x66 - q_f_z*x67 - q_f_z*x68
+    rate_f_r_x = f_disc_r_x*rate_cos_psi - f_disc_r_y*rate_sin_psi
+    rate_f_r_y = f_disc_r_x*rate_sin_psi + f_disc_r_y*rate_cos_psi
+    rate_f_f_x = M_xx*rate_f_r_x + M_xy*rate_f_r_y + d_a_x + f_disc_r_z*rate_M_xz + f_r_x*rate_M_xx + f_r_y*rate_M_xy
+    rate_f_f_y = M_yx*rate_f_r_x + M_yy*rate_f_r_y + d_a_y + f_disc_r_z*rate_M_yz + f_r_x*rate_M_yx + f_r_y*rate_M_yy
+    rate_f_f_z = M_zx*rate_f_r_x + M_zy*rate_f_r_y + d_a_z + f_disc_r_z*rate_M_zz + f_r_x*rate_M_zx + f_r_y*rate_M_zy
+    rate_f_tau_xx = -x40
+    rate_f_tau_xy = x39
+    rate_f_f_xj = f_f_x*rate_f_tau_xx + f_f_y*rate_f_tau_xy + f_tau_xx*rate_f_f_x + f_tau_xy*rate_f_f_y
+    rate_f_tau_yx = x39
+    rate_f_tau_yy = x40
+    rate_f_f_yj = -beta_x*rate_f_f_z + f_f_x*rate_f_tau_yx + f_f_y*rate_f_tau_yy + f_tau_yx*rate_f_f_x + f_tau_yy*rate_f_f_y
+    rate_f_tau_zx = -f_disc_tau_zy*rate_sin_psi - x41
+    rate_f_tau_zy = f_disc_tau_zy*rate_cos_psi - x42
+    rate_f_f_zj = f_f_x*rate_f_tau_zx + f_f_y*rate_f_tau_zy + f_tau_zx*rate_f_f_x + f_tau_zy*rate_f_f_y - rate_f_f_z
+    rate_f_f_i = rate_f_f_xj + rate_f_f_yj*vartheta_z - rate_f_f_zj*vartheta_y
+    x69 = f_tau_xx + f_tau_yx*vartheta_z - f_tau_zx*vartheta_y
+    vibration_axis_ix = x69
+    x70 = f_tau_xy + f_tau_yy*vartheta_z - f_tau_zy*vartheta_y
+    vibration_axis_iy = x70
+    x71 = -beta_x*vartheta_z + vartheta_y
+    vibration_axis_iz = x71
+    vibration_axis_ox = -f_tau_xx*vartheta_z + f_tau_yx + f_tau_zx*vartheta_x
+    vibration_axis_oy = -f_tau_xy*vartheta_z + f_tau_yy + f_tau_zy*vartheta_x
+    vibration_axis_oz = -beta_x - vartheta_x
+    vibration_axis_px = f_tau_xx*vartheta_y - f_tau_yx*vartheta_x + f_tau_zx
+    vibration_axis_py = f_tau_xy*vartheta_y - f_tau_yy*vartheta_x + f_tau_zy
+    vibration_axis_pz = beta_x*vartheta_x - 1
+    bar_i_vibration_rectification = K1*k_VI
+    x72 = 2.0*K7
+    bar_q_p_second_order_misalignment = bar_i_vibration_rectification*(-q_f_z*x72 + x67 + x68)
+    x73 = 2.0*K5
+    bar_q_o_second_order_misalignment = bar_i_vibration_rectification*(-K8*q_f_z + q_f_yj*x73 + x66)
+    x74 = 2.0*K2
+    bar_q_i_second_order_misalignment = bar_i_vibration_rectification*(-K4*q_f_z + K6*q_f_yj + q_f_xj*x74)
+    bar_q_f_y = bar_q_i_second_order_misalignment*cos_psi + bar_q_o_second_order_misalignment*sin_psi
+    bar_q_f_x = -bar_q_i_second_order_misalignment*sin_psi + bar_q_o_second_order_misalignment*cos_psi
+    bar_q_spin_axis_wobble_tau_yz = bar_q_o_second_order_misalignment*q_f_z
+    bar_q_spin_axis_wobble_tau_yy = bar_q_o_second_order_misalignment*q_f_y
+    bar_q_spin_axis_wobble_tau_yx = bar_q_o_second_order_misalignment*q_f_x
+    bar_q_spin_axis_wobble_tau_xz = bar_q_i_second_order_misalignment*q_f_z
+    bar_q_spin_axis_wobble_tau_xy = bar_q_i_second_order_misalignment*q_f_y
+    bar_q_spin_axis_wobble_tau_xx = bar_q_i_second_order_misalignment*q_f_x
+    bar_q_spin_axis_wobble_r_z = M_xz*bar_q_f_x + M_yz*bar_q_f_y - M_zz*bar_q_p_second_order_misalignment
+    bar_q_spin_axis_wobble_r_y = M_xy*bar_q_f_x + M_yy*bar_q_f_y - M_zy*bar_q_p_second_order_misalignment
+    bar_q_spin_axis_wobble_r_x = M_xx*bar_q_f_x + M_yx*bar_q_f_y - M_zx*bar_q_p_second_order_misalignment
+    bar_q_disc_r_x = bar_q_spin_axis_wobble_r_x*cos_psi + bar_q_spin_axis_wobble_r_y*sin_psi
+    bar_f_f_zj = -bar_i_vibration_rectification*vartheta_y
+    bar_f_f_yj = bar_i_vibration_rectification*vartheta_z
+    bar_f_f_z = -bar_f_f_yj*beta_x - bar_f_f_zj
+    bar_f_f_y = bar_f_f_yj*f_tau_yy + bar_f_f_zj*f_tau_zy + bar_i_vibration_rectification*f_tau_xy
+    bar_f_f_x = bar_f_f_yj*f_tau_yx + bar_f_f_zj*f_tau_zx + bar_i_vibration_rectification*f_tau_xx
+    bar_rate_rate_dR_arm_stretch = bar_f_f_x*f_arm_x + bar_f_f_y*f_arm_y + bar_f_f_z*f_arm_z + bar_q_f_x*q_arm_x + bar_q_f_y*q_arm_y
+    x75 = 2.0*x1
+    bar_rate_dR_arm_stretch = bar_f_f_x*(-f_arm_y*x75 + 2.0*f_arm_z*omega_y) + bar_f_f_y*(f_arm_x*x75 - f_arm_z*x60) + bar_f_f_z*(-f_arm_x*x25 + 2.0*f_arm_y*omega_x) - bar_q_f_x*q_arm_y*x75 + bar_q_f_y*q_arm_x*x75 - bar_q_p_second_order_misalignment*(-q_arm_x*x25 + q_arm_y*x60)
+    bar_f_spin_axis_wobble_tau_zz = bar_f_f_zj*f_f_z
+    bar_f_spin_axis_wobble_tau_zy = bar_f_f_zj*f_f_y
+    bar_f_spin_axis_wobble_tau_zx = bar_f_f_zj*f_f_x
+    bar_f_spin_axis_wobble_tau_yz = bar_f_f_yj*f_f_z
+    bar_f_spin_axis_wobble_tau_yy = bar_f_f_yj*f_f_y
+    bar_f_spin_axis_wobble_tau_yx = bar_f_f_yj*f_f_x
+    bar_f_spin_axis_wobble_tau_xz = bar_i_vibration_rectification*f_f_z
+    bar_f_spin_axis_wobble_tau_xy = bar_i_vibration_rectification*f_f_y
+    bar_f_spin_axis_wobble_tau_xx = bar_i_vibration_rectification*f_f_x
+    bar_f_spin_axis_wobble_r_z = M_xz*bar_f_f_x + M_yz*bar_f_f_y + M_zz*bar_f_f_z
+    bar_f_spin_axis_wobble_r_y = M_xy*bar_f_f_x + M_yy*bar_f_f_y + M_zy*bar_f_f_z
+    bar_f_spin_axis_wobble_r_x = M_xx*bar_f_f_x + M_yx*bar_f_f_y + M_zx*bar_f_f_z
+    bar_f_disc_r_y = -bar_f_spin_axis_wobble_r_x*sin_psi + bar_f_spin_axis_wobble_r_y*cos_psi
+    bar_f_disc_r_x = bar_f_spin_axis_wobble_r_x*cos_psi + bar_f_spin_axis_wobble_r_y*sin_psi
+    bar_K1_thermal_scale = i_sensed*k_VI
+    bar_vartheta_z_mount_compliance = bar_i_vibration_rectification*f_f_yj
+    bar_vartheta_y_mount_compliance = -bar_i_vibration_rectification*f_f_zj
+    bar_dR_arm_stretch = bar_f_disc_r_x + bar_f_disc_r_y*beta_z + bar_f_spin_axis_wobble_r_z*beta_x + bar_q_disc_r_x
+    bar_wobble_zy = bar_f_spin_axis_wobble_r_z*f_r_y + bar_f_spin_axis_wobble_tau_xz*f_tau_xy + bar_f_spin_axis_wobble_tau_yz*f_tau_yy + bar_f_spin_axis_wobble_tau_zz*f_tau_zy + bar_q_spin_axis_wobble_r_z*q_r_y + bar_q_spin_axis_wobble_tau_xz*cos_psi + bar_q_spin_axis_wobble_tau_yz*sin_psi
+    bar_wobble_zx = bar_f_spin_axis_wobble_r_z*f_r_x + bar_f_spin_axis_wobble_tau_xz*f_tau_xx + bar_f_spin_axis_wobble_tau_yz*f_tau_yx + bar_f_spin_axis_wobble_tau_zz*f_tau_zx + bar_q_spin_axis_wobble_r_z*q_r_x - bar_q_spin_axis_wobble_tau_xz*sin_psi + bar_q_spin_axis_wobble_tau_yz*cos_psi
+    bar_wobble_yz = bar_f_spin_axis_wobble_r_y*f_disc_r_z - bar_f_spin_axis_wobble_tau_yy*beta_x - bar_f_spin_axis_wobble_tau_zy - bar_q_p_second_order_misalignment*q_f_y
+    bar_wobble_xz = bar_f_spin_axis_wobble_r_x*f_disc_r_z - bar_f_spin_axis_wobble_tau_yx*beta_x - bar_f_spin_axis_wobble_tau_zx - bar_q_p_second_order_misalignment*q_f_x
+    bar_sin_psi = -bar_f_spin_axis_wobble_r_x*f_disc_r_y + bar_f_spin_axis_wobble_r_y*f_disc_r_x - bar_f_spin_axis_wobble_tau_xx - bar_f_spin_axis_wobble_tau_xy*beta_z - bar_f_spin_axis_wobble_tau_yx*beta_z + bar_f_spin_axis_wobble_tau_yy - bar_f_spin_axis_wobble_tau_zx*f_disc_tau_zy - bar_f_spin_axis_wobble_tau_zy*beta_x + bar_q_spin_axis_wobble_r_y*q_disc_r_x - bar_q_spin_axis_wobble_tau_xx + bar_q_spin_axis_wobble_tau_yy
+    bar_cos_psi = bar_f_spin_axis_wobble_r_x*f_disc_r_x + bar_f_spin_axis_wobble_r_y*f_disc_r_y - bar_f_spin_axis_wobble_tau_xx*beta_z + bar_f_spin_axis_wobble_tau_xy + bar_f_spin_axis_wobble_tau_yx + bar_f_spin_axis_wobble_tau_yy*beta_z - bar_f_spin_axis_wobble_tau_zx*beta_x + bar_f_spin_axis_wobble_tau_zy*f_disc_tau_zy + bar_q_spin_axis_wobble_r_x*q_disc_r_x + bar_q_spin_axis_wobble_tau_xy + bar_q_spin_axis_wobble_tau_yx
+    x76 = bar_f_f_z*f_disc_r_z
+    bar_M_zz = x76
+    x77 = bar_f_f_z*f_r_y
+    bar_M_zy = -bar_q_p_second_order_misalignment*q_r_y + x77
+    bar_M_zx = bar_f_f_z*f_r_x - bar_q_p_second_order_misalignment*q_r_x
+    x78 = bar_f_f_y*f_disc_r_z
+    bar_M_yz = x78
+    x79 = bar_f_f_y*f_r_y
+    x80 = bar_q_f_y*q_r_y
+    bar_M_yy = x79 + x80
+    bar_M_yx = bar_f_f_y*f_r_x + bar_q_f_y*q_r_x
+    x81 = bar_f_f_x*f_disc_r_z
+    bar_M_xz = x81
+    x82 = bar_f_f_x*f_r_y
+    x83 = bar_q_f_x*q_r_y
+    bar_M_xy = x82 + x83
+    bar_M_xx = bar_f_f_x*f_r_x + bar_q_f_x*q_r_x
+    x84 = -bar_M_xy + bar_M_yx
+    bar_spin_acceleration_true = x84
+    x85 = bar_M_zx*omega_x
+    x86 = bar_M_zy*omega_y
+    x87 = bar_M_xx*x28 + bar_M_yy*x28
+    bar_spin_rate_true = 2.0*x85 + 2.0*x86 + x87
+    bar_sin_phi_true = -bar_cos_psi*sin_j + bar_sin_psi*cos_j
+    bar_cos_phi_true = bar_cos_psi*cos_j + bar_sin_psi*sin_j
+    bar_sin_delta_phi = -bar_cos_phi_true*sin_phi + bar_sin_phi_true*cos_phi
+    bar_time_offset_omegadot_z = x84
+    bar_time_offset_omegadot_y = bar_M_xz - bar_M_zx
+    bar_time_offset_omegadot_x = -bar_M_yz + bar_M_zy
+    bar_time_offset_omega_z = bar_M_xz*omega_x + bar_M_yz*omega_y + x85 + x86 + x87
+    bar_time_offset_omega_y = -bar_M_xx*x25 + bar_M_xy*omega_x + bar_M_yx*omega_x + bar_M_yz*omega_z + bar_M_zy*x38 - bar_M_zz*x25
+    bar_time_offset_omega_x = bar_M_xy*omega_y + bar_M_xz*omega_z + bar_M_yx*omega_y - bar_M_yy*x60 + bar_M_zx*x38 - bar_M_zz*x60
+    bar_time_offset_a_z = bar_f_f_z - bar_q_p_second_order_misalignment
+    bar_time_offset_a_y = bar_f_f_y + bar_q_f_y
+    bar_time_offset_a_x = bar_f_f_x + bar_q_f_x
+    bar_spin_axis_tilt_Gamma_yz = -bar_M_yz - bar_M_zy
+    bar_spin_axis_tilt_Gamma_xz = -bar_M_xz - bar_M_zx
+    bar_spin_axis_tilt_Gamma_xy = -bar_M_xy - bar_M_yx
+    x88 = a_y*bar_time_offset_a_z
+    x89 = bar_time_offset_omega_z*omega_y
+    x90 = bar_time_offset_omegadot_z*omegadot_y
+    bar_imu_turn_zy = x88 + x89 + x90
+    x91 = a_x*bar_time_offset_a_z + bar_time_offset_omega_z*omega_x + bar_time_offset_omegadot_z*omegadot_x
+    bar_imu_turn_zx = x91
+    x92 = a_z*bar_time_offset_a_y + bar_time_offset_omega_y*omega_z + bar_time_offset_omegadot_y*omegadot_z
+    bar_imu_turn_yz = x92
+    bar_imu_turn_yx = a_x*bar_time_offset_a_y + bar_time_offset_omega_y*omega_x + bar_time_offset_omegadot_y*omegadot_x
+    x93 = a_z*bar_time_offset_a_x
+    x94 = bar_time_offset_omega_x*omega_z
+    x95 = bar_time_offset_omegadot_x*omegadot_z
+    bar_imu_turn_xz = x93 + x94 + x95
+    bar_imu_turn_xy = a_y*bar_time_offset_a_x + bar_time_offset_omega_x*omega_y + bar_time_offset_omegadot_x*omegadot_y
+    x96 = bar_i_vibration_rectification*f_f_i**2.0
+    x97 = f_f_o**2.0
+    x98 = bar_i_vibration_rectification*f_f_i
+    x99 = f_f_p**2.0
+    x100 = bar_sin_delta_phi*cos_phi
+    x101 = bar_spin_rate_true*x32
+    x102 = 4.0*cos_phi
+    x103 = cos_phi**2.0
+    x104 = sin_phi**2.0
+    x105 = cos_phi**3.0
+    x106 = sin_phi**3.0
+    x107 = 9.0*x103
+    x108 = 9.0*x51
+    x109 = 3.0*x105
+    x110 = 9.0*x104
+    x111 = cos_phi**4.0
+    x112 = sin_phi**4.0
+    x113 = x103*x104
+    x114 = 16.0*x105
+    x115 = 16.0*x51
+    x116 = 4.0*d_spin_angle
+    x117 = 24.0*x113
+    x118 = 4.0*d2_spin_angle
+    x119 = K1*bar_K1_thermal_scale
+    x120 = omega_x*omega_z
+    x121 = omega_z**2.0
+    x122 = omega_y*omega_z
+    x123 = 0.5*q_r_x**2.0
+    x124 = 0.5*f_disc_r_z**2.0
+    x125 = -0.5*f_r_x**2.0 + x124
+    x126 = 0.5*q_r_y**2.0
+    x127 = -0.5*f_r_y**2.0 + x124
+    x128 = np.sin(roll)
+    x129 = -bar_M_zz*x128
+    x130 = np.sin(pitch)
+    x131 = -bar_M_zz*x130
+    x132 = -Gamma_zz
+    x133 = 2.0*Gamma_yz
+    x134 = 2.0*Gamma_xz
+    x135 = temperature - 293.15
+    x136 = K4*vibration_axis_ix
+    x137 = K6*vibration_axis_ix
+    x138 = K8*vibration_axis_ox
+    x139 = K4*vibration_axis_px
+    x140 = K6*vibration_axis_ox
+    x141 = K8*vibration_axis_px
+    x142 = vibration_axis_ix*x74
+    x143 = vibration_axis_ox*x73
+    x144 = vibration_axis_px*x72
+    x145 = K4*vibration_axis_iy
+    x146 = K6*vibration_axis_iy
+    x147 = K8*vibration_axis_oy
+    x148 = K4*vibration_axis_iz
+    x149 = K6*vibration_axis_iz
+    x150 = K8*vibration_axis_oz
+
+    D = np.empty((len(ROWS), len(time)))
+    D[0] = b_f_zj*bar_dR_arm_stretch + bar_rate_dR_arm_stretch*rate_b_f_zj + bar_rate_rate_dR_arm_stretch*rate_rate_b_f_zj  # arm-sag.c_z
+    D[1] = b_f_yj*bar_dR_arm_stretch + bar_rate_dR_arm_stretch*rate_b_f_yj + bar_rate_rate_dR_arm_stretch*rate_rate_b_f_yj  # arm-stretch.c_r
+    D[2] = bar_i_vibration_rectification*time  # bias-drift.dK0_dt
+    D[3] = f_f_o*x96  # cubic-cross.K_iio
+    D[4] = f_f_p*x96  # cubic-cross.K_iip
+    D[5] = x97*x98  # cubic-cross.K_ioo
+    D[6] = f_f_o*f_f_p*x98  # cubic-cross.K_iop
+    D[7] = x98*x99  # cubic-cross.K_ipp
+    D[8] = bar_i_vibration_rectification*f_f_o**3.0  # cubic-cross.K_ooo
+    D[9] = bar_i_vibration_rectification*f_f_p*x97  # cubic-cross.K_oop
+    D[10] = bar_i_vibration_rectification*f_f_o*x99  # cubic-cross.K_opp
+    D[11] = bar_i_vibration_rectification*f_f_p**3.0  # cubic-cross.K_ppp
+    D[12] = bar_i_vibration_rectification*f_f_i**3.0  # cubic-input.K_iii
+    D[13] = bar_spin_acceleration_true*x53 + x100 - x101  # encoder-harmonic.c_1
+    D[14] = bar_sin_delta_phi*sin_phi + bar_spin_acceleration_true*x56 + bar_spin_rate_true*x33  # encoder-harmonic.s_1
+    D[15] = bar_sin_delta_phi*(x103 - x104) + bar_spin_acceleration_true*(-x102*x50 - 4.0*x103*x51 + 4.0*x104*x51) - x101*x102  # encoder-harmonic.c_2
+    D[16] = bar_spin_acceleration_true*(2.0*d2_spin_angle*x103 - 8.0*sin_phi*x52 - x104*x37) + bar_spin_rate_true*(x103*x27 - x104*x27) + 2.0*sin_phi*x100  # encoder-harmonic.s_2
+    D[17] = bar_sin_delta_phi*(-3.0*cos_phi*x104 + x105) + bar_spin_acceleration_true*(27.0*cos_phi*x104*x51 + 3.0*d2_spin_angle*x106 - x105*x108 - x107*x50) + bar_spin_rate_true*(3.0*d_spin_angle*x106 - x107*x32)  # encoder-harmonic.c_3
+    D[18] = bar_sin_delta_phi*(3.0*sin_phi*x103 - x106) + bar_spin_acceleration_true*(d2_spin_angle*x109 - 27.0*x103*x55 + x106*x108 - x110*x54) + bar_spin_rate_true*(d_spin_angle*x109 - x110*x33)  # encoder-harmonic.s_3
+    D[19] = bar_sin_delta_phi*(x111 + x112 - 6.0*x113) + bar_spin_acceleration_true*(16.0*cos_phi*d2_spin_angle*x106 + 96.0*x103*x104*x51 - x111*x115 - x112*x115 - x114*x50) + bar_spin_rate_true*(16.0*cos_phi*d_spin_angle*x106 - x114*x32)  # encoder-harmonic.c_4
+    D[20] = bar_sin_delta_phi*(4.0*sin_phi*x105 - x102*x106) + bar_spin_acceleration_true*(-d2_spin_angle*x117 - 64.0*x105*x55 + 64.0*x106*x52 + x111*x118 + x112*x118) + bar_spin_rate_true*(-d_spin_angle*x117 + x111*x116 + x112*x116)  # encoder-harmonic.s_4
+    D[21] = time*x119  # gain-drift.dK1_dt
+    D[22] = x119  # gain-step.dK1
+    D[23] = -bar_time_offset_omega_x*omega_x - bar_time_offset_omegadot_x*omegadot_x  # gyro-scale.s_x
+    D[24] = -bar_time_offset_omega_y*omega_y - bar_time_offset_omegadot_y*omegadot_y  # gyro-scale.s_y
+    D[25] = -bar_time_offset_omega_z*omega_z - bar_time_offset_omegadot_z*omegadot_z  # gyro-scale.s_z
+    D[26] = bar_time_offset_a_x*(x0 + x121) - bar_time_offset_a_y*x9 + bar_time_offset_a_z*(-x120 - x6)  # imu-lever-arm.l_x
+    D[27] = bar_time_offset_a_x*(omegadot_z - x4) + bar_time_offset_a_y*(x10 + x121) + bar_time_offset_a_z*(-omegadot_x - x122)  # imu-lever-arm.l_y
+    D[28] = bar_time_offset_a_x*(-omegadot_y - x120) + bar_time_offset_a_y*(-x122 - x13) + bar_time_offset_a_z*x14  # imu-lever-arm.l_z
+    D[29] = -bar_imu_turn_yz + bar_imu_turn_zy  # imu-misalignment.e_x
+    D[30] = bar_imu_turn_xz - bar_imu_turn_zx  # imu-misalignment.e_y
+    D[31] = -bar_imu_turn_xy + bar_imu_turn_yx  # imu-misalignment.e_z
+    D[32] = -bar_i_vibration_rectification*rate_f_f_i  # lag.tau
+    D[33] = bar_i_vibration_rectification*(B_x*x69 + B_y*x70 + B_z*x71)  # magnetic-bias.dK0_dB
+    D[34] = b_f_xj*bar_vartheta_y_mount_compliance  # mount-compliance.c_yx
+    D[35] = b_f_yj*bar_vartheta_y_mount_compliance  # mount-compliance.c_yy
+    D[36] = b_f_zj*bar_vartheta_y_mount_compliance  # mount-compliance.c_yz
+    D[37] = b_f_xj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zx
+    D[38] = b_f_yj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zy
+    D[39] = b_f_zj*bar_vartheta_z_mount_compliance  # mount-compliance.c_zz
+    D[40] = bar_f_f_x*x125 - bar_q_f_x*x123 + f_r_x*x76  # near-mass.T_xxx
+    D[41] = bar_f_f_y*x125 + bar_f_f_z*f_disc_r_z*f_r_y - bar_q_f_y*x123 - f_r_x*x82 - q_r_x*x83  # near-mass.T_xxy
+    D[42] = bar_f_f_z*x125 + bar_q_p_second_order_misalignment*x123 - f_r_x*x81  # near-mass.T_xxz
+    D[43] = bar_f_f_x*x127 + bar_f_f_z*f_disc_r_z*f_r_x - bar_q_f_x*x126 - f_r_x*x79 - q_r_x*x80  # near-mass.T_xyy
+    D[44] = bar_q_p_second_order_misalignment*q_r_x*q_r_y - f_r_x*x77 - f_r_x*x78 - f_r_y*x81  # near-mass.T_xyz
+    D[45] = bar_f_f_y*x127 - bar_q_f_y*x126 + f_r_y*x76  # near-mass.T_yyy
+    D[46] = bar_f_f_z*x127 + bar_q_p_second_order_misalignment*x126 - f_r_y*x78  # near-mass.T_yyz
+    D[47] = x98*np.abs(f_f_i)  # odd-quadratic.K_oq
+    D[48] = bar_i_vibration_rectification*(-beta_x*x5 + f_tau_yx*x12 - f_tau_yy*x8)  # pendulum-angular.K_pa
+    D[49] = bar_i_vibration_rectification*(pressure - 101325)  # pressure-bias.dK0_dp
+    D[50] = bar_q_i_second_order_misalignment*(f_f_i - q_f_xj) + bar_q_o_second_order_misalignment*(f_f_o - q_f_yj) + bar_q_p_second_order_misalignment*(f_f_p + q_f_z)  # second-order-misalignment.kappa
+    D[51] = -bar_M_xx*x128 - x129  # self-gradient.G_xx_roll
+    D[52] = bar_spin_axis_tilt_Gamma_xy*x128  # self-gradient.G_xy_roll
+    D[53] = bar_spin_axis_tilt_Gamma_xz*x128  # self-gradient.G_xz_roll
+    D[54] = -bar_M_yy*x128 - x129  # self-gradient.G_yy_roll
+    D[55] = bar_spin_axis_tilt_Gamma_yz*x128  # self-gradient.G_yz_roll
+    D[56] = -bar_M_xx*x130 - x131  # self-gradient.G_xx_pitch
+    D[57] = bar_spin_axis_tilt_Gamma_xy*x130  # self-gradient.G_xy_pitch
+    D[58] = bar_spin_axis_tilt_Gamma_xz*x130  # self-gradient.G_xz_pitch
+    D[59] = -bar_M_yy*x130 - x131  # self-gradient.G_yy_pitch
+    D[60] = bar_spin_axis_tilt_Gamma_yz*x130  # self-gradient.G_yz_pitch
+    D[61] = -Gamma_xy*bar_spin_axis_tilt_Gamma_xz + Gamma_xz*bar_spin_axis_tilt_Gamma_xy - bar_M_yy*x133 + bar_M_zz*x133 + bar_spin_axis_tilt_Gamma_yz*(-Gamma_yy - x132) - x88 - x89 - x90 + x92  # spin-axis-tilt.alpha_x
+    D[62] = Gamma_xy*bar_spin_axis_tilt_Gamma_yz - Gamma_yz*bar_spin_axis_tilt_Gamma_xy + bar_M_xx*x134 - bar_M_zz*x134 + bar_spin_axis_tilt_Gamma_xz*(Gamma_xx + x132) + x91 - x93 - x94 - x95  # spin-axis-tilt.alpha_y
+    D[63] = bar_wobble_xz*sin_phi - bar_wobble_yz*cos_phi - bar_wobble_zx*sin_phi + bar_wobble_zy*cos_phi  # spin-axis-wobble.w_x
+    D[64] = bar_wobble_xz*cos_phi + bar_wobble_yz*sin_phi - bar_wobble_zx*cos_phi - bar_wobble_zy*sin_phi  # spin-axis-wobble.w_y
+    D[65] = bar_sin_delta_phi  # spin-phase-offset.phi_0
+    D[66] = bar_sin_delta_phi  # spin-rate-jitter.sigma_phi
+    D[67] = bar_sin_delta_phi  # spin-rate-jitter.sigma_walk
+    D[68] = bar_i_vibration_rectification*x135  # thermal-bias.dK0_dT
+    D[69] = x119*x135  # thermal-scale.dK1_dT
+    D[70] = bar_time_offset_a_x*d_a_x + bar_time_offset_a_y*d_a_y + bar_time_offset_a_z*d_a_z + bar_time_offset_omega_x*omegadot_x + bar_time_offset_omega_y*omegadot_y + bar_time_offset_omega_z*omegadot_z + bar_time_offset_omegadot_x*d_omegadot_x + bar_time_offset_omegadot_y*d_omegadot_y + bar_time_offset_omegadot_z*d_omegadot_z  # time-offset.delta_t
+    D[71] = bar_i_vibration_rectification*(K2*vibration_axis_ix**2.0 + K5*vibration_axis_ox**2.0 + K7*vibration_axis_px**2.0 + vibration_axis_ox*x137 + vibration_axis_px*x136 + vibration_axis_px*x138)  # vibration-rectification.P_xx
+    D[72] = bar_i_vibration_rectification*(vibration_axis_iy*x139 + vibration_axis_iy*x140 + vibration_axis_iy*x142 + vibration_axis_oy*x137 + vibration_axis_oy*x141 + vibration_axis_oy*x143 + vibration_axis_py*x136 + vibration_axis_py*x138 + vibration_axis_py*x144)  # vibration-rectification.P_xy
+    D[73] = bar_i_vibration_rectification*(vibration_axis_iz*x139 + vibration_axis_iz*x140 + vibration_axis_iz*x142 + vibration_axis_oz*x137 + vibration_axis_oz*x141 + vibration_axis_oz*x143 + vibration_axis_pz*x136 + vibration_axis_pz*x138 + vibration_axis_pz*x144)  # vibration-rectification.P_xz
+    D[74] = bar_i_vibration_rectification*(K2*vibration_axis_iy**2.0 + K5*vibration_axis_oy**2.0 + K7*vibration_axis_py**2.0 + vibration_axis_oy*x146 + vibration_axis_py*x145 + vibration_axis_py*x147)  # vibration-rectification.P_yy
+    D[75] = bar_i_vibration_rectification*(vibration_axis_iy*vibration_axis_iz*x74 + vibration_axis_oy*vibration_axis_oz*x73 + vibration_axis_oy*x149 + vibration_axis_oz*x146 + vibration_axis_py*vibration_axis_pz*x72 + vibration_axis_py*x148 + vibration_axis_py*x150 + vibration_axis_pz*x145 + vibration_axis_pz*x147)  # vibration-rectification.P_yz
+    D[76] = bar_i_vibration_rectification*(K2*vibration_axis_iz**2.0 + K5*vibration_axis_oz**2.0 + K7*vibration_axis_pz**2.0 + vibration_axis_oz*x149 + vibration_axis_pz*x148 + vibration_axis_pz*x150)  # vibration-rectification.P_zz
+    return D
+
+
+def values_of(j: int, p: Array) -> Array:
+    """The parameters of accelerometer j: of those with four values, its own."""
+    q = np.empty(len(PARAMETERS))
+    start = 0
+    for n, (_, size) in enumerate(PARAMETERS):
+        q[n] = p[start + (j if size == 4 else 0)]
+        start += size
+    return q
+
+
+def voltages(time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, p: Array) -> Array:
+    """V_1 ... V_4, (4, N), V."""
+    return np.stack([accelerometer(j, time, cos_phi, sin_phi, inputs, values_of(j, p)) for j in range(4)])
+
+
+def output(time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, p: Array) -> Array:
+    """G_out, (N,), V (Eq. 15)."""
+    v = voltages(time, cos_phi, sin_phi, inputs, p)
+    return np.asarray((v[0] + v[1]) - (v[2] + v[3]))
