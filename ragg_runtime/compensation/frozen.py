@@ -110,6 +110,21 @@ def root(saved: Saved, model: Model, instrument: Instrument) -> Array:
     return found
 
 
+def information(saved: Saved, model: Model, instrument: Instrument) -> Array:
+    """(n, n) square root of the information of the calibration, in the present scales of the fitted columns.
+
+    Of a parameter that was not fitted then the sheet alone speaks.
+    """
+    columns = base_columns(model, instrument)
+    place = {int(k): n for n, k in enumerate(saved.index)}
+    rows = np.zeros((len(saved.information), len(columns)))
+    for n, (c, k) in enumerate(columns):
+        if k in place:
+            rows[:, n] = saved.information[:, place[k]] * (c.scale / saved.columns[place[k]].scale)
+    new = np.diag([0.0 if k in place else 1.0 for _, k in columns])
+    return np.asarray(np.linalg.qr(np.vstack([rows, new]), mode="r"))
+
+
 @one_thread
 def calibration(
     saved: Saved, model: Model, instrument: Instrument, observations: Sequence[Observation]

@@ -63,6 +63,8 @@ class Contents:
         The model's chain in NumPy, as derived.
     origin
         Where the values come from, in a sentence.
+    information
+        (n, n) square root of the calibration's information, in the scales of the fitted parameters; ``None``: none.
     calibration
         What was saved of the calibration; ``None``: the values are those of model.toml.
     """
@@ -74,6 +76,7 @@ class Contents:
     sources: Mapping[str, str]
     module: str
     origin: str
+    information: Array | None
     calibration: Mapping[str, Any] | None
 
     @property

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.export.contents import Contents, is_gradient, unit_of
+from ragg_runtime.export.online import online_values, table
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.signals.derivative import WINDOW, weights
 
@@ -37,8 +38,9 @@ def c_program(c: Contents) -> dict[str, str]:
     return {
         "Makefile": makefile.replace("@TOLERANCE@", f"{TOLERANCE_EO * abs(c.scale_factor):.3g}"),
         "README.txt": _readme(c),
-        "main.c": _packaged("main.c"),
-        "compare.c": _packaged("compare.c"),
+        **{n: _packaged(n) for n in ("main.c", "compare.c", "online.h", "online.c", "online_main.c")},
+        "online_values.h": online_values(c),
+        **{n: c.model.sources[n] for n in ("chain.c", "chain.h")},
         **c.sources,
         "values.h": _values(c, name),
         **example_files(c),
@@ -49,8 +51,8 @@ def example_files(c: Contents) -> dict[str, str]:
     """A short motion as a CSV, and the model's answer to it."""
     motion, G = c.example()
     return {
-        "test/motion.csv": _table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()}),
-        "test/G_out.csv": _table({"time": motion["time"], "G_out": G}),
+        "test/motion.csv": table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()}),
+        "test/G_out.csv": table({"time": motion["time"], "G_out": G}),
     }
 
 
@@ -70,17 +72,13 @@ def _readme(c: Contents) -> str:
         make check                                    holds it against the answer that Python gave
         ./ragg_model < MOTION.csv > OUT.csv           G_out, V, of a record of motion
         ./ragg_model --values                         the parameters that are built in
+        online.h                                      calibration and compensation sample by sample, no allocation
 
         Columns that MOTION.csv must have, in SI units: time [s], {needed}.
         omegadot_x, omegadot_y, omegadot_z are derived from omega where they are missing (runs of {WINDOW} rows or more).
         Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; spin_angle [rad] replaces 2 pi f t.
         """
     )
-
-
-def _table(columns: Mapping[str, Array]) -> str:
-    rows = zip(*columns.values(), strict=True)
-    return "\n".join([",".join(columns), *(",".join(f"{x:.17g}" for x in row) for row in rows)]) + "\n"
 
 
 def _values(c: Contents, name: str) -> str:

@@ -198,6 +198,7 @@ def contents(m: Loaded) -> Contents:
         sources=folded or derive.plain_c(m.instrument),
         module=_chain(m),
         origin=origin,
+        information=None if saved is None else _frozen.information(saved, m.model, m.instrument),
         calibration=None if saved is None else saved.as_json(),
     )
 
