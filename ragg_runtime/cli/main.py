@@ -183,6 +183,10 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @mapping_option
 @click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
+@click.option(
+    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
+)
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
 @_json
 @_report
 def compare(
@@ -190,6 +194,8 @@ def compare(
     flights: Sequence[Path],
     mapping: Path | None,
     ladder: bool,
+    frozen: bool,
+    calibration: str,
     json_file: str | None,
     report_file: str | None,
 ) -> None:
@@ -198,6 +204,11 @@ def compare(
     from ragg_runtime.workflow import loop
 
     m = _load(model_dir)
+    if frozen or calibration == "frozen":
+        from ragg_runtime.cli.after import compare_frozen
+
+        compare_frozen(m, flights, json_file, report_file)
+        return
     _progress(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
@@ -559,11 +570,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     hold_streams()
     try:
+        from ragg_runtime.cli import after
         from ragg_runtime.experiments.command import experiment
         from ragg_runtime.studio.command import studio
 
-        cli.add_command(experiment)
-        cli.add_command(studio)
+        for command in (experiment, studio, *after.COMMANDS):
+            cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:

@@ -60,6 +60,16 @@ def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
 
 
+def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+    """Errors, the first before anything was done, above the noise floor; why some have no value."""
+    return [
+        _HEAD,
+        *(f"{label:12} {_error(e)}" for label, e in rows),
+        f"{'noise floor':12} {noise:12.5g}",
+        *_missing([e for _, e in rows[1:]], flights),
+    ]
+
+
 def ladder(c: Comparison) -> list[str]:
     """What each simplification of the model is worth, a line a form, if that was asked for."""
     if not c.ladder:
@@ -93,12 +103,11 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     lines = [
         f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
         f"{', '.join(e.id for e in f.model.effects) or 'none'}",
-        _HEAD,
-        f"{'nominal':12} {_error(c.nominal)}",
-        f"{'calibrated':12} {_error(c.calibrated)}",
-        f"{'held out':12} {_error(c.holdout)}",
-        f"{'noise floor':12} {c.noise_floor:12.5g}",
-        *_missing((c.calibrated, c.holdout), flights),
+        *errors_table(
+            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            c.noise_floor,
+            flights,
+        ),
         "",
         *_not_converged(c.complaint),
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
@@ -179,13 +188,9 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     done = f"added {a.effect}" if a.converged else f"{a.effect} was NOT added"
     lines = [f"{done}; effects: {', '.join(e.id for e in a.loaded.model.effects) or 'none'}"]
     if a.before is not None and a.after is not None:
+        rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            _HEAD,
-            f"{'before':12} {_error(a.before.calibrated)}",
-            f"{'after':12} {_error(a.after.calibrated)}",
-            f"{'held out':12} {_error(a.after.holdout)}",
-            f"{'noise floor':12} {a.after.noise_floor:12.5g}",
-            *_missing((a.after.calibrated, a.after.holdout), flights),
+            *errors_table(rows, a.after.noise_floor, flights),
             "",
             *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,

@@ -209,34 +209,43 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
         f = fit(model, instrument, observations, f.calibration.noise, plain=True)
         calibrated, half, nominal = _three_scores(f)
+    return concluded(f, nominal.whole, calibrated, half.held_out)
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
+    half, _ = f.coefficients((), held_out=True)
+    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    return calibrated, held_out, nominal
+
+
+def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    p = vector(f.model, f.instrument)
+    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+
+
+def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
+    """Search what is left, and say whether the model is adequate."""
     rem = remainder(f)
     available = testable_effects(f)
     choice = selection.choose(field_of(f, available)) if available else None
-    complaint = convergence.complaint(f.calibration, calibrated.held_out, half.held_out)
+    complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
-        nominal=nominal.whole,
+        nominal=nominal,
         scored=calibrated,
-        holdout=half.held_out,
+        holdout=holdout,
         noise_floor=noise,
         adequate=adequate,
         remainder=rem,
-        nominal_values=vector(model, instrument),
+        nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
-        off_sheet=tuple(off_sheet(model, instrument, f.calibration)),
+        off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
-
-
-def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
-    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
-    p = vector(f.model, f.instrument)
-    half, _ = f.coefficients((), held_out=True)
-    vectors = [f.vector(np.zeros(f.n_base)), f.vector(half)]
-    calibrated, held_out, nominal = f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
-    return calibrated, held_out, nominal
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

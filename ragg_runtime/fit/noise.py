@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
@@ -54,9 +55,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             solution, rank = _least_squares(flat)
             y = flat[-1]
             rest = y - solution @ flat[:-1]
-            # The fit takes as many degrees of freedom as it has columns.
+            # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
             e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
+            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank))
             gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
@@ -79,7 +80,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise = estimate(e_m, r.rate)
+        noise = estimate(e_m, r.rate, unknown_gradient.band(o))
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
         noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
         models.append(noise)

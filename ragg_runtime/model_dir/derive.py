@@ -262,3 +262,12 @@ def without_signatures(instrument: Instrument, form: Form) -> Model:
     chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
     kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
     return derived(kept, (), form, instrument.layout)[0]
+
+
+def plain_c(instrument: Instrument) -> Mapping[str, str]:
+    """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
+    from derive import pipeline
+
+    return pipeline.derive_plain(
+        _chosen(instrument, known(instrument)), _symbolic(instrument.form, instrument.layout)
+    )

@@ -22,9 +22,9 @@ class Step:
     Attributes
     ----------
     action
-        ``new``, ``add`` or ``remove``.
+        ``new``, ``add``, ``remove`` or ``calibrate``.
     effect
-        The effect's id; empty for ``new``.
+        The effect's id; empty for ``new`` and ``calibrate``.
     time
         UTC, ISO 8601.
     before, after

@@ -91,14 +91,18 @@ class NoiseModel:
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
 
 
-def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
+def estimate(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
+
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise.
 
     First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate)
+    f, p, count = _periodogram(residuals, rate, without)
     red = _red_and_white(f, p, count)
     coarse, fine = (_corrected(f, p, count, red(f), w) for w in (np.log, _dense(rate)))
     # Twice the gain in log likelihood against the number of coefficients (BIC).
@@ -152,7 +156,9 @@ def _corrected(f: Array, p: Array, count: Array, base: Array, scale: Callable[[A
     return _Correction(lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
 
 
-def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array, Array]:
+def _periodogram(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None
+) -> tuple[Array, Array, Array]:
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency)."""
     longest = max(len(r) for r in residuals)
     usable = [r for r in residuals if len(r) >= max(64, longest // 4)]
@@ -162,8 +168,10 @@ def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array,
     for r in usable:
         f, p = signal.periodogram(r, rate, window="hann", detrend="constant")
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        frequency.append(f[LOWEST:-1])
-        density.append(p[LOWEST:-1])
+        kept = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
+        kept[:LOWEST] = kept[-1:] = False
+        frequency.append(f[kept])
+        density.append(p[kept])
     f, p = np.concatenate(frequency), np.concatenate(density)
     edges = np.geomspace(f.min() * 0.999, f.max() * 1.001, 120)
     which = np.digitize(f, edges)
