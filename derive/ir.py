@@ -18,7 +18,7 @@ from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
-from derive.stages import PAPER, Order
+from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
 from derive.tape import Program, simplify
 
@@ -159,14 +159,19 @@ def effect_parameters(effects: Sequence[Effect]) -> tuple[Parameter, ...]:
 
 
 def chain(
-    effects: Sequence[Effect], name: str, title: str, order: Order = PAPER, candidates: Sequence[Effect] = ()
+    effects: Sequence[Effect],
+    name: str,
+    title: str,
+    order: Order = PAPER,
+    candidates: Sequence[Effect] = (),
+    kinematics: Kinematics = "platform",
 ) -> Chain:
     """V_j of the instrument with ``effects``, and its derivatives.
 
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
     their neutral values, that is, the signature that each would leave in this instrument.
     """
-    a = accelerometer([*effects, *candidates], order)
+    a = accelerometer([*effects, *candidates], order, kinematics=kinematics)
     neutral = {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)

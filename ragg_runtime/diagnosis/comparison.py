@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit import columns
@@ -42,6 +43,7 @@ class Comparison:
     adequate: bool
     remainder: Remainder
     nominal_values: Array
+    ladder: tuple[Rung, ...] = ()
 
     @property
     def calibrated(self) -> Error:
@@ -99,6 +101,7 @@ class Comparison:
                 "time": self.by_time(),
                 "motion": self.terms(),
             },
+            **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
         }
 
     @cached_property
@@ -194,7 +197,10 @@ def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [
-        channels(e, x.observation.record, f.k_ggi, x.observation.record.valid)
-        for x, e in zip(f.flown, residuals, strict=True)
-    ]
+    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+
+
+def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
+    r = f.flown[flight].observation.record
+    return channels(x, r, f.k_ggi, r.valid)

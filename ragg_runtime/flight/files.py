@@ -12,9 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import replacing
-from ragg_runtime.flight.assemble import Layout, layout
+from ragg_runtime.flight.angular_acceleration import REACH
+from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
 from ragg_runtime.flight.formats import ending_of, format_of
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
@@ -22,7 +23,6 @@ from ragg_runtime.flight.source import Batch, Column, Source, Written
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.flight.spool import spooled
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.signals.derivative import WINDOW
 
 IN_MEMORY = 48 << 20
 """Most memory, bytes, that the columns of a flight may take; those of a longer one are laid down on disk."""
@@ -30,10 +30,14 @@ IN_MEMORY = 48 << 20
 MOST_BYTES = 32 << 30
 """Most bytes that the columns of a flight may take there: what unfolds beyond is no flight."""
 
+UNFOLDS = 200
+"""Most times its size on disk that a longer flight may take in memory. Of thirty columns of which two thirds stand still
+and the rest is stored to 16 bits it is 20 times: what unfolds to more was made to fill a disc."""
+
 PART = 32768
 """Rows of such a flight that are read at a time."""
 
-_HALO = WINDOW
+_HALO = 2 * REACH
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
 
 
@@ -93,11 +97,33 @@ def _flight(source: Source, g0: float, need_output: bool, several: bool) -> Flig
             held += sum(v.nbytes for v in batch.values())
             if held > IN_MEMORY:
                 batches.clear()
-                parts = _chunks(source, plan, PART, several)
-                return spooled(parts, source.path, MOST_BYTES)
+                whole = plan.whole(_bounded(source))
+                parts = _chunks(source, plan, whole, PART, several)
+                return _noted(enough(spooled(parts, source.path, MOST_BYTES), whole.rows), source)
             batches.append(batch)
         rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
-        made = plan.flight(rows, name=_name(source, several), digest=file_digest(source.path))
+        whole = plan.whole([rows])
+        made = plan.flight(rows, whole, name=_name(source, several), digest=file_digest(source.path))
+        return _noted(enough(made, whole.rows), source)
+
+
+def _bounded(source: Source) -> Iterator[Batch]:
+    """The rows of a source that is no compression bomb. UserError otherwise, before anything is laid down on disk."""
+    held, size = 0, source.path.stat().st_size
+    for batch in source.batches():
+        held += sum(v.nbytes for v in batch.values())
+        if source.path.is_file() and held > max(IN_MEMORY, UNFOLDS * size):
+            raise UserError(
+                "the file unfolds to more than a record can be compressed",
+                where=source.path,
+                found=f"more than {held / 1e9:.3g} GB of numbers in {size / 1e6:.3g} MB on disk",
+                expected=f"at most {UNFOLDS} times as much",
+                remedy="if it is a record that hardly changes, save it as CSV or without compression",
+            )
+        yield batch
+
+
+def _noted(made: Flight, source: Source) -> Flight:
     return replace(made, notes=(*source.notes, *made.notes)) if source.notes else made
 
 
@@ -147,10 +173,11 @@ def iter_flight_chunks(
     if rows < 2:
         raise UserError("a part of a flight needs at least two rows", found=rows)
     source = _single(open_sources(path, mapping), path)
-    yield from _chunks(source, layout(path, source.columns, g0, need_output=need_output), rows, False)
+    plan = layout(path, source.columns, g0, need_output=need_output)
+    yield from _chunks(source, plan, plan.whole(source.batches()), rows, False)
 
 
-def _chunks(source: Source, plan: Layout, rows: int, several: bool) -> Iterator[Flight]:
+def _chunks(source: Source, plan: Layout, whole: Whole, rows: int, several: bool) -> Iterator[Flight]:
     name, digest = _name(source, several), file_digest(source.path)
     step: float | None = None
     before: Batch | None = None
@@ -170,7 +197,7 @@ def _chunks(source: Source, plan: Layout, rows: int, several: bool) -> Iterator[
         if after is not None:
             pieces.append({n: v[:_HALO] for n, v in after.items()})
         joined = {n: np.concatenate([p[n] for p in pieces]) for n in part}
-        flight = plan.flight(joined, name=name, digest=digest, first_row=done - lead + 1, step=step)
+        flight = plan.flight(joined, whole, name=name, digest=digest, first_row=done - lead + 1, step=step)
         edges = plan.known.to_si(
             joined["time"][[max(lead - 1, 0), lead + size - 1]], _unit(source, "time"), "s", str(source.path)
         )
@@ -217,7 +244,8 @@ def flight_name(path: Path) -> str:
     ending = ending_of(path.name)
     stem = path.name[: -len(ending)] if ending is not None else path.name
     folder = path.resolve().parent.name
-    return f"{folder}/{stem}" if stem == "flight" and folder else stem
+    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
 def file_digest(path: Path) -> str:

@@ -13,6 +13,7 @@ from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.files import write_text
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, units
@@ -93,12 +94,23 @@ def model_text(instrument: Instrument) -> str:
     document.add("effects", tomlkit.array())
     if instrument.effects_folder is not None:
         document.add("effects_folder", str(instrument.effects_folder))
+    if instrument.form != PAPER:
+        document.add("model", _form(instrument.form))
     document.add("disc", disc)
     document.add("accelerometers", accelerometers)
     text = tomlkit.dumps(document)
     for setting in instrument.effects:
         text = add_effect(text, setting)
     return text
+
+
+def _form(form: Form) -> Any:
+    table = tomlkit.table()
+    table.add("kinematics", form.kinematics)
+    order = tomlkit.inline_table()
+    order.update(form.order)
+    table.add("order", form.preset or order)
+    return table
 
 
 def write_instrument(instrument: Instrument, path: Path) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, units
 
@@ -62,6 +63,7 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
+    form: Form = PAPER
 
     @classmethod
     def build(
@@ -73,6 +75,7 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
+        form: Form = PAPER,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
         _check_names(accelerometers, PARAMETER, "accelerometers")
@@ -85,7 +88,7 @@ class Instrument:
                 )
         vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
         made = cls(
-            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder
+            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder, form
         )
         _check_physical(made)
         return made

@@ -12,6 +12,7 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
+from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
@@ -32,7 +33,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder"), None, path)
+    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder", "model"), None, path)
     disc = _disc(_table(table, "disc", path), path)
     return Instrument.build(
         radius=disc["radius"],
@@ -42,6 +43,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         effects=_effects(table.get("effects", []), disc["g0"], path),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
+        form=read_form(table.get("model"), path),
     )
 
 

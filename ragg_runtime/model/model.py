@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import sys
 from collections.abc import Mapping
@@ -132,15 +133,23 @@ class Model:
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
 
-@cache
-def packaged() -> Model:
-    """The model of the paper, without further effects, as derived and committed."""
-    import generated
-    from generated import chain, folded, signatures
+def packaged(kinematics: str = "platform") -> Model:
+    """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
+    return _packaged(kinematics)
 
-    root = resources.files(generated)
+
+@cache
+def _packaged(kinematics: str) -> Model:
+    import generated
+    import generated.full
+
+    package = generated if kinematics == "platform" else generated.full
+    root = resources.files(package)
     manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
 
+    chain, folded, signatures = (
+        importlib.import_module(f"{package.__name__}.{n}") for n in ("chain", "folded", "signatures")
+    )
     names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
     c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
     model = _model(manifest, chain, signatures, c)

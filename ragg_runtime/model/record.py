@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
@@ -23,6 +24,16 @@ GRADIENTS = GRADIENT
 
 HALO = 32
 """Samples on either side that a part of a record keeps, so that second derivatives come out as in the whole."""
+
+
+SPIN = ("d_spin_angle", "d2_spin_angle")
+"""Rate and acceleration of the disc angle: in every record, with an encoder or without."""
+
+SPIN_WINDOW = 0.6
+"""Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
+differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn."""
+
+_SPIN_DEGREE = 5
 
 
 @dataclass(frozen=True)
@@ -114,11 +125,31 @@ class Record:
     def _wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
+        if name in SPIN:
+            encoder = self.wide.get("spin_angle")
+            length = len(self.time) + sum(self.halo)
+            return spin(name, encoder, length, self.rate, self.spin_frequency)
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
                 return None if inner is None else differentiate(inner, self.rate)
         return None
+
+
+def spin(name: str, encoder: Array | None, samples: int, rate: float, spin_frequency: float) -> Array:
+    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad) if there is one.
+
+    By least squares a polynomial of the fifth degree is laid through ``SPIN_WINDOW`` on either side of a sample.
+    """
+    order = SPIN.index(name) + 1
+    if encoder is None:
+        return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
+    half = min(max(round(SPIN_WINDOW * rate), _SPIN_DEGREE), HALO, (samples - 1) // 2)
+    if 2 * half < _SPIN_DEGREE:
+        return np.full(samples, np.nan)
+    angle = np.unwrap(encoder)
+    smooth = savgol_filter(angle - angle[0], 2 * half + 1, _SPIN_DEGREE, deriv=order, delta=1 / rate)
+    return np.asarray(smooth, dtype=np.float64)
 
 
 def disc_angle(time: Array, spin_frequency: float) -> Array:

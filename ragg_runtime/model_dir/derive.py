@@ -7,13 +7,16 @@ is imported only where something is derived.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
+from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.model_dir import derived_cache
@@ -21,6 +24,7 @@ from ragg_runtime.model_dir.trust import trusted_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
+    from derive.pipeline import Form as SymbolicForm
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,24 @@ class Known:
         )
 
 
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_SYMPY = threading.RLock()
+
+
+def _by_one(function: Callable[P, R]) -> Callable[P, R]:
+    """Let one thread at a time derive: SymPy's caches are not made for several."""
+
+    @functools.wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _SYMPY:
+            return function(*args, **kwargs)
+
+    return alone
+
+
+@_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
     from derive.effects import catalogue, from_sources
@@ -92,17 +114,17 @@ def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
 
     ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
     """
-    if not instrument.effects and instrument.effects_folder is None:
-        return packaged()
+    if not instrument.effects and instrument.effects_folder is None and _is_packaged(instrument.form):
+        return packaged(instrument.form.kinematics)
     asked = derived_cache.request(instrument)
     files = derived_cache.matching(generated, asked)
     if files is not None:
         return _executed(asked, tuple(files.items()))
     k = known(instrument)
-    if not instrument.effects and not k.own:
-        return packaged()
-    model, files = derived(tuple(_chosen(instrument, k)), k.effects)
-    if instrument.effects:
+    if not instrument.effects and not k.own and _is_packaged(instrument.form):
+        return packaged(instrument.form.kinematics)
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.form)
+    if _has_files(instrument):
         derived_cache.remember(asked, files)
     return model
 
@@ -114,7 +136,9 @@ def _executed(asked: str, files: tuple[tuple[str, str], ...]) -> Model:
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
     """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
-    if generated is None or derived_cache.matching(generated, derived_cache.request(instrument)) is not None:
+    if generated is None or not _has_files(instrument):
+        return None
+    if derived_cache.matching(generated, derived_cache.request(instrument)) is not None:
         return None
     expected = files_of(instrument)
     found = derived_cache.read(generated)
@@ -124,25 +148,69 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
         what = "it holds things that are no source files"
     else:
         names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
-        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+        what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
         f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
         "adding or removing an effect writes it again"
     )
 
 
+def _is_packaged(form: Form) -> bool:
+    """Whether models of this form come derived with the program: those of the paper's order."""
+    return form.preset == "paper"
+
+
+def _has_files(instrument: Instrument) -> bool:
+    """Whether a model directory of this instrument keeps derived code of its own."""
+    return bool(instrument.effects) or not _is_packaged(instrument.form)
+
+
+def _symbolic(form: Form) -> SymbolicForm:
+    from derive.pipeline import Form as SymbolicForm
+    from derive.stages import Order
+
+    order = Order(
+        rotation=None if form.mounting == "exact" else int(form.mounting),
+        misalignment=None if form.misalignment == "exact" else int(form.misalignment),
+        second_order_angles=form.second_order_angles,
+    )
+    return SymbolicForm(order=order, kinematics="full" if form.kinematics == "full" else "platform")
+
+
 def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
-    return [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+    form = _symbolic(instrument.form)
+    found = [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
+    for e in found:
+        _check_needed(e, form, instrument)
+    return found
+
+
+def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
+    """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
+    e = known(instrument).get(identifier, at(instrument.path))
+    _check_needed(e, _symbolic(instrument.form), instrument)
+    return e
+
+
+def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument) -> None:
+    if e.moot(form.order, form.kinematics):
+        raise UserError(
+            f"the model holds the effect {e.id} already",
+            where=at(instrument.path, "effects"),
+            found=f"[model] with {instrument.form.words()}",
+            remedy="leave the effect out, or change [model]",
+        )
 
 
 @cache
+@_by_one
 def derived(
-    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...]
+    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...], form: Form = PAPER
 ) -> tuple[Model, Mapping[str, str]]:
-    """A model with these effects, and the files that its derivation yields."""
+    """A model of this form with these effects, and the files that its derivation yields."""
     from derive import pipeline
 
-    files = pipeline.derive_model(effects, candidates)
+    files = pipeline.derive_model(effects, candidates, _symbolic(form))
     return from_files(files), files
 
 
@@ -150,12 +218,20 @@ def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -
     """``model`` with further effects derived into it; without signatures of any more."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, ())[0]
+    return derived(chosen, (), instrument.form)[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
-    """What ``generated/`` of a model directory must hold for its list of effects; empty for no effects."""
-    if not instrument.effects:
+    """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
+    if not _has_files(instrument):
         return {}
     k = known(instrument)
-    return derived(tuple(_chosen(instrument, k)), k.effects)[1]
+    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.form)[1]
+
+
+def without_signatures(instrument: Instrument, form: Form) -> Model:
+    """The instrument's model in another form, with those of its effects that this form does not hold already."""
+    k = known(instrument)
+    symbolic = _symbolic(form)
+    chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
+    return derived(tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics)), (), form)[0]

@@ -38,7 +38,8 @@ def request(instrument: Instrument) -> str:
     if instrument.effects_folder is not None:
         found = trusted_sources(instrument.effects_folder, instrument.path)
         own = {path.name: hashlib.sha256(text).hexdigest() for path, text in found.items()}
-    return _sha256(json.dumps([_derivation(), effects, own], sort_keys=True))
+    form = instrument.form.as_json()
+    return _sha256(json.dumps([_derivation(), effects, own, form], sort_keys=True))
 
 
 def matching(generated: Path | None, asked: str) -> Mapping[str, str] | None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.flight.sampling import JITTER_NOTED
 from ragg_runtime.flight.spool import let_go
@@ -16,7 +17,6 @@ from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle
 from ragg_runtime.plausibility.quick_fit import explain
 from ragg_runtime.plausibility.subsample import CHUNK, Picker
-from ragg_runtime.signals.derivative import differentiate
 
 BETTER = 1.1
 """Factor by which the model's residual must fall for jittering instants to be taken otherwise than they stand."""
@@ -78,4 +78,5 @@ def _rederived(x: Flight, step: float) -> dict[str, NDArray[np.float64]]:
     if not x.written or ANGULAR_ACCELERATION[0] in x.written:
         return {}
     pairs = zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)
-    return {change: differentiate(x.channels[rate], 1 / step) for rate, change in pairs}
+    found = planned([x.channels[n] for n in ANGULAR_RATE], 1 / step)
+    return {change: found.of(x.channels[rate], 1 / step)[0] for rate, change in pairs}

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
@@ -20,7 +21,6 @@ from ragg_runtime.plausibility.identify import Likely, derived_rates, likely
 from ragg_runtime.plausibility.quick_fit import explain
 from ragg_runtime.plausibility.spikes import glitches, spikes, told
 from ragg_runtime.plausibility.subsample import CHUNK, Picker, picker
-from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -118,9 +118,10 @@ def _without_motion_spikes(flight: Flight) -> Flight:
     if not notes:
         return flight
     if rates and derived_rates(flight):
+        derivative = planned([channels[n] for n in ANGULAR_RATE], flight.rate)
         for rate in rates:
             change = ANGULAR_ACCELERATION[ANGULAR_RATE.index(rate)]
-            channels[change] = differentiate(channels[rate], flight.rate)
+            channels[change] = derivative.of(channels[rate], flight.rate)[0]
         notes = [n for n in notes if not n.startswith("omegadot")]
     return dataclasses.replace(flight, channels=channels, valid=valid, notes=(*flight.notes, *notes))
 

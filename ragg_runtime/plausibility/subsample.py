@@ -17,7 +17,7 @@ from ragg_runtime.flight.record import DEMODULATED, VOLTAGES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Chain
-from ragg_runtime.model.record import GRADIENTS, disc_angle
+from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import differentiate
 
@@ -159,11 +159,14 @@ class Picker:
             phi = _picked(x.channels["spin_angle"], rows)
         else:
             phi = disc_angle(time, f)
-        if backwards:
-            phi = -phi
         moved = rows + shift
         channels = {name: _picked(v, moved) for name, v in x.channels.items()}
         channels |= {name: _picked(v, moved) for name, v in self.derived.items()}
+        if spin_frequency is not None:
+            channels |= {name: spin(name, None, len(rows), x.rate, f) for name in SPIN}
+        if backwards:
+            phi = -phi
+            channels |= {name: -channels[name] for name in SPIN if name in channels}
         data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
         return Rows(self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps)
 
@@ -226,6 +229,10 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = ())
             usable &= ~clipped[1]
     derived = {}
     for name in inputs:
+        if name in SPIN:
+            encoder = flight.channels.get("spin_angle")
+            derived[name] = spin(name, encoder, len(flight), flight.rate, instrument.spin_frequency)
+            continue
         order = 2 if name.startswith("d2_") else 1
         base = name.removeprefix("d2_").removeprefix("d_")
         if base != name and base in flight.channels:

@@ -17,27 +17,41 @@ from ragg_runtime.reference.effects import Injected, force, geometry, transducer
 from ragg_runtime.reference.geometry import Mount, mount
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import Motion, MotionState
-from ragg_runtime.reference.rotation import Rotations, frame_rotation, spin
+from ragg_runtime.reference.rotation import Rotations, frame_rotation
+from ragg_runtime.reference.taylor import Taylor, carried, spun
 
 if TYPE_CHECKING:
     from ragg_runtime.instrument.instrument import Instrument
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
+Triad = tuple[Taylor, Taylor, Taylor]
 Auxiliary = Callable[[Array], Array]
 
 _ARM_ITERATIONS = 3
 """The arm's stretch changes the force that stretches it by a part in a million."""
 
+_STEP = 0.01
+"""Between the instants at which an arm's length is looked at to learn how fast it changes, s."""
+
+_WARMING = 1e-4
+"""Half the stretch over which the rate of a temperature is taken, s."""
+
+_FIRST = (1 / 12, -2 / 3, 0.0, 2 / 3, -1 / 12)
+_SECOND = (-1 / 12, 4 / 3, -5 / 2, 4 / 3, -1 / 12)
+"""Derivatives by central differences over five instants, good to the fourth power of the step."""
+
 
 @dataclass(frozen=True)
 class Instant:
-    """The truth at N instants: time (N,) s, disc angle (N,) rad, motion, auxiliary channels."""
+    """The truth at N instants: time (N,) s, disc angle (N,) rad and its rates, motion, auxiliary channels."""
 
     time: Array
-    phi: Array
+    phi: Taylor
     motion: MotionState
     auxiliaries: Mapping[str, Array]
+    around: tuple[Instant, ...] = ()
+    """Two instants earlier, two later, where arms bend and it matters how fast."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +68,8 @@ class Chain:
         ``first-order`` (Eq. 2 and the paper's geometry) or ``exact``.
     effects
         Resolved.
+    spin
+        Share of the disc's own turning in the kinematics: 0 is Eq. 49, 1 nature.
     """
 
     instrument: Instrument
@@ -62,13 +78,22 @@ class Chain:
     rotations: Rotations
     effects: Injected
     auxiliaries: Mapping[str, Auxiliary]
+    spin: float = 0.0
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
         """V_1 ... V_4 without noise, (4, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
+        present = self._unfiltered(time, 0.0, angle_error)
+        change = np.zeros_like(present)
+        for delay, weight in transducer.averaging(self.effects):
+            change += weight * (self._unfiltered(time, delay, angle_error) - present)
+        return np.asarray(present + change)
+
+    def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
+        """The voltages (4, N) V so much earlier (s), loops and their lags included."""
         tau = transducer.lags(self.effects)
         shaken = force.vibration(self.effects)
         V = np.empty((4, time.size))
-        now = self._instant(time, 0.0, angle_error)
+        now = self._instant(time, earlier, angle_error)
         for j in range(4):
             V[j] = self._average(j, now, shaken)
         for lag in np.unique(tau[tau > 0]):
@@ -76,7 +101,7 @@ class Chain:
             # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
             present, change = V[group], np.zeros((group.size, time.size))
             for delay, weight in transducer.lag_quadrature(float(lag)):
-                past = self._instant(time, delay, angle_error)
+                past = self._instant(time, earlier + delay, angle_error)
                 for row, member in enumerate(group):
                     change[row] += weight * (self._average(int(member), past, shaken) - present[row])
             V[group] = present + change
@@ -84,7 +109,7 @@ class Chain:
 
     def scale(self, time: Array) -> Array:
         """k_VI K1 of the four accelerometers as they are at the time, (4, N) V/(m/s^2)."""
-        auxiliaries = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        auxiliaries = self._auxiliaries_at(time)
         k = self.instrument.accelerometers
         return np.stack(
             [
@@ -96,15 +121,31 @@ class Chain:
             ]
         )
 
-    def _instant(self, time: Array, delay: float, angle_error: Array) -> Instant:
-        nominal = disc_angle(self.instrument.spin_frequency, time, delay)
+    def _instant(self, time: Array, delay: float, angle_error: Array, alone: bool = False) -> Instant:
+        bending = not alone and any(geometry.bends(j, self.effects) for j in range(4))
+        around = tuple(
+            self._instant(time, delay - n * _STEP, angle_error, alone=True)
+            for n in ((-2, -1, 1, 2) if bending else ())
+        )
+        frequency = self.instrument.spin_frequency
+        steady = np.full(time.shape, 2 * np.pi * frequency)
+        nominal = Taylor(disc_angle(frequency, time, delay), steady, np.zeros(time.shape))
         past = time - delay
         return Instant(
             time=past,
-            phi=geometry.disc_angle(nominal, angle_error, self.effects),
+            phi=geometry.disc_angle(nominal, past, angle_error, self.effects),
             motion=self.motion.at(time, delay),
-            auxiliaries={name: channel(past) for name, channel in self.auxiliaries.items()},
+            auxiliaries=self._auxiliaries_at(past),
+            around=around,
         )
+
+    def _auxiliaries_at(self, time: Array) -> dict[str, Array]:
+        found = {name: channel(time) for name, channel in self.auxiliaries.items()}
+        if "thermal-lag" in self.effects:
+            temperature = self.auxiliaries["temperature"]
+            change = temperature(time + _WARMING) - temperature(time - _WARMING)
+            found[transducer.RATE_OF_TEMPERATURE] = change / (2 * _WARMING)
+        return found
 
     def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
         """Voltage of accelerometer j, averaged over the instances of the unrecorded vibration."""
@@ -134,49 +175,66 @@ class Chain:
             + k["K4"] * i * p
             + k["K6"] * i * o
             + k["K8"] * o * p
-            + transducer.further_terms(
-                j, measured, triad, instant.motion.omegadot, instant.auxiliaries, self.effects
-            )
+            + transducer.further_terms(j, measured, triad, instant.motion, instant.auxiliaries, self.effects)
         )
         gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
         return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
 
     def _nominal_force(
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
-    ) -> tuple[Triple, Triple]:
-        """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along, (3, N) each."""
+    ) -> tuple[Triple, Triad]:
+        """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along."""
         arm, triad = self._in_measurement_frame(fixed, instant.phi)
-        f = self._specific_force(radius * arm, triad, instant, shake)
-        if geometry.bends(j, self.effects):
-            for _ in range(_ARM_ITERATIONS):
-                length = geometry.arm_length(j, radius, f, self.effects)
-                f = self._specific_force(length * arm, triad, instant, shake)
-        return f, triad
+        if not geometry.bends(j, self.effects):
+            return self._specific_force(arm * radius, triad, instant, shake), triad
+        length, f = self._settled(j, fixed, radius, instant, shake)
+        around = [self._settled(j, fixed, radius, near, shake)[0] for near in instant.around]
+        beside = np.stack([*around[:2], length, *around[2:]])
+        changing = Taylor(length, _FIRST @ beside / _STEP, _SECOND @ beside / _STEP**2)
+        m = instant.motion
+        moved, rigid = (carried(arm * x, m.omega, m.omegadot) for x in (changing, length))
+        return self._along(triad, f, moved - rigid), triad
 
-    def _in_measurement_frame(self, fixed: Mount, phi: Array) -> tuple[Array, Triple]:
-        """Arm (3, N) and triad (three of (3, N)) of a mount when the disc stands at phi."""
+    def _settled(
+        self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
+    ) -> tuple[Array, Triple]:
+        """Radius under the force that acts at this radius, (N,) m, and that force."""
+        arm, triad = self._in_measurement_frame(fixed, instant.phi)
+        f = self._specific_force(arm * radius, triad, instant, shake)
+        length = np.full(instant.time.shape, radius)
+        for _ in range(_ARM_ITERATIONS):
+            length = geometry.arm_length(j, radius, f, self.effects)
+            f = self._specific_force(arm * length, triad, instant, shake)
+        return length, f
+
+    def _along(self, triad: Triad, f: Triple, further: Array) -> Triple:
+        x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
+        return x, y, z
+
+    def _in_measurement_frame(self, fixed: Mount, phi: Taylor) -> tuple[Taylor, Triad]:
+        """Arm and triad, (3, N) each, of a mount while the disc angle runs on."""
         vectors = np.stack([fixed.arm, *fixed.triad])
         if (lean := geometry.wobble(self.effects)) is not None:
             vectors = vectors @ lean.T
-        turned = [spin(v, phi) for v in vectors]
+        turned = [spun(v, phi) for v in vectors]
         if (axis := geometry.spin_axis(self.effects)) is not None:
-            turned = [axis @ v for v in turned]
+            turned = [v.turned(axis) for v in turned]
         arm, tau_x, tau_y, tau_z = turned
         return arm, (tau_x, tau_y, tau_z)
 
-    def _specific_force(self, r: Array, triad: Triple, instant: Instant, shake: Array) -> Triple:
-        """Eq. 49 at position r (3, N), and Eq. 50: its components along the triad."""
-        m = instant.motion
-        f = (
-            m.a
-            + shake
-            + np.cross(m.omegadot, r, axis=0)
-            + np.cross(m.omega, np.cross(m.omega, r, axis=0), axis=0)
+    def _specific_force(self, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
+        """Eq. 49 at position r (3, N), or what a point moving like r feels, and Eq. 50: along the triad."""
+        m, here = instant.motion, r.value
+        of_platform = np.cross(m.omegadot, here, axis=0) + np.cross(
+            m.omega, np.cross(m.omega, here, axis=0), axis=0
         )
+        f = m.a + shake + of_platform
+        if self.spin:
+            f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
         if self.gravity is not None:
-            f = f - self.gravity.difference(instant.time, r)
-        f = f - force.attraction(r, instant.auxiliaries, self.effects)
-        x, y, z = (np.sum(f * tau, axis=0) for tau in triad)
+            f = f - self.gravity.difference(instant.time, here)
+        f = f - force.attraction(here, instant.auxiliaries, self.effects)
+        x, y, z = (np.sum(f * tau.value, axis=0) for tau in triad)
         return x, y, z
 
 

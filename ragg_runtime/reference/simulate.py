@@ -14,7 +14,7 @@ from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain
 from ragg_runtime.reference.effects import EffectValues, Injected, channels_needed, resolve
-from ragg_runtime.reference.effects.geometry import random_angle
+from ragg_runtime.reference.effects.geometry import Kinematics, random_angle, spin_share
 from ragg_runtime.reference.effects.output import record_output
 from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
@@ -110,6 +110,7 @@ def simulate(
     record_gradient: bool = True,
     noise: Noise | None = None,
     rotations: Rotations = "first-order",
+    kinematics: Kinematics = "platform",
     effects: EffectValues | None = None,
     seed: int = 0,
     auxiliaries: Mapping[str, Auxiliary] | None = None,
@@ -132,6 +133,8 @@ def simulate(
         Of each accelerometer, independent; ``None`` is none.
     rotations
         ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles.
+    kinematics
+        ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
         ``{id: {parameter: value or four values, SI}}`` (see ``reference.effects.CATALOGUE``).
     seed
@@ -151,7 +154,8 @@ def simulate(
     if auxiliaries is None:
         auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
     _require_channels(injected, auxiliaries)
-    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries)
+    share = spin_share(kinematics, injected)
+    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, share)
     error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, injected)
     clean = np.empty((4, time.size))
     for begin in range(0, time.size, _CHUNK):

@@ -7,10 +7,11 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.landmarks import Landmarks, overlap, same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import Job, Record, expanded, job
+from ragg_runtime.survey.task import LANDMARKS, Job, Record, expanded, job
 from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
@@ -77,7 +78,23 @@ def survey(
                         kept.append(record)
                     if progress is not None:
                         progress(len(records), len(files), record)
-    return Survey(tuple(records[f] for f in files))
+    return Survey(tuple(_once([records[f] for f in files])))
+
+
+def _once(records: Sequence[Record]) -> Iterator[Record]:
+    """The records; of those that are of one and the same record of an instrument the first, the others in error."""
+    seen: list[Landmarks] = []
+    for r in records:
+        kept = {k: v for k, v in r.items() if k != LANDMARKS}
+        if LANDMARKS in r:
+            own = Landmarks.from_json(r["file"], r[LANDMARKS])
+            same = next(((s, o) for s in seen if (o := overlap(s, own)) is not None), None)
+            if same is not None:
+                message = f"{r['file']}: {same_record(same[0].name, same[1])}"
+                kept = {k: r[k] for k in ("flight", "file", "sha256")}
+                kept["error"] = {"kind": "input", "message": message}
+            seen.append(own)
+        yield kept
 
 
 def ordered(flights: Sequence[Path | str]) -> list[str]:

@@ -170,7 +170,8 @@ def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]])
         for key in ("before", "after"):
             e = s[key]
             calibrated = e.get("calibrated", e) if e else None
-            errors.append(number(calibrated["rms_Eo"]) if calibrated else "-")
+            rms = calibrated.get("rms_Eo") if calibrated else None
+            errors.append("-" if rms is None else number(rms))
         rows.append((s["time"], s["action"], s["effect"] or "-", *errors))
     return _fragment(
         _line(f"{name}: effects: {', '.join(effects) or 'none'}", strong=True),

@@ -43,7 +43,9 @@ def simulated(
     no_gradient: bool = False,
     voltages: bool = False,
 ) -> Flight:
-    """A flight with hidden effects.
+    """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
+
+    Mounting angles of the second power are flown exactly.
 
     Parameters
     ----------
@@ -58,7 +60,11 @@ def simulated(
     ------
     UserError
     """
-    effects = dict(_parsed(text, instrument.g0) for text in hidden)
+    effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument.g0) for text in hidden)
+    form = instrument.form
+    if not form.second_order_angles:
+        effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
+    first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
@@ -68,6 +74,8 @@ def simulated(
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
         record_gradient=not no_gradient,
         noise=Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if noise else None,
+        rotations="first-order" if first_order else "exact",
+        kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
         seed=seed,
         auxiliaries=plausible(np.random.default_rng([seed, 12])),
