@@ -511,7 +511,10 @@ def test_a_point_mass_converges_to_its_third_order_tensor() -> None:
 
 
 def test_opposite_accelerometers_cancel_a_near_mass() -> None:
-    """Its third derivatives, even in r; the fourth add up. Arms and input axes lie in the plane, where z is not seen."""
+    """Its third derivatives, even in r; the fourth add up.
+
+    With perfect mounting, arms and input axes are in the plane, where no z is seen.
+    """
     w = world()
     first, second = (signature("near-mass", w, instrument(), j=j) for j in (0, 1))
     for name, row in first.items():
