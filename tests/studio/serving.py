@@ -10,10 +10,13 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import httpx
+
+from ragg_runtime.workflow import loop
 
 DEMO = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
 PATIENCE = 120.0  # s; a busy machine is no failure
@@ -40,6 +43,14 @@ class Served:
         with httpx.Client(base_url=self.origin, timeout=PATIENCE, headers={"origin": self.origin}) as c:
             assert c.get(self.address.removeprefix(self.origin)).status_code == 303
             yield c
+
+
+def new(model: Path) -> None:
+    """The instrument that the shipped flight was made with: the example's sheet, with the kinematics of Eq. 9."""
+    text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+    sheet = model.with_name("sheet.toml")
+    sheet.write_text(re.sub(r"\[model\]\n(?:[^\[\n].*\n|\n)*", "", text), "utf-8")
+    loop.new(model, sheet)
 
 
 def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:

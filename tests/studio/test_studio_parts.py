@@ -6,7 +6,7 @@ import struct
 
 import numpy as np
 import pytest
-from serving import DEMO
+from serving import DEMO, new
 
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
@@ -21,7 +21,9 @@ from ragg_runtime.workflow import loop
 
 @pytest.fixture(scope="module")
 def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
-    m = loop.new(tmp_path_factory.mktemp("m") / "model")
+    model = tmp_path_factory.mktemp("m") / "model"
+    new(model)
+    m = loop.load(model)
     return loop.diagnose(m, loop.read_flights(m, [DEMO]))
 
 

@@ -12,10 +12,9 @@ from pathlib import Path
 import httpx
 import numpy as np
 import pytest
-from serving import DEMO, Served, ragg, served, settled
+from serving import DEMO, Served, new, ragg, served, settled
 
 from ragg_runtime.model_dir.directory import load_model_dir
-from ragg_runtime.workflow import loop
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +25,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def server(folder: Path) -> Iterator[Served]:
     model = folder / "model"
-    loop.new(model)
+    new(model)
     flight = folder / "demo-flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
     with served(model, flight) as s:
@@ -280,7 +279,7 @@ def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
 def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    loop.new(model)
+    new(model)
     with (
         served(model, flight) as s,
         s.client() as one,
@@ -314,7 +313,7 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
 def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    loop.new(model)
+    new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
         assert c.post("/api/do/add", json={"effects": ["thermal-scale"]}).status_code == 202
@@ -334,7 +333,7 @@ def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
 def test_work_is_cancelled_without_loss(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
     flight.write_bytes(DEMO.read_bytes())
-    loop.new(model)
+    new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
         before = load_model_dir(model).digest
