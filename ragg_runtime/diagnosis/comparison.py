@@ -13,7 +13,7 @@ from scipy.signal import oaconvolve
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, convergence
+from ragg_runtime.fit import bursts, columns, convergence
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
 from ragg_runtime.fit.observation import as_output, observe
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -48,6 +48,7 @@ class Comparison:
     remainder: Remainder
     nominal_values: Array
     complaint: str | None = None
+    remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
 
     @property
@@ -106,7 +107,7 @@ class Comparison:
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
             "converged": self.converged,
-            "reason": self.complaint,
+            "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
@@ -211,8 +212,20 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         remainder=rem,
         nominal_values=vector(model, instrument),
         complaint=complaint,
+        remark=disturbed(f),
         off_sheet=tuple(off_sheet(model, instrument, f.calibration)),
     )
+
+
+def disturbed(f: Fitted) -> str | None:
+    """Where the record is too loud to tell anything, in words."""
+    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) for x in f.flown]
+    said = [
+        text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
+        for x, text in zip(f.flown, found, strict=True)
+        if text is not None
+    ]
+    return "; ".join(said) or None
 
 
 def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
