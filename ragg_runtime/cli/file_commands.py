@@ -38,7 +38,9 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
 
 @click.command(name="map", cls=Command)
 @click.argument("flight", type=FILE)
-@click.option("-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout).")
+@click.option(
+    "-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout)."
+)
 def map_command(flight: Path, output: str | None) -> None:
     """Write a first mapping for a foreign file: which column is what, in which unit, and how time is written.
 

@@ -22,8 +22,12 @@ from ragg_runtime.cli.outputs import Command, OutputFile
 @click.option(
     "--limit", "limits", multiple=True, metavar="NAME=NUMBER", help="Another limit: in-line-sum=12."
 )
-@click.option("--json", "json_file", type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout).")
-@click.option("--report", "report_file", type=OutputFile(), metavar="FILE.html", help="Write a self-contained report.")
+@click.option(
+    "--json", "json_file", type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+@click.option(
+    "--report", "report_file", type=OutputFile(), metavar="FILE.html", help="Write a self-contained report."
+)
 def qc(
     flights: Sequence[Path],
     mapping: Path | None,

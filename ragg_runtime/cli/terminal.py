@@ -110,6 +110,7 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
         ),
         "",
         *_not_converged(c.complaint),
+        *([] if c.remark is None else [f"note: {c.remark}"]),
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
         *ladder(c),
         *_off_sheet(c.off_sheet),
@@ -144,6 +145,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
     lines = [
         notebook.verdict(d.verdict, d.found),
         *_not_converged(d.complaint),
+        *([] if d.remark is None else [f"note: {d.remark}"]),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
         "",
         f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",

@@ -15,7 +15,7 @@ from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, convergence
+from ragg_runtime.fit import bursts, columns, convergence
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -51,6 +51,7 @@ class Comparison:
     nominal_values: Array
     ladder: tuple[Rung, ...] = ()
     complaint: str | None = None
+    remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
 
     @property
@@ -109,7 +110,7 @@ class Comparison:
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
             "converged": self.converged,
-            "reason": self.complaint,
+            "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
@@ -244,8 +245,20 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         remainder=rem,
         nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
+        remark=disturbed(f),
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
+
+
+def disturbed(f: Fitted) -> str | None:
+    """Where the record is too loud to tell anything, in words."""
+    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) for x in f.flown]
+    said = [
+        text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
+        for x, text in zip(f.flown, found, strict=True)
+        if text is not None
+    ]
+    return "; ".join(said) or None
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

@@ -100,7 +100,9 @@ def diagnose_fitted(
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
-    if complaint is not None or rem.significant or after.whole.rms_Eo > comparison.LOUD * noise:
+    # noise that follows the motion is louder where the motion is: a random effect says so itself
+    loud = after.whole.rms_Eo > comparison.LOUD * noise and not random_found
+    if complaint is not None or rem.significant or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
@@ -131,6 +133,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
+        remark=comparison.disturbed(target),
         staged=bool(steps),
         off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )

@@ -41,6 +41,7 @@ class Diagnosis:
     coefficients: Array
     next_motion: tuple[Proposal, ...]
     complaint: str | None = None
+    remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
     staged: bool = False
     """Whether what was found was derived into the model one after the other."""
@@ -109,7 +110,7 @@ class Diagnosis:
         return {
             "verdict": self.verdict,
             "converged": self.converged,
-            "reason": self.complaint,
+            "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),

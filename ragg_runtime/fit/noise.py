@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.fit.square_root import triangle
-from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, estimate
+from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -43,9 +44,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     plain = Noise((), (np.ones(1),) * len(o.series))
     found: list[list[Array]] = [[] for _ in o.series]
     squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
-    share = []
+    share, begun = [], []
 
-    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]]] | None:
+    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]], int] | None:
         valid = piece.observation.record.valid
         if np.sum(valid) < SHORTEST:
             return None
@@ -61,17 +62,19 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
-        return float(np.mean(valid)), outputs
+        return float(np.mean(valid)), outputs, piece.segment.rows.start
 
     for part in passed(at, o, plain, left, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
         if part is None:
             continue
         share.append(part[0])
+        begun.append(part[2])
         for m, (e, square, free) in enumerate(part[1]):
             found[m].append(e)
             squares[m] += square
             freedom[m] += free
     models, filters = [], []
+    bursts: list[tuple[int, int, float]] = []
     for m, e_m in enumerate(found):
         if o.kind == "channels":
             # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
@@ -80,12 +83,17 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise = estimate(e_m, r.rate, unknown_gradient.band(o))
+        noise, loud = quiet_estimate(e_m, r.rate, unknown_gradient.band(o))
+        bursts += [
+            (first + b.start, first + b.stop, b.factor)
+            for first, x in zip(begun, loud, strict=True)
+            for b in x
+        ]
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
         noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
         models.append(noise)
         filters.append(noise.whitening_filter(int(min(TAPS, len(r.time)))))
-    return Noise(tuple(models), tuple(filters))
+    return Noise(tuple(models), tuple(filters), tuple(sorted(bursts)))
 
 
 def spread(found: Sequence[Segment], most: int) -> list[Segment]:
