@@ -73,7 +73,7 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.flight.source import format_of
+    from ragg_runtime.flight.formats import format_of
     from ragg_runtime.workflow import after
 
     format_of(output)

@@ -21,13 +21,13 @@ from ragg_runtime.diagnosis.parameters import (
     parameter_values,
     patterns,
 )
-from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
 from ragg_runtime.fit.observation import observe
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.segments import ROWS
-from ragg_runtime.fit.square_root import Linear, join, with_prior
+from ragg_runtime.fit.square_root import join, with_prior
+from ragg_runtime.fit.trust_region import Linear
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
@@ -83,20 +83,10 @@ def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> l
     return found
 
 
-def converged(f: Fitted) -> bool:
-    """Whether the fit had settled: as the calibration says, else by what one more step would gain."""
-    said = getattr(f.calibration, "converged", None)
-    if said is not None:
-        return bool(said)
-    normal = with_sheet(join([t for x in f.triangles for t in base(x, f.n_base)]), f.to_nominal)
-    gain, size = normal.gain(normal.step), float(np.max(np.abs(normal.step)))
-    return gain < calibrate.SETTLED[0] or size < calibrate.SETTLED[1]
-
-
 def with_sheet(T: Array, to_nominal: Array) -> Linear:
     """The fit of a triangle [base | residual] and of the sheet, whose values are ``to_nominal`` (n,) away, in scales."""
     whole = with_prior(T, range(len(to_nominal)), to_nominal)
-    return Linear(whole[:-1, :-1], whole[:-1, -1])
+    return Linear(R=whole[:-1, :-1], y=whole[:-1, -1], rest=float(whole[-1, -1] ** 2))
 
 
 def base(triangles: Sequence[Array], n: int) -> list[Array]:
@@ -134,7 +124,7 @@ class Calibrated:
 
     @property
     def converged(self) -> bool:
-        return converged(self.fitted)
+        return self.fitted.calibration.converged
 
     @cached_property
     def values(self) -> Array:

@@ -14,7 +14,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
-from ragg_runtime.compensation.calibrated import converged, information, inverse
+from ragg_runtime.compensation.calibrated import information, inverse
 from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.schedule import Stretch
@@ -73,6 +73,7 @@ def prepared(
     """Calibrate on the flights (``self``, ``crossed``), or take what was saved (``frozen``)."""
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
+    papers_only(instrument)
     flights = tuple(without_gradients(x) for x in flights)
     observations = tuple(observe(x, instrument) for x in flights)
     model = model.for_fits(sum(len(o.record.time) for o in observations))
@@ -87,7 +88,7 @@ def prepared(
         settled, validity = saved.converged, dict(saved.validity)
     else:
         f = fit(model, instrument, observations)
-        c, settled = f.calibration, converged(f)
+        c, settled = f.calibration, f.calibration.converged
         root = inverse(information(f))
         stretches = (
             schedule.crossed(f) if kind == "crossed" else [schedule.whole(c, root, n) for n in lengths]
@@ -105,6 +106,17 @@ def prepared(
     )
 
 
+def papers_only(instrument: Instrument) -> None:
+    """UserError for an instrument whose inline and cross are not those of the paper's one disc."""
+    if not instrument.layout.of_paper:
+        raise UserError(
+            "gradients are compensated, and models exported, for the paper's disc alone as yet",
+            where=str(instrument.path),
+            found=f"[[disc]] with {instrument.layout.size} accelerometers",
+            expected="one [disc] with four accelerometers",
+        )
+
+
 class Compensated:
     """One flight being compensated: its series come from :meth:`segments`, once; then :meth:`as_json` tells of them."""
 
@@ -113,12 +125,12 @@ class Compensated:
         rate = o.record.rate
         self.demodulator = demodulator(name, rate)
         _long_enough(self.flight, self.demodulator)
-        k_ggi = scale_factor(p.model.chain, p.calibration.p)
+        k_ggi = scale_factor(p.model, p.calibration.p)
         noise = spectrum.of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
         self.model, self.instrument = p.model, p.instrument
         many = p.model.in_machine_code and len(self.flight.time) >= MANY
         s = Setting(
-            chain=p.model.chain,
+            model=p.model,
             evaluator=p.model.compiled("auto" if many else "numpy"),
             demodulator=self.demodulator,
             observation=o,

@@ -79,7 +79,7 @@ def in_force(directory: ModelDir, model: Model) -> Saved:
             found=f"a calibration made {saved.time}",
             remedy=again,
         )
-    if not scale_factor(model.chain, saved.p) > 0.0:
+    if not scale_factor(model, saved.p) > 0.0:
         raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
     return saved
 
@@ -141,6 +141,10 @@ def calibration(
         covariance=half @ half.T,
         noise=tuple(noise),
         rows=int(sum(np.sum(o.record.valid) for o in observations)),
+        chi2=0.0,
+        excess=1.0,
+        converged=True,
+        reason="nothing is fitted: the parameters are those that were saved",
     )
 
 

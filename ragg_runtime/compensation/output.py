@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.files import replacing
-from ragg_runtime.flight.source import format_of
+from ragg_runtime.flight.formats import format_of
 
 UNITS: Mapping[str, str] = MappingProxyType(
     {
@@ -41,7 +41,7 @@ def writing(path: Path, samples: int, *, several: bool) -> Iterator[Write]:
 
     ``samples`` is the number of all rows.
     """
-    kind = format_of(path)
+    kind = format_of(path).NAME
     names = [n for n in UNITS if several or n != "flight"]
     schema = pa.schema([pa.field(n, _type(n), metadata={"units": UNITS[n]}) for n in names])
     with replacing(path) as temporary:

@@ -85,7 +85,7 @@ class Online:
         self.index = np.array([k for _, k in found], dtype=np.intp)
         self.scale = np.array([c.scale for c in self.columns])
         self.to_nominal = (self.nominal[self.index] - self.p[self.index]) / self.scale
-        self.k_ggi = scale_factor(model.chain, self.p)
+        self.k_ggi = scale_factor(model, self.p)
         n = len(self.columns)
         self.R = np.zeros((n + 2, n + 3))
         self.R[:n, :n] = np.eye(n) if root is None else root

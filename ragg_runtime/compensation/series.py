@@ -20,7 +20,7 @@ from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.schedule import Stretch, within
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.model.evaluate import EOTVOS, scale_factor
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.record import GRADIENTS, Record
 
@@ -71,7 +71,7 @@ class Setting:
 
     Attributes
     ----------
-    chain, evaluator
+    model, evaluator
         The model.
     demodulator
         The low-pass.
@@ -87,7 +87,7 @@ class Setting:
         Channel -> range, SI, that the calibration knows; empty: not flagged.
     """
 
-    chain: Chain
+    model: Model
     evaluator: Evaluator
     demodulator: Demodulator
     observation: Observation
@@ -145,8 +145,8 @@ class Segment:
         o = s.observation.part(slice(self.first, self.last))
         self.record: Record = o.record
         self.G = as_output(o, o.data)
-        self.x = self.record.inputs(s.chain)
-        self.places = {name: k for k, name in enumerate(s.chain.INPUTS) if name in GRADIENTS}
+        self.x = self.record.inputs(s.model.chain)
+        self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
         self.x[list(self.places.values())] = 0.0
         phi = self.record.phi
         self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
@@ -154,7 +154,7 @@ class Segment:
         self.parts = within(s.stretches, self.first, self.last)
         self.k = np.empty(len(phi))
         for some, stretch in self.parts:
-            self.k[some] = scale_factor(s.chain, stretch.p)
+            self.k[some] = scale_factor(s.model, stretch.p)
         self.bare = self.output()
 
     @cached_property

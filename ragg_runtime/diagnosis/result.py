@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.diagnosis.next_motion import Proposal
 from ragg_runtime.diagnosis.ranking import NotTestable, Ranked
 from ragg_runtime.fit.fitted import Fitted, Scored
+from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.lack_of_fit import as_effect
 from ragg_runtime.lack_of_fit.features import channel_unit
@@ -39,6 +40,15 @@ class Diagnosis:
     target: Fitted
     coefficients: Array
     next_motion: tuple[Proposal, ...]
+    complaint: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+    staged: bool = False
+    """Whether what was found was derived into the model one after the other."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
+        return self.complaint is None
 
     @property
     def after(self) -> Error:
@@ -98,6 +108,9 @@ class Diagnosis:
     def as_json(self) -> dict[str, object]:
         return {
             "verdict": self.verdict,
+            "converged": self.converged,
+            "reason": self.complaint,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],

@@ -37,7 +37,7 @@ def online_values(c: Contents) -> str:
             f"FITTED_PARAMETERS = {len(fitted)}, START_AT_SHEET = {int(not start)} }};",
             "",
             "#ifdef RAGG_CHAIN_H /* for online.c alone */",
-            f"static const double SCALE_FACTOR = {scale_factor(c.chain, c.p):.17g}; /* V/Eo */",
+            f"static const double SCALE_FACTOR = {scale_factor(c.model, c.p):.17g}; /* V/Eo */",
             "static const double POINT[ONLINE_PARAMETERS] = {",
             *(f"    {float(x):.17g}," for x in c.p),
             "};",

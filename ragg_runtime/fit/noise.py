@@ -1,4 +1,4 @@
-"""The noise of a flight, estimated from what no column explains."""
+"""The noise of a flight: what neither the model nor any candidate effect explains of it."""
 
 from __future__ import annotations
 

@@ -28,6 +28,8 @@ from ragg_runtime.model_dir.history import Step, history_text, read_history
 __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
+MAPPING = "mapping.toml"
+"""How the columns of the instrument's flight files are read (see ``flight.mapping``); nothing but the user changes it."""
 Code = Mapping[str, str] | Path | None
 """Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
 
@@ -116,9 +118,14 @@ def load_model_dir(path: Path | str) -> ModelDir:
 
 
 def create_model_dir(
-    path: Path | str, text: str, *, generated: Code = None, history: tuple[Step, ...] = ()
+    path: Path | str,
+    text: str,
+    *,
+    generated: Code = None,
+    history: tuple[Step, ...] = (),
+    mapping: str | None = None,
 ) -> ModelDir:
-    """Make a model directory with this model.toml. It appears whole or not at all.
+    """Make a model directory with this model.toml (and mapping.toml). It appears whole or not at all.
 
     Raises UserError if ``path`` exists and is not an empty directory, or if ``text`` is no good model.toml.
     """
@@ -138,6 +145,8 @@ def create_model_dir(
         raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
     try:
         _stage(staging, text, generated, history)
+        if mapping is not None:
+            (staging / MAPPING).write_bytes(mapping.encode())
         for place in sorted(staging.rglob("*"), reverse=True):
             sync(place)
         staging.chmod(parent.stat().st_mode & 0o777)

@@ -70,6 +70,8 @@ def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Co
     a, b, n = (
         numbers.number(x) for x in (before.calibrated.rms_Eo, after.calibrated.rms_Eo, after.noise_floor)
     )
+    if after.complaint is not None:
+        return f"Nothing was added: {numbers.clean(after.complaint)}."
     fell = after.calibrated.rms_Eo < 0.995 * before.calibrated.rms_Eo
     rose = after.calibrated.rms_Eo > 1.005 * before.calibrated.rms_Eo
     moved = f"the error falls from {a} to {b} Eo" if fell else f"the error stays {b} Eo"

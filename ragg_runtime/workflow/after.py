@@ -18,7 +18,14 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
-from ragg_runtime.compensation.compensate import Compensated, Kind, meaning, prepared, without_gradients
+from ragg_runtime.compensation.compensate import (
+    Compensated,
+    Kind,
+    meaning,
+    papers_only,
+    prepared,
+    without_gradients,
+)
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
@@ -182,6 +189,7 @@ def compensate(
 
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
+    papers_only(m.instrument)
     saved, origin = None, "values of model.toml, not calibrated"
     if m.directory.calibration is not None:
         try:

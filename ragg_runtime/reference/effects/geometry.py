@@ -16,11 +16,14 @@ Array = NDArray[np.float64]
 Kinematics: TypeAlias = Literal["platform", "full"]
 
 
-def disc_angle(nominal: Taylor, error: Array, effects: Injected) -> Taylor:
+def disc_angle(nominal: Taylor, time: Array, error: Array, effects: Injected) -> Taylor:
     """True angle of the disc where the model believes ``nominal`` (N,) rad; ``error`` is the random part."""
     phi = nominal
     if offset := effects.get("spin-phase-offset"):
         phi = phi + offset["phi_0"]
+    if fast := effects.get("spin-rate-offset"):
+        gained = fast["epsilon"] * nominal.first
+        phi = phi + Taylor(gained * time, gained, np.zeros_like(gained))
     if encoder := effects.get("encoder-harmonic"):
         for n in (1, 2, 3, 4):
             turned = nominal * float(n)
