@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -142,6 +142,7 @@ DEMODULATORS: Mapping[str, Callable[[float], Demodulator]] = MappingProxyType(
 """Name -> demodulator at a sampling rate, Hz."""
 
 
+@cache
 def demodulator(name: str, rate: float) -> Demodulator:
     """The demodulator of this name; UserError if there is none."""
     if name not in DEMODULATORS:

@@ -11,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntFlag
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.demodulators import Demodulator
+from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.schedule import Stretch, within
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.model.evaluate import EOTVOS, scale_factor
@@ -33,9 +34,12 @@ HOLES = 0.05
 BRIDGES = 2
 """Times that holes are filled with the gradient found: what remains is the share of the holes to this power + 1."""
 
-STEP = 1e-2
-"""Standard deviations of a difference that is a derivative: the second order falls out, the third is 1e-4 of itself,
-and rounding stays below 1e-4 Eo."""
+STEP = 1e-5
+"""Standard deviations of a difference that is a derivative: what is of second order (up to 1000 Eo a standard deviation
+of the sheet) stays below 0.01 Eo, rounding (3e-7 Eo) over it below 0.03 Eo a sample, of which the low-pass leaves a tenth."""
+
+FINE = 4.0
+"""Rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz."""
 
 MARGIN = 0.1
 """By this share of its calibrated range a channel may go beyond it before that is flagged."""
@@ -153,11 +157,16 @@ class Segment:
             self.k[some] = scale_factor(s.model, stretch.p)
         self.bare = self.output()
 
-    def output(self, direction: int = 0, step: float = 0.0) -> Array:
-        """G_out (N,), V, of the present inputs; with the parameters so many standard deviations off in one direction."""
+    @cached_property
+    def reference(self) -> Array:
+        """G_out (N,), V, from which directions are counted; asked for once the gradient is put in."""
+        return self.output(0, 0.0)
+
+    def output(self, direction: int | None = None, step: float = 0.0) -> Array:
+        """G_out (N,), V, of the present inputs; or so many standard deviations from ``about`` in one direction."""
         G = np.empty(len(self.k))
         for some, stretch in self.parts:
-            p = stretch.about + step * stretch.directions[direction] if step else stretch.p
+            p = stretch.p if direction is None else stretch.about + step * stretch.directions[direction]
             part = (self.record.time[some], self.x[:, some], p, self.record.phi[some], 1)
             G[some] = self.s.evaluator.output(*part)
         return G
@@ -202,8 +211,33 @@ class Segment:
         return len(self.parts[0][1].directions)
 
     def by_parameters(self, k: int) -> Complex:
-        """(N,) Eo: how the gradient changes, to first order, a standard deviation along direction k of the parameters."""
-        return self.demodulated((self.output(k, STEP) - self.output(k, -STEP)) / (2 * STEP))
+        """How the gradient changes, to first order, a standard deviation along direction k of the parameters, Eo.
+
+        Of every so many samples the mean enters (:data:`FINE`), for the centres of these; how sure a value is, is no
+        matter of its last digits.
+        """
+        few, d = self.fewer
+        count = len(self.k) // few
+        mixed = (self.output(k, STEP) - self.reference) / STEP * self.mixer / self.k
+        return d.low_passed(np.mean(mixed[: count * few].reshape(count, few), axis=1))
+
+    @property
+    def fewer(self) -> tuple[int, Demodulator]:
+        """Samples of which the mean enters the uncertainty, and the low-pass at that rate."""
+        d = self.s.demodulator
+        few = max(1, int(d.rate // FINE))
+        return few, demodulator(d.name, d.rate / few)
+
+    def variance(self) -> Array:
+        """(2, N) Eo^2: of inline and cross, by the parameters."""
+        few, _ = self.fewer
+        total = np.zeros((2, len(self.k) // few))
+        for k in range(self.directions()):
+            d = self.by_parameters(k)
+            total += np.stack([d.real**2, d.imag**2])
+        at = np.arange(len(self.k))
+        centres = (np.arange(total.shape[1]) + 0.5) * few - 0.5
+        return np.stack([np.interp(at, centres, v) for v in total])
 
     def raw(self) -> Complex:
         """(N,) Eo: the channels without any compensation."""
@@ -250,10 +284,7 @@ def series(s: Setting, rows: slice, *, holes: bool) -> Series:
     """Compensate one segment."""
     segment = Segment(s, rows, holes=holes)
     g = segment.gradient()[segment.own]
-    variance = np.zeros((2, len(g)))
-    for k in range(segment.directions()):
-        d = segment.by_parameters(k)[segment.own]
-        variance += np.stack([d.real**2, d.imag**2])
+    variance = segment.variance()[:, segment.own]
     bits = segment.quality()[segment.own]
     none = (bits & (Quality.EDGE | Quality.GAP)) != 0
     noise = np.array(s.noise)[:, None]
@@ -278,8 +309,10 @@ def basis(s: Setting, samples: Sequence[slice], neglected: float) -> Array:
     for some in samples:
         segment = Segment(s, some, holes=False)
         segment.gradient()
-        step = max(1, int(s.demodulator.rate))  # the channels do not change within a second
-        found = np.stack([segment.by_parameters(k)[segment.own][::step] for k in range(segment.directions())])
+        few, coarse = segment.fewer
+        step = max(1, int(coarse.rate))  # the channels do not change within a second
+        inside = slice(-(-segment.own.start // few), segment.own.stop // few, step)
+        found = np.stack([segment.by_parameters(k)[inside] for k in range(segment.directions())])
         rows.append(np.concatenate([found.real / s.noise[0], found.imag / s.noise[1]], axis=1))
     D = np.concatenate(rows, axis=1)
     U, _, _ = np.linalg.svd(D, full_matrices=False)
