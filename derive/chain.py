@@ -12,10 +12,23 @@ from dataclasses import dataclass
 import sympy as sp
 
 from derive import stages
-from derive.context import Context
+from derive.context import OMEGA, Context
 from derive.effect import Effect
-from derive.stages import PAPER, Force, Geometry, Motion, Order, SensedForce
-from derive.symbols import ACCELEROMETER, COS_J, COS_PHI, MOTION, SIN_J, SIN_PHI, Channel, symbol
+from derive.layout import AXES, HEIGHT, TURN, Layout
+from derive.layout import PAPER as FOUR
+from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
+from derive.symbols import (
+    ACCELEROMETER,
+    COS_J,
+    COS_PHI,
+    MOTION,
+    SIN_J,
+    SIN_PHI,
+    SPIN_ACCELERATION,
+    SPIN_RATE,
+    Channel,
+    symbol,
+)
 from derive.tape import Tape
 
 
@@ -37,20 +50,28 @@ class Accelerometer:
 
 
 def accelerometer(
-    effects: Sequence[Effect] = (), order: Order = PAPER, tape: Tape | None = None
+    effects: Sequence[Effect] = (),
+    order: Order = PAPER,
+    tape: Tape | None = None,
+    kinematics: Kinematics = "platform",
+    layout: Layout = FOUR,
 ) -> Accelerometer:
-    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
+    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
+
+    From the end of the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    """
     tape = Tape() if tape is None else tape
     let = tape.let
     hooked = [(e, e.values) for e in effects]
 
     # 1 sensing
-    c = Context(tape, recorded_motion())
+    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
     for e, p in hooked:
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
-    M = stages.gradient(c.motion).applyfunc(sp.sympify)
-    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
+    if layout.has(AXES[0, 0]):
+        c.axes = AXES
+        c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
 
     # 2 geometry
     increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
@@ -59,15 +80,27 @@ def accelerometer(
         cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
         c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
         c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
+        swing = let("rate_delta_phi", c.rate(d))
+        c.spin = Spin(
+            let("spin_rate_true", SPIN_RATE + swing),
+            let("spin_acceleration_true", SPIN_ACCELERATION + c.rate(swing)),
+        )
+    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
+    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
+    height = HEIGHT if layout.has(HEIGHT) else sp.Integer(0)
+    turn = TURN if layout.has(TURN[0, 0]) else None
+    rigid, lifted = symbol("dR"), (0, 0, height)
 
     def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
-        g = stages.mounting(symbol("radius") + k["dR"], order=order, **angles)
+        g = stages.mounting(
+            symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles
+        )
         g = _named_geometry(let, f"{label}_disc", g)
         g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
         for e, p in hooked:
@@ -78,6 +111,15 @@ def accelerometer(
         for e, p in hooked:
             if e.field:
                 f = f + e.field(g.r, p, c)
+        if k["dR"] != rigid:
+            arm = sp.Matrix(
+                [
+                    let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / (symbol("radius") + k["dR"]))
+                    for n in range(3)
+                ]
+            )
+            growth = c.rate(k["dR"])
+            f = f + stages.of_growing_arm(c.case, arm, growth, c.rate(growth))
         f = sp.Matrix([let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
         resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
         if label == "q":

@@ -7,12 +7,25 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
-from derive.stages import Force, Geometry, Motion, SensedForce
-from derive.symbols import COS_PHI, MOTION, SIN_PHI, TIME, local, symbol
+from derive import stages
+from derive.stages import Force, Geometry, Motion, SensedForce, Spin
+from derive.symbols import (
+    COS_PHI,
+    MOTION,
+    SIN_PHI,
+    SPIN_ACCELERATION,
+    SPIN_RATE,
+    TIME,
+    local,
+    symbol,
+)
 from derive.tape import Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
-"""Angular rate of the disc, rad/s."""
+"""Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
+
+RECORDED_SPIN = Spin(SPIN_RATE, SPIN_ACCELERATION)
+"""The spin by the recorded disc angle."""
 
 DERIVATIVE_OF: Mapping[str, str] = {f"omega_{k}": f"omegadot_{k}" for k in "xyz"}
 _STATIONARY = frozenset({"Gamma", "temperature", "pressure"})
@@ -23,7 +36,8 @@ class Context:
     """What a hook may ask for, beyond its stage's own values.
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
-    the stage ``instrument`` sees the force of the unchanged instrument.
+    the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
+    angle, ``case`` the motion of what stands on the disc.
     """
 
     tape: Tape
@@ -36,6 +50,28 @@ class Context:
     parameters: Mapping[str, sp.Expr] = field(default_factory=dict)
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
+    spin: Spin = RECORDED_SPIN
+    axes: sp.Matrix | None = None
+
+    def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
+
+        These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
+        """
+        if self.axes is None:
+            return v
+        return self.axes.T * v if v.shape[1] == 1 else self.axes.T * v * self.axes
+
+    def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """The other way round."""
+        if self.axes is None:
+            return v
+        return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
+
+    @property
+    def case(self) -> Motion:
+        """The motion of the accelerometers' cases, which turn with the disc."""
+        return stages.of_disc(self.motion, self.spin)
 
     def channel(self, name: str) -> sp.Symbol:
         """A recorded channel by its column name."""
@@ -48,7 +84,16 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e, strict=True), _symbol_rate)
+        return self.tape.rate(sp.sympify(e, strict=True), self._symbol_rate)
+
+    def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
+        if s == COS_PHI:
+            return -self.Omega * SIN_PHI
+        if s == SIN_PHI:
+            return self.Omega * COS_PHI
+        if s == SPIN_RATE:
+            return SPIN_ACCELERATION  # whose own rate is left out: no disc jerks so that it would show
+        return _rate_of_channel(s)
 
     def shifted(self, e: sp.Expr, delta: sp.Expr) -> sp.Expr:
         """``e`` at the instant t + delta, to second order in delta."""
@@ -56,14 +101,15 @@ class Context:
         return e + delta * first + delta**2 / 2 * self.rate(first)
 
 
-def _symbol_rate(s: sp.Symbol) -> sp.Expr:
-    if s == COS_PHI:
-        return -OMEGA * SIN_PHI
-    if s == SIN_PHI:
-        return OMEGA * COS_PHI
+_MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)
+
+
+def _rate_of_channel(s: sp.Symbol) -> sp.Expr:
+    name = s.name
     if s == TIME:
         return sp.Integer(1)
-    name = s.name
+    if s == SPIN_ACCELERATION:
+        return sp.Integer(0)
     if name in DERIVATIVE_OF:
         return symbol(DERIVATIVE_OF[name])
     if name in _MOVING:
@@ -71,6 +117,3 @@ def _symbol_rate(s: sp.Symbol) -> sp.Expr:
     if name.startswith("d_") and name[2:] in _MOVING:
         return symbol(f"d2_{name[2:]}")
     return sp.Integer(0)  # constants, and what varies slowly (gradients, temperature)
-
-
-_MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Literal
 
 import sympy as sp
 
-from derive.stages import Geometry, Motion, SensedForce
+from derive.stages import Geometry, Kinematics, Motion, Order, SensedForce
 from derive.symbols import symbol
 
 if TYPE_CHECKING:
@@ -112,6 +112,8 @@ class Effect:
         (q, f, p, c) -> force that the second-order terms see; f is the full sensed force.
     transducer
         (i, f, p, c) -> I_j/K_j1, m/s^2, from that of Eq. 1.
+    moot
+        (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
     """
 
     id: str
@@ -130,6 +132,7 @@ class Effect:
     instrument: Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]] | None = None
     second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
+    moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
 
     def __post_init__(self) -> None:
         if not ID.fullmatch(self.id):

@@ -36,7 +36,8 @@ def difference(root: Path) -> str:
     parts = []
     for folder, files in below(root).items():
         if folder == GENERATED:
-            files = {**files, MANIFEST: _with_version(files[MANIFEST], committed_with(root))}
+            version = committed_with(root)
+            files = {n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in files.items()}
         found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
         if found:
             parts.append(f"{folder}/ differs from the derivation:\n{found}")

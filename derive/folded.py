@@ -18,10 +18,11 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
-from derive.chain import accelerometer, recorded_motion
+from derive.chain import accelerometer, auxiliary_channel, recorded_motion
+from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
-from derive.stages import PAPER, Order
+from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import (
     COS_J,
     COS_PHI,
@@ -31,6 +32,8 @@ from derive.symbols import (
     SIGNS,
     SIN_J,
     SIN_PHI,
+    SPIN_ACCELERATION,
+    SPIN_RATE,
     Channel,
     Parameter,
     symbol,
@@ -45,6 +48,10 @@ TURNED: tuple[str, ...] = (
     *(f"M_{i}{k}" for i in DIRECTIONS for k in DIRECTIONS),
 )  # fmt: skip
 """a and M along the directions of the turning disc; a_z and M_zz are those of the measurement frame."""
+
+
+SPIN_CHANNELS = tuple(auxiliary_channel(n) for n in sorted((SPIN_RATE.name, SPIN_ACCELERATION.name)))
+"""Rate and acceleration of the disc angle, which full kinematics need, in the order in which a chain has them."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +90,7 @@ class Folded:
     parameters: tuple[Parameter, ...] = INSTRUMENT
 
 
-def folded(name: str, title: str, order: Order = PAPER) -> Folded:
+def folded(name: str, title: str, order: Order = PAPER, kinematics: Kinematics = "platform") -> Folded:
     """Derive the folded form under an order counting (``order.rotation`` must be finite)."""
     own = _standing(order)
     expressions: dict[sp.Expr, int] = {}
@@ -98,7 +105,15 @@ def folded(name: str, title: str, order: Order = PAPER) -> Folded:
                     sums.setdefault(target, []).append(Part(sign * turned_sign, number, j))
     keys = sorted(sums, key=lambda m: (sum(m), tuple(-k for k in m)))
     value = _nested({m: symbol(f"c[{n}]") for n, m in enumerate(keys)}, 0)
-    return Folded(name, title, tuple(expressions), tuple(tuple(sums[m]) for m in keys), _numbers(), value)
+    return Folded(
+        name=name,
+        title=title,
+        expressions=tuple(expressions),
+        coefficients=tuple(tuple(sums[m]) for m in keys),
+        numbers=_numbers(kinematics),
+        value=value,
+        inputs=MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS),
+    )
 
 
 def _standing(order: Order) -> Mapping[tuple[int, ...], PolyElement]:
@@ -173,7 +188,7 @@ def _nested(terms: Mapping[tuple[int, ...], sp.Symbol], first: int) -> sp.Expr:
     return total
 
 
-def _numbers() -> Program:
+def _numbers(kinematics: Kinematics) -> Program:
     """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
     tape = Tape()
     motion = recorded_motion()
@@ -181,6 +196,12 @@ def _numbers() -> Program:
     M = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{'xyz'[k]}", gradient[i, k]))
     spin = _spin()
     half = M * spin  # along x, y, z of what a step along r, t, z changes
-    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
-    outputs = zip(TURNED, (*(spin.T * motion.a), *(spin.T * half)), strict=True)
+    label = "M" if kinematics == "platform" else "of_platform"  # M_zr is in full kinematics more than that
+    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"{label}_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
+    turned = spin.T * half
+    if (
+        kinematics == "full"
+    ):  # what the spin adds looks from the disc as from the platform: its large part stays exact
+        turned += stages.spin_gradient(motion._replace(omega=spin.T * motion.omega), RECORDED_SPIN)
+    outputs = zip(TURNED, (*(spin.T * motion.a), *turned), strict=True)
     return simplify(tape.assignments, outputs, {})

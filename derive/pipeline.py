@@ -6,9 +6,11 @@ with a list of effects. Both are pure: a mapping from path to text, the same byt
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import sympy
 
@@ -17,7 +19,10 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import render
 from derive.folded import Folded, folded
+from derive.layout import PAPER as FOUR
+from derive.layout import Layout
 from derive.propagation import collect, ideal
+from derive.stages import PAPER, Kinematics, Order
 from derive.transduction import starred
 
 FORMAT = 1
@@ -25,27 +30,66 @@ FORMAT = 1
 
 Files = Mapping[str, str]
 
+FULL = "full"
+"""Folder of the packaged model of full kinematics."""
+
+
+@dataclass(frozen=True)
+class Form:
+    """What a model keeps: at which order, and whose rotation its accelerometers feel."""
+
+    order: Order = PAPER
+    kinematics: Kinematics = "platform"
+    layout: Layout = FOUR
+
+
+PAPERS = Form()
+
 
 def derive_base() -> Files:
-    """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest."""
+    """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest.
+
+    In the folder ``full`` the model that feels the disc's own turning, at the paper's order: chain, folded form,
+    signatures.
+    """
     from derive.simplify import simplified
 
-    return _derive(
-        (),
-        catalogue(),
-        ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19)."),
-        ir.harmonic(
-            simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
-        ),
+    analytical = ir.harmonic(collect(), "analytical", "The analytical model of the RAGG (paper, Eq. 16-19).")
+    simple = ir.harmonic(
+        simplified(), "simplified", "The simplified analytical model of the RAGG (paper, Eq. 42-47)."
     )
+    full = _derive(Form(kinematics="full"), (), catalogue(), packaged=True)
+    below = {f"{FULL}/{name}": text for name, text in full.items()}
+    own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
+    return dict(sorted({**own, **below}.items()))
 
 
-def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect]) -> Files:
+def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
-    return _derive(effects, candidates)
+    return _derive(form, effects, candidates)
 
 
-def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics: ir.Harmonic) -> Files:
+def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
+    """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
+    (chain, *_) = _chains(form, effects, ())
+    header, source = render.plain_c(chain)
+    return {"plain.h": header, "plain.c": source}
+
+
+def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
+    """The effects that a model of this form does not hold already."""
+    return tuple(e for e in candidates if not e.moot(form.order, form.kinematics))
+
+
+def _derive(
+    form: Form,
+    effects: Sequence[Effect],
+    candidates: Sequence[Effect],
+    *harmonics: ir.Harmonic,
+    packaged: bool = False,
+    below: Sequence[str] = (),
+) -> Files:
+    candidates = offered(candidates, form)
     files: dict[str, str] = {}
     for m in harmonics:
         files[f"{m.name}.py"] = render.harmonic_numpy(m)
@@ -53,50 +97,79 @@ def _derive(effects: Sequence[Effect], candidates: Sequence[Effect], *harmonics:
         files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
     if harmonics:
         files["latex/paper.tex"] = render.paper_latex(starred(), ideal(collect()))
-        forms = [
-            folded("folded", "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15).")
-        ]
-    else:
-        forms = []
+    forms = [_folded(form)] if packaged else []
     for f in forms:
         files[f"{f.name}.py"] = render.folded_numpy(f)
         files[f"c/{f.name}.h"], files[f"c/{f.name}.c"] = render.folded_c(f)
+    chains = _chains(form, effects, candidates)
+    for c in chains:
+        files[f"{c.name}.py"] = render.chain_numpy(c)
+        # The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere.
+        if packaged or c.name == "chain":
+            files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
+    every = [*candidates, *(e for e in effects if e not in candidates)]
+    return _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
+
+
+def _folded(form: Form) -> Folded:
+    title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
+    title += ")." if form.kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
+    return folded("folded", title, form.order, form.kinematics)
+
+
+def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.Chain]:
     active = [e for e in effects if e.kind in ("deterministic", "step")]
-    chains = [ir.chain(active, "chain", "The instrument as a chain of stages (paper, Eq. 1-15).")]
+    title = "The instrument as a chain of stages (paper, Eq. 1-15)."
+    chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
-        chains.append(ir.chain(active, "signatures", title, candidates=open_))
-    for c in chains:
-        files[f"{c.name}.py"] = render.chain_numpy(c)
-        # The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere.
-        if harmonics or c.name == "chain":
-            files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
-    every = [*candidates, *(e for e in effects if e not in candidates)]
-    return _complete(files, effects, every, [*harmonics, *forms, *chains])
+        chains.append(
+            ir.chain(
+                active,
+                "signatures",
+                title,
+                form.order,
+                candidates=open_,
+                kinematics=form.kinematics,
+                layout=form.layout,
+            )
+        )
+    return chains
 
 
 def _complete(
+    form: Form,
     files: dict[str, str],
     effects: Sequence[Effect],
     candidates: Sequence[Effect],
     models: Sequence[ir.Harmonic | ir.Chain | Folded],
+    below: Sequence[str],
 ) -> Files:
-    """Add the package file and the manifest, which names everything that was derived."""
+    """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
     files["__init__.py"] = render.render("init.py.j2", modules=sorted(m.name for m in models))
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
     manifest: dict[str, object] = {
         "format": FORMAT,
         "sympy": sympy.__version__,
         "digest": hashlib.sha256(text.encode()).hexdigest(),
+        **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],
-        "files": sorted([*files, "manifest.json"]),
+        "files": sorted([*files, *below, "manifest.json"]),
         "models": {m.name: ir.manifest_of_model(m) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }
     files["manifest.json"] = manifest_text(manifest)
     return dict(sorted(files.items()))
+
+
+def _told(form: Form) -> Mapping[str, object]:
+    """A form in the manifest; the paper's layout is not worth a word."""
+    told = dataclasses.asdict(form)
+    if form.layout.is_paper:
+        del told["layout"]
+    return told
 
 
 def manifest_text(manifest: Mapping[str, object]) -> str:

@@ -20,8 +20,9 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from derive import stages
 from derive.chain import accelerometer, recorded_motion
+from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
-from derive.stages import PAPER, Order
+from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import COS_J, COS_PHI, QUARTER_TURNS, SIGNS, SIN_J, SIN_PHI, symbol
 
 Combination = Literal["D12", "D34", "D1234", "Sigma"]
@@ -72,9 +73,10 @@ def _numbers_of_gradient() -> dict[str, sp.Expr]:
 
 
 @cache
-def motion_numbers() -> dict[str, sp.Expr]:
-    """T_1 ... T_6 and S_1 ... S_5 in omega, omegadot and Gamma, s^-2 (Eq. 16)."""
-    M = stages.gradient(recorded_motion())
+def motion_numbers(kinematics: Kinematics = "platform") -> dict[str, sp.Expr]:
+    """T_1 ... T_6 and S_1 ... S_5 in omega, omegadot and Gamma, s^-2 (Eq. 16); in full kinematics in phi', phi'' too."""
+    motion = recorded_motion()
+    M = stages.gradient(motion if kinematics == "platform" else stages.of_disc(motion, RECORDED_SPIN))
     entries = {symbol(f"M_{'xyz'[i]}{'xyz'[k]}"): M[i, k] for i in range(3) for k in range(3)}
     return {name: sp.expand(e.xreplace(entries)) for name, e in _numbers_of_gradient().items()}
 
@@ -123,7 +125,10 @@ _ALL = PolyRing([symbol(n) for n in COEFFICIENT_PARAMETERS + MOTION_NUMBERS], QQ
 
 @cache
 def collect(order: Order = PAPER) -> Collected:
-    """Derive Eq. 17-19 under an order counting (``order.rotation`` must be finite)."""
+    """Derive Eq. 17-19 under an order counting (``order.rotation`` must be finite).
+
+    They hold for either kinematics: the spin is in the motion numbers alone.
+    """
     a = accelerometer((), order)
     known: dict[sp.Symbol, Series] = {}
     known[COS_PHI], known[SIN_PHI] = rotating(_ALL)

@@ -14,7 +14,7 @@ this, too, is what Eq. 19 requires (see the audit for the proof of both).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 import sympy as sp
 
@@ -46,6 +46,10 @@ class Order:
 PAPER = Order()
 EXACT = Order(rotation=None, misalignment=None, second_order_angles=True)
 
+Kinematics: TypeAlias = Literal["platform", "full"]
+"""Whose rotation the accelerometers feel: ``platform``, that of the measurement frame alone (Eq. 9 and 49);
+``full``, that of the disc on which they ride, which turns against it."""
+
 
 class Motion(NamedTuple):
     """Stage 1, at the disc centre: a (3), omega (3), omegadot (3), Gamma (3 x 3, symmetric)."""
@@ -54,6 +58,13 @@ class Motion(NamedTuple):
     omega: Vector
     omegadot: Vector
     Gamma: sp.Matrix
+
+
+class Spin(NamedTuple):
+    """How the disc turns in the measurement frame, about its z axis: phi' and phi''."""
+
+    rate: sp.Expr
+    acceleration: sp.Expr
 
 
 class Geometry(NamedTuple):
@@ -106,12 +117,30 @@ _RADIAL, _TANGENTIAL, _AXIAL = sp.Matrix([1, 0, 0]), sp.Matrix([0, 1, 0]), sp.Ma
 _NOMINAL_TRIAD = sp.Matrix([[0, 1, 0], [1, 0, 0], [0, 0, -1]])
 
 
-def mounting(R: sp.Expr, beta_x: sp.Expr, beta_z: sp.Expr, order: Order = PAPER) -> Geometry:
-    """Position and triad in the disc frame (radial, tangential, axial) of the nominal position."""
+def mounting(
+    R: sp.Expr,
+    beta_x: sp.Expr,
+    beta_z: sp.Expr,
+    order: Order = PAPER,
+    height: sp.Expr | int = 0,
+    turn_of_triad: sp.Matrix | None = None,
+) -> Geometry:
+    """Position and triad in the disc frame (radial, tangential, axial) of the nominal position.
+
+    ``height`` is along the axis; ``turn_of_triad`` turns the nominal triad of the paper (``None``: not at all).
+    """
     about_axis = turn(_AXIAL, beta_z, order.rotation)
     lift = turn(_TANGENTIAL, -beta_x, order.rotation)
     dip = turn(_TANGENTIAL, beta_x, order.rotation)
-    return Geometry(R * about_axis * lift * _RADIAL, (about_axis * dip * _NOMINAL_TRIAD.T).T)
+    nominal = _NOMINAL_TRIAD.T if turn_of_triad is None else turn_of_triad * _NOMINAL_TRIAD.T
+    position = R * about_axis * lift * _RADIAL
+    return Geometry(position if height == 0 else position + height * _AXIAL, (about_axis * dip * nominal).T)
+
+
+def in_frame(m: Motion, axes: sp.Matrix) -> Motion:
+    """The motion by other axes: the columns of ``axes`` (3 x 3)."""
+    to = axes.T
+    return Motion(to * m.a, to * m.omega, to * m.omegadot, to * m.Gamma * axes)
 
 
 def to_measurement_frame(g: Geometry, cosine: sp.Expr, sine: sp.Expr) -> Geometry:
@@ -124,6 +153,31 @@ def gradient(m: Motion) -> sp.Matrix:
     """M = [omegadot]x + [omega]x [omega]x - Gamma, so that f = a + M r (Eq. 9-11)."""
     w = skew(m.omega)
     return skew(m.omegadot) + w * w - m.Gamma
+
+
+def of_disc(m: Motion, spin: Spin) -> Motion:
+    """The motion of the disc itself, which is that of the accelerometers' cases, by measurement axes.
+
+    Rates add. So do angular accelerations, but the spin axis is carried along by the platform: omega x Omega.
+    Where the spin is at rest in the measurement frame, this is the motion of the platform.
+    """
+    return m._replace(
+        omega=m.omega + spin.rate * _AXIAL,
+        omegadot=m.omegadot + spin.acceleration * _AXIAL + m.omega.cross(spin.rate * _AXIAL),
+    )
+
+
+def spin_gradient(m: Motion, spin: Spin) -> sp.Matrix:
+    """What the spin adds to M: Coriolis, centripetal and Euler terms that Eq. 9 leaves out, s^-2."""
+    return (gradient(of_disc(m, spin)) - gradient(m)).applyfunc(sp.expand)
+
+
+def of_growing_arm(case: Motion, arm: Vector, growth: sp.Expr, acceleration: sp.Expr) -> Vector:
+    """Specific force at the end of an arm (unit vector) whose length changes: Coriolis, and its own acceleration.
+
+    ``growth`` and ``acceleration`` are the first and second time derivative of the length, m/s and m/s^2.
+    """
+    return 2 * growth * case.omega.cross(arm) + acceleration * arm
 
 
 def specific_force(a: Vector, M: sp.Matrix, g: Geometry) -> Force:

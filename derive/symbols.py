@@ -32,13 +32,14 @@ class Channel:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A constant of the instrument: one value, or one for each accelerometer (A1, A2, A3, A4)."""
+    """A constant of the instrument: one value, or one for each of its ``count`` accelerometers (A1, A2, A3, A4)."""
 
     name: str
     latex: str
     unit: str
     meaning: str
     shared: bool = False
+    count: int = 4
 
     @property
     def symbol(self) -> sp.Symbol:
@@ -46,8 +47,8 @@ class Parameter:
 
     @property
     def size(self) -> int:
-        """Number of values: 1 if shared, else 4."""
-        return 1 if self.shared else 4
+        """Number of values: 1 if shared, else one for each accelerometer."""
+        return 1 if self.shared else self.count
 
 
 def symbol(name: str) -> sp.Symbol:
@@ -116,8 +117,13 @@ TIME = symbol("time")
 AUXILIARY: tuple[str, ...] = ("temperature", "pressure", "roll", "pitch", "B_x", "B_y", "B_z")
 """Channels beyond the motion that packaged effects need."""
 
-RATES: tuple[str, ...] = tuple(f"{d}_{c.name}" for d in ("d", "d2") for c in MOTION)
-"""First and second time derivatives of the motion: formed from it, never read from a file."""
+RATES: tuple[str, ...] = (
+    *(f"{d}_{c.name}" for d in ("d", "d2") for c in MOTION),
+    *(f"d_{name}" for name in AUXILIARY),
+    "d_spin_angle",
+    "d2_spin_angle",
+)
+"""First and second time derivatives of the motion and of the disc angle: formed from it, never read from a file."""
 
 _COLUMN = "C__"
 _OWN = frozenset((*(c.name for c in MOTION), *AUXILIARY, *RATES))
@@ -142,3 +148,7 @@ def column_of(name: str) -> str:
 def is_taken(name: str) -> bool:
     """Whether an intermediate value must not have this name: an input has it, or the emitters make it of one."""
     return name in _INPUTS or name.startswith(("in_", "out_", _COLUMN))
+
+
+# Rate and acceleration of the disc angle: of the encoder, or 2 pi spin_frequency and zero where there is none.
+SPIN_RATE, SPIN_ACCELERATION = symbol("d_spin_angle"), symbol("d2_spin_angle")

@@ -38,6 +38,8 @@ def partials(e: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
             for n, part in enumerate(e.args):
                 if not part.is_Number:
                     descend(part, sp.Mul(factor, *e.args[:n], *e.args[n + 1 :]))
+        elif isinstance(e, sp.Heaviside):
+            pass  # flat but at the instant of the step itself
         elif e.is_Pow and e.exp.is_Number:
             descend(e.base, sp.Mul(factor, e.exp, sp.Pow(e.base, e.exp - 1)))
         else:

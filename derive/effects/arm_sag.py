@@ -26,8 +26,14 @@ EFFECT = Effect(
         "distance of the accelerometer from the centre."
     ),
     source="linear elasticity of the disc",
-    equation=r"R_j \leftarrow R_j + c_z f_z",
-    limits="Static and linear; f_z is along tau_z, which points down. Its tilt is mount-compliance.",
+    equation=(
+        r"R_j \leftarrow R_j + c_z f_z,\; \bm f_j \mathrel{+}= 2\,(\bm\omega_{im} + \dot\phi\,\bm e_z)"
+        r" \times \dot R_j \bm e_r + \ddot R_j \bm e_r"
+    ),
+    limits=(
+        "Linear, without resonance; f_z is along tau_z, which points down. Its tilt is mount-compliance. While the "
+        "axial force changes, so does the radius, and the turning disc adds the Coriolis force of that velocity."
+    ),
     parameters=(EffectParameter("c_z", "c_z", "um/g", "lengthening per axial specific force", 0.1),),
     instrument=instrument,
 )

@@ -23,10 +23,14 @@ EFFECT = Effect(
     title="Elastic stretch of the arm",
     physics="The mount between disc and accelerometer yields to the specific force along the radius.",
     source="linear elasticity of the mount",
-    equation=r"R_j \leftarrow R_j + c_r f_y",
+    equation=(
+        r"R_j \leftarrow R_j + c_r f_y,\; \bm f_j \mathrel{+}= 2\,(\bm\omega_{im} + \dot\phi\,\bm e_z)"
+        r" \times \dot R_j \bm e_r + \ddot R_j \bm e_r"
+    ),
     limits=(
-        "Static and linear, with the force at the unstretched position; the velocity and acceleration of the "
-        "yielding itself are left out."
+        "Linear, without resonance, with the force at the unstretched position. A steady horizontal force stretches "
+        "and releases the arm once a turn: what the stretch's own velocity feels on the turning disc (Coriolis) "
+        "exceeds what the longer arm does, and looks mostly like a scale factor."
     ),
     parameters=(EffectParameter("c_r", "c_r", "um/g", "stretch per radial specific force", 0.1),),
     instrument=instrument,

@@ -32,8 +32,9 @@ EFFECT = Effect(
     source="eccentricity and ripple errors of rotary encoders",
     equation=r"\phi \leftarrow \phi + \sum_{n=1}^4 c_n \cos n\phi + s_n \sin n\phi",
     limits=(
-        "Harmonics one to four; phi on the right is the recorded angle. The tangential force of an uneven "
-        "spin is left out."
+        "Harmonics one to four; phi on the right is the recorded angle. The force of an uneven spin, R phi'', "
+        "is in a model of full kinematics (or with disc-spin), with the true angle's derivatives: a disc that "
+        "swings about a steady angle feels it, one that turns steadily behind an uneven encoder does not."
     ),
     parameters=tuple(
         EffectParameter(f"{a}_{n}", f"{a}_{n}", "rad", f"{word} of harmonic {n}", 1e-5, shared=True)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
     assert c.geometry is not None
-    return i + p.K_pa * c.motion.omegadot.dot(c.geometry.tau[1, :])
+    return i + p.K_pa * c.case.omegadot.dot(c.geometry.tau[1, :])
 
 
 EFFECT = Effect(
@@ -26,11 +26,14 @@ EFFECT = Effect(
         "acceleration of its case about that axis has to be balanced like a force."
     ),
     source="IEEE Std 1293, angular-acceleration sensitivity of a pendulous accelerometer",
-    equation=r"I_j/K_{j1} \mathrel{+}= K_{pa}\, \dot{\bm\omega}_{im} \cdot \bm\tau_{jy}",
+    equation=(
+        r"I_j/K_{j1} \mathrel{+}= K_{pa}\, (\dot{\bm\omega}_{im} + \bm\omega_{im} \times \dot\phi\,\bm e_z"
+        r" + \ddot\phi\,\bm e_z) \cdot \bm\tau_{jy}"
+    ),
     limits=(
-        "Angular acceleration of the measurement frame, as in Eq. 9; what the spin adds to that of the case "
-        "(omega x Omega) is left out. It shifts the effective position of the accelerometer along z by "
-        "-K_pa in the omegadot terms, so that beta_x absorbs it but for omega^2 and the gradient."
+        "Angular acceleration of the case, which turns with the disc: that of the platform, and the turning of "
+        "the spin axis by the platform, omega x Omega, which is as large. In the omegadot terms it shifts the "
+        "effective position of the accelerometer along z by -K_pa, as beta_x does."
     ),
     parameters=(
         EffectParameter("K_pa", "K_{pa}", "ug/(rad/s^2)", "bias per angular acceleration about tau_y", 10.0),

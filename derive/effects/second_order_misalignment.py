@@ -36,4 +36,5 @@ EFFECT = Effect(
         ),
     ),
     second_order=second_order,
+    moot=lambda order, kinematics: order.second_order_angles,
 )

@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from derive.effect import Effect, EffectParameter, Values
-from derive.rotation import lean
-from derive.stages import Geometry
+from derive.rotation import small_rotation
+from derive.stages import Motion
 
 if TYPE_CHECKING:
     from derive.context import Context
 
 
-def geometry(g: Geometry, p: Values, c: Context) -> Geometry:
-    return lean(g, sp.Matrix([p.alpha_x, p.alpha_y, 0]), "tilt", c)
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    # Seen by a disc that leans by alpha, everything else leans by -alpha: the spin axis stays its z.
+    back = small_rotation(sp.Matrix([-p.alpha_x, -p.alpha_y, 0]), "tilt", c)
+    return Motion(back * m.a, back * m.omega, back * m.omegadot, back * m.Gamma * back.T)
 
 
 EFFECT = Effect(
@@ -23,12 +25,12 @@ EFFECT = Effect(
     title="Lean of the spin axis",
     physics=(
         "The disc's bearing is not along the z axis of the motion sensor: the plane in which the "
-        "accelerometers turn leans in the measurement frame."
+        "accelerometers turn leans in the measurement frame, and the spin with it."
     ),
     source="rigid-body kinematics",
     equation=(
         r"\bm r_j \leftarrow \bm R(\bm\alpha)\, \bm r_j,\; \bm\tau_j \leftarrow \bm R(\bm\alpha)\, \bm\tau_j,"
-        r"\; \bm\alpha = (\alpha_x, \alpha_y, 0)"
+        r"\; \bm e_z \leftarrow \bm R(\bm\alpha)\, \bm e_z,\; \bm\alpha = (\alpha_x, \alpha_y, 0)"
     ),
     limits=(
         "Rotation to second order in alpha. The same as turning the motion record back (imu-misalignment), "
@@ -38,5 +40,5 @@ EFFECT = Effect(
         EffectParameter(f"alpha_{k}", rf"\alpha_{k}", "rad", f"lean about measurement {k}", 1e-4, shared=True)
         for k in "xy"
     ),
-    geometry=geometry,
+    sensing=sensing,
 )

@@ -29,8 +29,8 @@ EFFECT = Effect(
         r" \bm w = w_x \bm e_r(\phi) + w_y \bm e_t(\phi)"
     ),
     limits=(
-        "Rotation to second order in w. To first order it is a pattern of the mounting angles of the four "
-        "accelerometers, so that beta_x and vartheta_y absorb it."
+        "Rotation to second order in w; the shaft about which the disc turns stays where it is. To first order it "
+        "is a pattern of the mounting angles of the four accelerometers, so that beta_x and vartheta_y absorb it."
     ),
     parameters=tuple(
         EffectParameter(

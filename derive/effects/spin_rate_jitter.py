@@ -27,8 +27,8 @@ EFFECT = Effect(
     source="angle noise of a spin servo",
     equation=r"\phi \leftarrow \phi + \delta\phi(t)",
     limits=(
-        "To first order in the angle, uncorrelated with the motion; the tangential force of the uneven spin "
-        "itself is common to the four accelerometers and left out."
+        "To first order in the angle, uncorrelated with the motion. The tangential force of the uneven spin "
+        "itself, R phi'', is common to the four accelerometers, stationary, and part of the noise of G_out."
     ),
     kind="random",
     parameters=(

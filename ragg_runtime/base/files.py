@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import hashlib
 import os
 import platform
+import re
 import secrets
 import shutil
+import stat
 import sys
+import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,35 +22,137 @@ from ragg_runtime.base.errors import UserError
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary file beside ``path`` that takes its place on success and vanishes on failure.
+    """A temporary file that takes the place of ``path`` on success and vanishes on failure.
 
-    Raises UserError where the folder is missing or cannot be written.
+    A device or a pipe at ``path`` is written to instead, never replaced. Raises UserError where the folder is
+    missing or cannot be written.
     """
-    temporary = temporary_name(path)
-    try:
-        clear_stale(path)
-        os.close(os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
-    except FileNotFoundError:
-        raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
-    except OSError as error:
-        raise UserError("the file cannot be written", where=path, found=error.strerror) from None
-    try:
-        # It is private so far; the file that is asked for has the rights of any new file, or its own.
-        os.chmod(temporary, path.stat().st_mode & 0o7777 if path.exists() else 0o666 & ~_umask())
-        yield temporary
-        sync(temporary)
-        os.replace(temporary, path)
-    except OSError as error:
-        raise UserError("the file cannot be written", where=path, found=error.strerror or error) from None
-    finally:
-        temporary.unlink(missing_ok=True)
-    sync(path.parent)
+    with contextlib.closing(Target(path)) as target:
+        try:
+            yield target.temporary
+        except OSError as error:
+            raise _unwritten(path, error) from None
+        target.prepare()
+        target.place()
+
+
+class Target:
+    """A file to be written: made and checked at once, prepared, put in its place, or given up by ``close``.
+
+    Attributes
+    ----------
+    path
+        Where it is to stand; a link to a file leads there.
+    temporary
+        Where it is written meanwhile: beside its place, so that a rename brings it there.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._mode = path.stat().st_mode if path.exists() else None
+            if self._mode is not None and stat.S_ISDIR(self._mode):
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+            self.is_stream = _descriptor(path) is not None or (
+                self._mode is not None and not stat.S_ISREG(self._mode)
+            )
+            if self.is_stream:
+                if not os.access(path, os.W_OK):
+                    raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+                beside = Path(tempfile.gettempdir()) / f"ragg-output{path.suffix}"
+            else:
+                beside = self._place = Path(os.path.realpath(path))
+            clear_stale(beside)
+            self.temporary = temporary_name(beside)
+            os.close(os.open(self.temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
+        except FileNotFoundError:
+            raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
+        except OSError as error:
+            raise _unwritten(path, error) from None
+
+    def write(self, content: bytes) -> None:
+        """Write all that is to be written; see :meth:`prepare`."""
+        try:
+            self.temporary.write_bytes(content)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+        self.prepare()
+
+    def prepare(self) -> None:
+        """Do all that may fail: a file is forced to the disc, a device or a pipe gets its content now."""
+        try:
+            if self.is_stream:
+                _pour(self.temporary, self.path)
+                return
+            # It is private so far; the file that is asked for has the rights of any new file, or its own.
+            os.chmod(self.temporary, 0o666 & ~_umask() if self._mode is None else self._mode & 0o7777)
+            sync(self.temporary)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+
+    def place(self) -> None:
+        """Bring what was prepared to its place."""
+        if self.is_stream:
+            return
+        try:
+            os.replace(self.temporary, self._place)
+        except OSError as error:
+            raise _unwritten(self.path, error) from None
+        sync(self._place.parent)
+
+    def close(self) -> None:
+        """Clear the temporary file away, if it is still there."""
+        self.temporary.unlink(missing_ok=True)
+
+
+def _unwritten(path: Path, error: OSError) -> UserError:
+    return UserError("the file cannot be written", where=path, found=error.strerror or error)
+
+
+READER = 4.0
+"""How long a pipe is waited for that nobody reads, s."""
+
+
+def _descriptor(path: Path) -> int | None:
+    """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` stands for."""
+    named = {"/dev/stdout": 1, "/dev/stderr": 2}
+    if str(path) in named:
+        return named[str(path)]
+    match = re.fullmatch(r"/(?:dev|proc/self)/fd/(\d{1,4})", str(path))
+    return None if match is None else int(match[1])
+
+
+def _pour(source: Path, path: Path) -> None:
+    """Write a file's content to a device, a pipe or an open file."""
+    own = _descriptor(path)
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    handle = os.dup(own) if own is not None else _opened(path)
+    with os.fdopen(handle, "wb") as target, source.open("rb") as content:
+        shutil.copyfileobj(content, target)
+
+
+def _opened(path: Path) -> int:
+    """A device or pipe, for writing."""
+    deadline = time.monotonic() + READER
+    while True:
+        try:
+            handle = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
+            os.set_blocking(handle, True)
+            return handle
+        except OSError as error:
+            if error.errno != errno.ENXIO:
+                raise
+            if time.monotonic() > deadline:
+                raise OSError(error.errno, "nobody reads from it") from None
+        time.sleep(0.05)
 
 
 def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text whole or not at all."""
-    with replacing(path) as temporary:
-        temporary.write_bytes(text.encode())
+    with contextlib.closing(Target(path)) as target:
+        target.write(text.encode())
+        target.place()
 
 
 def temporary_name(path: Path) -> Path:
@@ -54,7 +161,7 @@ def temporary_name(path: Path) -> Path:
 
 
 def clear_stale(path: Path) -> None:
-    """Remove what processes that were killed on this machine left of :func:`temporary_name` for this path."""
+    """Remove what processes of this user that were killed on this machine left of :func:`temporary_name` for this path."""
     if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
         return
     prefix = _prefix(path)
@@ -63,6 +170,8 @@ def clear_stale(path: Path) -> None:
             process = name.removeprefix(prefix).split("-")[0]
             if name.startswith(prefix) and process.isdecimal() and not _lives(int(process)):
                 place = path.with_name(name)
+                if place.lstat().st_uid != os.geteuid():
+                    continue
                 if place.is_dir() and not place.is_symlink():
                     shutil.rmtree(place, ignore_errors=True)
                 else:

@@ -5,11 +5,11 @@ Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ou
 
 from __future__ import annotations
 
-import errno
+import contextlib
 import json
 import sys
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -18,24 +18,31 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.cli.boundary import hold_streams, refusal
+from ragg_runtime.cli.file_commands import convert, map_command, mapping_option
+from ragg_runtime.cli.outputs import STDOUT, Command, OutputFile, asked
+from ragg_runtime.cli.quality_command import qc
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-# A full disc, a quota, a folder that may not be read: of the system, not of the program.
-_REFUSALS = {
-    getattr(errno, name, None)
-    for name in ("ENOSPC", "EFBIG", "EDQUOT", "EACCES", "EPERM", "EROFS", "EMFILE", "ENFILE", "EIO")
-}
-
 DIRECTORY = click.Path(path_type=Path)
-_json = click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
-_report = click.option("--report", "report_file", metavar="FILE.html", help="Write a self-contained report.")
+OUTPUT = OutputFile()
+_json = click.option(
+    "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+_report = click.option(
+    "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
+)
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class _Group(click.Group):
+    command_class = Command
+
+
+@click.group(cls=_Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(package_name="ragg", prog_name="ragg")
 def cli() -> None:
     """Instrument models of a rotating-accelerometer gravity gradiometer, derived, not typed.
@@ -54,13 +61,15 @@ def _load(model_dir: Path) -> Loaded:
     from ragg_runtime.workflow import loop
 
     m = loop.load(model_dir)
+    if m.instrument.effects_folder is not None:
+        asked().protect(m.instrument.effects_folder.glob("*.py"))
     _notes(model_dir, m.notes)
     return m
 
 
 def _notes(model_dir: Path, notes: Sequence[str]) -> None:
     for note in notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -69,23 +78,33 @@ def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
         from ragg_runtime.model_dir.provenance import provenance
 
         result = result | {"provenance": provenance(_command())}
-    if json_file == "-":
+    if json_file in STDOUT:
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
     if json_file is not None:
-        from ragg_runtime.base.files import write_text
-
-        write_text(Path(json_file), json.dumps(result, indent=1, allow_nan=False) + "\n")
+        asked().write(json_file, json.dumps(result, indent=1, allow_nan=False) + "\n")
     click.echo(printable(text))
 
 
 def _write_report(file: str | None, make: Callable[[], str]) -> None:
     if file is not None:
-        from ragg_runtime.base.files import write_text
-
         _progress("writing the report")
-        write_text(Path(file), make())
-        click.echo(f"report: {file}", err=True)
+        asked().write(file, make())
+        click.echo(one_line(f"report: {file}"), err=True)
+
+
+@contextlib.contextmanager
+def _telling() -> Iterator[None]:
+    """While a result is told on which the change of a model waits: it must not be lost on the way."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(
+            "the result cannot be told, so the model is left as it was",
+            where=error.filename or "stdout",
+            found=error.strerror,
+            remedy="make room, or send the result to another file",
+        ) from None
 
 
 def _command() -> str:
@@ -124,20 +143,24 @@ def derive(out: Path | None, check: bool) -> None:
         return
     changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
     for name in changed:
-        click.echo(f"written: {root / name}")
+        click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
 
 
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.option("--from", "source", type=DIRECTORY, metavar="FILE.toml", help="Test sheet to start from.")
-def new(model_dir: Path, source: Path | None) -> None:
+@mapping_option
+def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
     """Make a model directory from a test sheet."""
     from ragg_runtime.workflow import loop
 
-    m = loop.new(model_dir, source)
-    click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
-    click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
+    m = loop.new(model_dir, source, mapping)
+    for note in m.notes:
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+    place, effects = one_line(str(m.directory.path)), ", ".join(e.id for e in m.model.effects)
+    click.echo(f"{place}: made, effects: {effects or 'none'}")
+    click.echo(f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT")
 
 
 @cli.command()
@@ -158,19 +181,39 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @cli.command()
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@mapping_option
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
+@click.option(
+    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
+)
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
 @_json
 @_report
-def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, report_file: str | None) -> None:
+def compare(
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    ladder: bool,
+    frozen: bool,
+    calibration: str,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
 
     m = _load(model_dir)
+    if frozen or calibration == "frozen":
+        from ragg_runtime.cli.after import compare_frozen
+
+        compare_frozen(m, flights, json_file, report_file)
+        return
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
     with progress.shown("compare", sum(map(len, read))):
-        c = loop.compare(m, read)
+        c = loop.compare(m, read, ladder=ladder)
 
     def page() -> str:
         from ragg_runtime.report import compare_html
@@ -194,11 +237,13 @@ def compare(model_dir: Path, flights: Sequence[Path], json_file: str | None, rep
     metavar="WHAT=SIZE",
     help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
 )
+@mapping_option
 @_json
 @_report
 def diagnose(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     limits: Sequence[str],
     json_file: str | None,
     report_file: str | None,
@@ -209,7 +254,7 @@ def diagnose(
 
     m = _load(model_dir)
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress("calibrating, then testing every effect of the catalogue")
     allowed = loop.motion_limits(m, limits)
     with progress.shown("diagnose", sum(map(len, read))):
@@ -248,11 +293,13 @@ def diagnose(
     metavar="FILE",
     help="Results file: continue what stands in it, add what is done.",
 )
+@mapping_option
 @_json
 @_report
 def survey(
     model_dir: Path,
     flights: Sequence[Path],
+    mapping: Path | None,
     jobs: int | None,
     scheduler: str | None,
     tls_ca: Path | None,
@@ -276,7 +323,16 @@ def survey(
     if warning is not None:
         click.echo(printable(f"note: {warning}"), err=True)
     with progress.results_file(resume) as file, progress.shown() as show:
-        s = loop.survey(m, flights, jobs=jobs, scheduler=scheduler, tls=tls, resume=file, progress=show)
+        s = loop.survey(
+            m,
+            flights,
+            jobs=jobs,
+            scheduler=scheduler,
+            tls=tls,
+            resume=file,
+            progress=show,
+            mapping=mapping,
+        )
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*loop.sources(m, []), *read]
@@ -297,10 +353,16 @@ def survey(
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("effect")
 @click.argument("flights", type=DIRECTORY, nargs=-1)
+@mapping_option
 @_json
 @_report
 def add(
-    model_dir: Path, effect: str, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    model_dir: Path,
+    effect: str,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime.cli import terminal
@@ -310,35 +372,32 @@ def add(
     if report_file is not None and not flights:
         raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
     _progress(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     _progress(f"deriving the model with {effect}, calibrating")
+
+    def tell(result: loop.Added) -> None:
+        def page() -> str:
+            from ragg_runtime.report import add_html
+
+            assert result.before is not None
+            assert result.after is not None
+            return add_html(
+                [s.as_json() for s in result.loaded.directory.history],
+                result.before,
+                result.after,
+                title=f"{m.name}: {effect} added",
+                command=_command(),
+                sources=loop.sources(result.loaded, read),
+                notes=terminal.notes(result.loaded, read),
+            )
+
+        with _telling():
+            _write_report(report_file, page)
+            origin = terminal.origin(result.loaded, read, _command(), before=m)
+            _emit(result.as_json() | origin, json_file, terminal.added(result, read))
+
     with progress.shown("add", sum(map(len, read))):
-        result = loop.add(m, effect, read)
-
-    def page() -> str:
-        from ragg_runtime.report import add_html
-
-        assert result.before is not None
-        assert result.after is not None
-        history = [s.as_json() for s in result.loaded.directory.history]
-        title = f"{m.name}: {effect} added"
-        origin = loop.sources(result.loaded, read)
-        return add_html(
-            history,
-            result.before,
-            result.after,
-            title=title,
-            command=_command(),
-            sources=origin,
-            notes=terminal.notes(result.loaded, read),
-        )
-
-    _write_report(report_file, page)
-    _emit(
-        result.as_json() | terminal.origin(result.loaded, read, _command(), before=m),
-        json_file,
-        terminal.added(result, read),
-    )
+        result = loop.add(m, effect, read, tell)
     if not result.converged:
         raise UserError(
             "nothing was added: the model is as it was",
@@ -358,13 +417,17 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     from ragg_runtime.workflow import loop
 
     before = _load(model_dir)
-    m = loop.remove(before, effect)
-    left = [e.id for e in m.model.effects]
-    _emit(
-        {"effect": effect, "effects": left} | terminal.origin(m, (), _command(), before=before),
-        json_file,
-        f"removed {effect}; effects left: {', '.join(left) or 'none'}",
-    )
+
+    def tell(m: Loaded) -> None:
+        left = [e.id for e in m.model.effects]
+        with _telling():
+            _emit(
+                {"effect": effect, "effects": left} | terminal.origin(m, (), _command(), before=before),
+                json_file,
+                f"removed {effect}; effects left: {', '.join(left) or 'none'}",
+            )
+
+    loop.remove(before, effect, tell)
 
 
 @cli.command()
@@ -452,7 +515,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option(
     "-o",
     "--output",
-    type=DIRECTORY,
+    type=OUTPUT,
     required=True,
     metavar="FLIGHT",
     help="File to write (.csv, .parquet, .nc).",
@@ -475,7 +538,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
-def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: Any) -> None:
+def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
     from ragg_runtime.flight import write_flight
     from ragg_runtime.workflow.simulate import simulated
@@ -484,7 +547,7 @@ def simulate(model_dir: Path, output: Path, hidden: Sequence[str], **options: An
     _progress("flying")
     flight = simulated(m.instrument, hidden, **options)
     write_flight(flight, output)
-    click.echo(f"{output}: {len(flight.time)} samples at {flight.rate:g} Hz")
+    click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
 
 
 @cli.command()
@@ -498,12 +561,21 @@ def demo(output: Path) -> None:
     _demo.main(output, command=_command())
 
 
+cli.add_command(convert)
+cli.add_command(map_command)
+cli.add_command(qc)
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
+    hold_streams()
     try:
+        from ragg_runtime.cli import after
         from ragg_runtime.experiments.command import experiment
+        from ragg_runtime.studio.command import studio
 
-        cli.add_command(experiment)
+        for command in (experiment, studio, *after.COMMANDS):
+            cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
@@ -525,11 +597,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except KeyboardInterrupt:
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno in _REFUSALS:
-            place = f"{error.filename}: " if error.filename else ""
-            click.echo(printable(f"ragg: {place}{error.strerror}"), err=True)
-            sys.exit(2)
+    except OSError as error:
+        click.echo(f"ragg: {refusal(error)}", err=True)
+        sys.exit(2)
+    except Exception:
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base.errors import one_line
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
@@ -16,39 +17,13 @@ from ragg_runtime.fit import off_sheet
 from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
-from ragg_runtime.model_dir.provenance import provenance
+from ragg_runtime.instrument.form import Form
+from ragg_runtime.model_dir.history import calibrated_rms
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
-from ragg_runtime.workflow.loop import Added, Loaded
-
-
-def origin(
-    m: Loaded,
-    flights: Sequence[Flight],
-    command: str,
-    *,
-    files: Sequence[tuple[str, str | None]] = (),
-    before: Loaded | None = None,
-) -> dict[str, object]:
-    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
-
-    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
-    has changed.
-    """
-    made = provenance(
-        command,
-        m.directory,
-        flights,
-        m.model.digest,
-        files=files,
-        before=None if before is None else before.directory,
-    )
-    return {"notes": notes(m, flights), "provenance": made}
-
-
-def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
-    """What was done to model directory and flights, or looks odd in them."""
-    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+from ragg_runtime.workflow.loop import Added
+from ragg_runtime.workflow.origin import notes as notes
+from ragg_runtime.workflow.origin import origin as origin
 
 
 def _error(e: Error) -> str:
@@ -85,22 +60,59 @@ def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
 
 
+def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+    """Errors, the first before anything was done, above the noise floor; why some have no value."""
+    return [
+        _HEAD,
+        *(f"{label:12} {_error(e)}" for label, e in rows),
+        f"{'noise floor':12} {noise:12.5g}",
+        *_missing([e for _, e in rows[1:]], flights),
+    ]
+
+
+def ladder(c: Comparison) -> list[str]:
+    """What each simplification of the model is worth, a line a form, if that was asked for."""
+    if not c.ladder:
+        return []
+    names = [_in_short(r.form) for r in c.ladder]
+    width = max(map(len, names))
+    lines = [
+        "",
+        "what simplifications cost, Eo (step: what a form changes in the prediction of the one before it):",
+        f"{'':{width}} {'nominal':>10} {'calibrated':>10} {'step':>10} {'inline':>10} {'cross':>10}",
+    ]
+    for name, r in zip(names, c.ladder, strict=True):
+        step = "" if r.step is None else _columns((r.step.rms_Eo, r.step.inline_Eo, r.step.cross_Eo))
+        here = "  <- model.toml" if r.form == c.fitted.instrument.form else ""
+        lines.append(f"{name:{width}} {_columns((r.nominal.rms_Eo, r.calibrated.rms_Eo))} {step}{here}")
+    return lines
+
+
+def _columns(values: Sequence[float]) -> str:
+    return " ".join(f"{x:10.4g}" if np.isfinite(x) else f"{'-':>10}" for x in values)
+
+
+def _in_short(form: Form) -> str:
+    kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in form.beyond_paper())
+    return f"{form.kinematics}, {form.preset or ', '.join(kept)}"
+
+
 def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     """The result of ``compare``."""
     f = c.fitted
     lines = [
         f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
         f"{', '.join(e.id for e in f.model.effects) or 'none'}",
-        _HEAD,
-        f"{'nominal':12} {_error(c.nominal)}",
-        f"{'calibrated':12} {_error(c.calibrated)}",
-        f"{'held out':12} {_error(c.holdout)}",
-        f"{'noise floor':12} {c.noise_floor:12.5g}",
-        *_missing((c.calibrated, c.holdout), flights),
+        *errors_table(
+            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            c.noise_floor,
+            flights,
+        ),
         "",
         *_not_converged(c.complaint),
         *([] if c.remark is None else [f"note: {c.remark}"]),
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
+        *ladder(c),
         *_off_sheet(c.off_sheet),
     ]
     where: Any = c.as_json()["where"]
@@ -167,7 +179,7 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
-        lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+        lines += ["", f"next: ragg add {one_line(str(model_dir))} {d.found[0]} FLIGHT"]
     lines += _off_sheet(d.off_sheet)
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
@@ -178,13 +190,9 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     done = f"added {a.effect}" if a.converged else f"{a.effect} was NOT added"
     lines = [f"{done}; effects: {', '.join(e.id for e in a.loaded.model.effects) or 'none'}"]
     if a.before is not None and a.after is not None:
+        rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            _HEAD,
-            f"{'before':12} {_error(a.before.calibrated)}",
-            f"{'after':12} {_error(a.after.calibrated)}",
-            f"{'held out':12} {_error(a.after.holdout)}",
-            f"{'noise floor':12} {a.after.noise_floor:12.5g}",
-            *_missing((a.after.calibrated, a.after.holdout), flights),
+            *errors_table(rows, a.after.noise_floor, flights),
             "",
             *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
@@ -201,8 +209,7 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
     for s in steps:
         values = []
         for key in ("before", "after"):
-            e = s[key]
-            calibrated = e.get("calibrated", e) if e else None
-            values.append(f"{calibrated['rms_Eo']:10.4g}" if calibrated else f"{'-':>10}")
+            rms = calibrated_rms(s[key])
+            values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
         lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
     return "\n".join(lines)

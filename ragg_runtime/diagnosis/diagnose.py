@@ -31,7 +31,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import convergence, prepared
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.flight import Flight
@@ -66,7 +66,7 @@ def diagnose(
     limits
         Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = [observe(x, instrument) for x in flights]
+    observations = observations_of(flights, instrument)
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 
@@ -227,9 +227,10 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Saturation and quantisation of a recorded output, recognised in its values."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
-    for x, w in zip(flights, f.flown, strict=True):
+    first = (w for w in f.flown if w.observation.place == f.flown[0].observation.place)
+    for x, w in zip(flights, first, strict=True):
         for name, series in x.outputs.items():
-            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+            if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
             if "saturation" in known and saturation(series, valid):

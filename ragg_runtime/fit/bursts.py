@@ -43,30 +43,42 @@ class Burst:
     factor: float
 
 
-def quiet_estimate(residual: Sequence[Array], rate: float) -> tuple[NoiseModel, list[list[Burst]]]:
-    """The spectrum of the noise from contiguous stretches of residual, bursts left out, and those of each stretch."""
-    model = estimate(residual, rate)
+def quiet_estimate(
+    residual: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+) -> tuple[NoiseModel, list[list[Burst]]]:
+    """The spectrum of the noise from contiguous stretches of residual, bursts left out, and those of each stretch.
+
+    ``without``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
+    """
+    model = estimate(residual, rate, without)
     bursts: list[list[Burst]] = [[] for _ in residual]
     for _ in range(ROUNDS):
         found = _bursts(residual, model)
         if [len(b) for b in found] == [len(b) for b in bursts]:
             break
         bursts = found
-        model = _estimated(residual, bursts, rate)
+        model = _estimated(residual, bursts, rate, without)
     return model, bursts
 
 
-def _estimated(residual: Sequence[Array], bursts: Sequence[Sequence[Burst]], rate: float) -> NoiseModel:
+def _estimated(
+    residual: Sequence[Array],
+    bursts: Sequence[Sequence[Burst]],
+    rate: float,
+    without: tuple[float, float] | None,
+) -> NoiseModel:
     left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
         e = e.copy()
-        weight = signal.get_window("hann", len(e)) ** 2  # as the periodogram of the estimate weighs the samples
+        weight = (
+            signal.get_window("hann", len(e)) ** 2
+        )  # as the periodogram of the estimate weighs the samples
         total += float(np.sum(weight))
         for b in own:
             e[b.start : b.stop] = weight[b.start : b.stop] = 0.0
         left.append(e)
         heard += float(np.sum(weight))
-    model = estimate(left, rate)
+    model = estimate(left, rate, without)
     return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / heard), model.spread)
 
 

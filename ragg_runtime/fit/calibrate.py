@@ -7,7 +7,7 @@ sheet puts them, because each parameter has a prior as wide as its plausible siz
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -94,7 +94,7 @@ class _Fall(Linear):
     to_nominal
         (n,): the prior's centre as seen from the point, in scales.
     sums
-        (n + 1,), V: of the columns of G_out and of its residual.
+        Place of an output among the layout's -> (n + 1,), V: of the columns of G_out and of its residual.
     square
         Sum of squares of the residual of G_out, V^2.
     rows
@@ -103,7 +103,7 @@ class _Fall(Linear):
 
     data: Array
     to_nominal: Array
-    sums: Array
+    sums: Mapping[int, Array]
     square: float
     rows: int
 
@@ -150,16 +150,18 @@ class _Task:
     def at(self, x: Array, noise: Sequence[Noise], most: int | None = None) -> _Fall:
         """Linearised about x; of at most ``most`` segments of every flight."""
         p = self.vector(x)
-        if not scale_factor(self.model.chain, p) > 0.0:
+        places = {o.place for o in self.observations}
+        if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
             return self._nowhere(x)
         point = Point(self.model, self.instrument, p, with_candidates=False)
-        triangles, rows, square, sums = [], 0, 0.0, np.zeros(len(x) + 1)
+        triangles, rows, square = [], 0, 0.0
+        sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n in zip(self.observations, noise, strict=True):
             chosen = None if most is None else spread(flight_segments(o), most)
             for T, count, part, left in passed(point, o, n, _triangle, chosen=chosen):
                 triangles.append(T)
                 rows += count
-                sums += part
+                sums[o.place] += part
                 square += left
         data = join(triangles)
         if not np.isfinite(data).all():
@@ -175,7 +177,7 @@ class _Task:
     def _nowhere(self, x: Array) -> _Fall:
         """A point at which the model is no instrument: infinitely far from any record."""
         n = len(x)
-        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, np.zeros(n + 1), np.inf, 1)
+        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, {}, np.inf, 1)
 
 
 @dataclass(frozen=True)
@@ -262,7 +264,9 @@ def _size(noise: Sequence[Noise]) -> float:
 def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
     """The end of a fit as parameters, levelled."""
     at = found.at
-    step = design.levelled(found.last, at.sums, design.null_biases(task.columns))
+    step = found.last
+    for sums in at.sums.values():
+        step = design.levelled(step, sums, design.null_biases(task.columns))
     covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
     return Calibration(
         p=task.vector(found.x + step),

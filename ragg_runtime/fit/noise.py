@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, disturbances, in_words
 from ragg_runtime.fit.linearise import Point
@@ -60,9 +61,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
         for flat in np.split(piece.white, len(o.series), axis=1):
             rest, rank, seen = _left(flat, valid, r.rate if o.kind != "channels" else None)
             y = flat[-1]
-            # The fit takes as many degrees of freedom as it has columns.
+            # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
             e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
+            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank))
             gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
@@ -89,7 +90,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise, loud = quiet_estimate(e_m, r.rate)
+        noise, loud = quiet_estimate(e_m, r.rate, unknown_gradient.band(o))
         bursts += [
             (first + b.start, first + b.stop, b.factor)
             for first, x in zip(begun, loud, strict=True)

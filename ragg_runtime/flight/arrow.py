@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pyarrow as pa
+from numpy.typing import NDArray
 
 from ragg_runtime.flight.record import Array
 
@@ -16,3 +19,8 @@ def floats(column: pa.Array) -> Array:
     if column.null_count:
         column = column.fill_null(float("nan"))
     return np.asarray(np.from_dlpack(column))
+
+
+def texts(column: pa.Array) -> NDArray[Any]:
+    """(N,) str: a column of text; null becomes the empty text."""
+    return np.array(["" if t is None else t for t in column.to_pylist()], dtype=object)

@@ -2,41 +2,73 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.flight import slow
+from ragg_runtime.flight.angular_acceleration import HEAD, Derivative, planned
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
     AUXILIARY,
     DEMODULATED,
     GRADIENT,
-    OUTPUTS,
     RATES,
     SI_UNITS,
     SPECIFIC_FORCE,
-    VOLTAGES,
     Array,
     Flight,
     Mask,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.signals.derivative import differentiate, runs
+from ragg_runtime.signals.derivative import runs
 
 BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
 channels are often sampled more slowly than the motion, with blanks between."""
 
+_MANY = 1 << 24  # values of a slow channel that are kept at most
 _ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
+
+
+MOST_UNUSED = 0.5
+"""Share of a file's samples from which on, if something lacks in them, the rest is no evidence."""
+
+
+@dataclass(frozen=True)
+class Whole:
+    """What only the whole file tells, and every part of it is read by.
+
+    Attributes
+    ----------
+    rows
+        Rows of the file.
+    derivative
+        How angular rates are differentiated, if the acceleration is not recorded.
+    slow
+        Auxiliary channels of a lower rate, SI, interpolated.
+    left_out
+        Auxiliary channels of a lower rate that cannot be.
+    notes
+        Both in sentences.
+    """
+
+    rows: int
+    derivative: Derivative
+    slow: Mapping[str, slow.Slow] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -48,25 +80,36 @@ class Layout:
     si_units: dict[str, str]
     known: Units
     need_output: bool
+    accelerometers: Accelerometers = PAPER
 
     def flight(
-        self, rows: Batch, *, name: str, digest: str, first_row: int = 1, step: float | None = None
+        self,
+        rows: Batch,
+        whole: Whole,
+        *,
+        name: str,
+        digest: str,
+        first_row: int = 1,
+        step: float | None = None,
     ) -> Flight:
         """The flight of these rows (file's units); ``step`` is given for a part of a longer record."""
-        si = {c.name: self._converted(c, rows[c.name]) for c in self.columns}
+        si = {c.name: self._converted(c, rows[c.name]) for c in self.columns if c.name not in whole.left_out}
         grid = uniform(si.pop("time"), self.path, first_row, step)
-        notes = list(grid.notes)
+        notes = [*grid.notes, *whole.notes]
         if step is None:
             _drop_empty(si, notes, self.path)
             if self.need_output:
-                _check_output(self.path, list(si))
-        placed = {c: _placed(v, grid) for c, v in si.items()}
+                _check_output(self.path, list(si), self.accelerometers)
+        placed = {
+            c: whole.slow[c].at(grid.time) if c in whole.slow else _placed(v, grid) for c, v in si.items()
+        }
         notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
-        outputs = {c: placed.pop(c) for c in OUTPUTS if c in placed}
-        valid = _valid(placed | outputs, grid, notes)
-        _derive_output(outputs, notes)
+        named = (*self.accelerometers.columns, *DEMODULATED)
+        outputs = {c: placed.pop(c) for c in named if c in placed}
+        valid = _valid(placed | outputs, outputs, grid, notes)
+        _derive_outputs(outputs, notes, self.accelerometers)
         channels = {c: _filled(v, c) for c, v in placed.items()}
-        _derive_acceleration(channels, placed, grid, valid, notes)
+        _derive_acceleration(channels, placed, grid, valid, notes, whole.derivative)
         _check_gradient(channels, notes)
         if step is None and not valid.any():
             raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
@@ -83,6 +126,64 @@ class Layout:
             written={c.name: c.unit for c in self.columns},
         )
 
+    def whole(self, batches: Iterable[Batch]) -> Whole:
+        """What only the whole file tells; one pass over it."""
+        auxiliary = [c for c in self.columns if c.name not in SI_UNITS or c.name in AUXILIARY]
+        rates = [c for c in self.columns if c.name in ANGULAR_RATE]
+        collected = {c.name: slow.Collector() for c in auxiliary}
+        time = next(c for c in self.columns if c.name == "time")
+        head: list[Batch] = []
+        rows, first, last = 0, np.nan, np.nan
+        for batch in batches:
+            t = self._converted(time, batch["time"])
+            if rows < HEAD:
+                head.append({c.name: batch[c.name][: HEAD - rows] for c in (time, *rates)})
+            rows += len(t)
+            if len(t):
+                first, last = (t[0] if np.isnan(first) else first), t[-1]
+            for c in auxiliary:
+                # One value in two seconds: more often than that, blanks are bridged where they stand.
+                most = (
+                    1000 + 2 * int(min(max(np.nan_to_num(t[-1] - first), 0.0) / BRIDGED, _ENDLESS))
+                    if len(t)
+                    else 0
+                )
+                collected[c.name].add(t, self._converted(c, batch[c.name]), most)
+        found: dict[str, slow.Slow] = {}
+        left_out, notes = [], []
+        for name, collector in collected.items():
+            series = collector.series() if collector.sparse else None
+            if series is None:
+                continue
+            if self.si_units[name] == "rad":
+                series = series[0], np.unwrap(series[1])
+            judged = slow.judged(*series)
+            if isinstance(judged, slow.Slow) and judged.covered < (1 - MOST_UNUSED) * (last - first):
+                judged = f"its values cover {judged.covered:.4g} s of {last - first:.4g} s"
+            if isinstance(judged, slow.Slow):
+                found[name] = judged
+                notes.append(
+                    f"{name}: recorded every {judged.step:.4g} s; interpolated (at {rows - collector.count} samples)"
+                )
+            else:
+                left_out.append(name)
+                notes.append(
+                    f"{name}: without a value at {_samples(rows - collector.count)}; left out: {judged}"
+                )
+        joined = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in head)]) for c in (time, *rates)}
+        return Whole(rows, self._derivative(joined), found, tuple(left_out), tuple(notes))
+
+    def _derivative(self, head: Batch) -> Derivative:
+        names = [c.name for c in self.columns]
+        if ANGULAR_ACCELERATION[0] in names or len(head["time"]) < 2:
+            return Derivative()
+        si = {c.name: self._converted(c, head[c.name]) for c in self.columns if c.name in head}
+        try:
+            grid = uniform(si["time"], self.path)
+        except UserError:
+            return Derivative()  # told where the rows are read
+        return planned([_evenly(_placed(si[n], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
+
     def step(self, rows: Batch) -> float:
         """Sampling interval of these rows, s."""
         time = next(c for c in self.columns if c.name == "time")
@@ -95,10 +196,18 @@ class Layout:
             return np.where(np.abs(result) < _ENDLESS, result, np.nan)
 
 
-def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: bool = True) -> Layout:
+def layout(
+    path: Path,
+    columns: Sequence[Column],
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+) -> Layout:
     """Check names and units of a file's columns; UserError if one is missing or does not convert.
 
-    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass.
+    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers`` says
+    which columns are outputs.
     """
     known = units(g0)
     names = [c.name for c in columns]
@@ -106,24 +215,48 @@ def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: boo
     if any(n in names for n in ANGULAR_ACCELERATION):
         _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
     if need_output:
-        _check_output(path, names)
+        _check_output(path, names, accelerometers)
+    fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
+    fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
     si_units = {}
     for c in columns:
         where = at(path, f"column {c.name!r}")
-        si_units[c.name] = SI_UNITS[c.name] if c.name in SI_UNITS else known.base_unit(c.unit, where)
+        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
         known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
-    return Layout(path, tuple(columns), si_units, known, need_output)
+    return Layout(path, tuple(columns), si_units, known, need_output, accelerometers)
 
 
-def _check_output(path: Path, names: Sequence[str]) -> None:
-    if any(all(n in names for n in group) for group in (("G_out",), VOLTAGES, DEMODULATED)):
+def enough(flight: Flight, rows: int) -> Flight:
+    """The flight, unless half of the file's rows or more lack something: what is left must not acquit a model."""
+    used = int(np.sum(flight.valid))
+    if used > (1 - MOST_UNUSED) * rows:
+        return flight
+    raise UserError(
+        "most samples of the flight are incomplete: the rest would be no evidence",
+        where=flight.path,
+        found=f"{rows - used} of {rows} samples cannot be used ({'; '.join(flight.notes)})",
+        expected=f"fewer than {100 * MOST_UNUSED:.0f} % without a value",
+        remedy="record all columns at one rate, or resample the file to the slowest that it needs",
+    )
+
+
+def _check_output(path: Path, names: Sequence[str], a: Accelerometers) -> None:
+    if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
+    if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
+        return
+    volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
+    one = f"{a.output_names[0]}, or {volts}"
+    further = f"; likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else ", or inline and cross"
     raise UserError(
         "the instrument's output is missing",
         where=path,
         found="the columns " + ", ".join(names),
-        expected="G_out, or V_1 V_2 V_3 V_4, or inline and cross",
-        remedy=next(filter(None, (did_you_mean(n, OUTPUTS) for n in names if n not in SI_UNITS)), None),
+        expected=one + further,
+        remedy=next(
+            filter(None, (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)),
+            None,
+        ),
     )
 
 
@@ -167,7 +300,7 @@ def _placed(values: Array, grid: Grid) -> Array:
     return whole
 
 
-def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
+def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
     """Samples at which everything stands that has to; counts the others in ``notes``."""
     present = np.zeros(len(grid.time), dtype=np.bool_)
     present[grid.index] = True
@@ -178,7 +311,7 @@ def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
             continue
         count = int(np.sum(missing & present))
         bridged = np.zeros_like(missing)
-        if name not in SI_UNITS or name in AUXILIARY:
+        if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
             for run in runs(missing & present):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
@@ -204,59 +337,74 @@ def _filled(values: Array, name: str) -> Array:
     if not len(places):  # only in a part of a longer record
         return np.zeros_like(values)
     there = values[places]
-    if name == "spin_angle":
+    if name.startswith("spin_angle"):
         there = np.unwrap(there)
     result[missing] = np.interp(np.flatnonzero(missing), places, there)
     return result
 
 
-def _derive_output(outputs: dict[str, Array], notes: list[str]) -> None:
-    if not all(v in outputs for v in VOLTAGES):
-        return
-    v1, v2, v3, v4 = (outputs[v] for v in VOLTAGES)
-    sum_ = (v1 + v2) - (v3 + v4)
-    if "G_out" not in outputs:
-        outputs["G_out"] = sum_
-        notes.append("G_out is derived: V_1 + V_2 - V_3 - V_4")
-        return
-    there = np.isfinite(sum_) & np.isfinite(outputs["G_out"])
-    difference = np.sqrt(np.mean((sum_ - outputs["G_out"])[there] ** 2)) if there.any() else 0.0
-    size = np.sqrt(np.mean(outputs["G_out"][there] ** 2)) if there.any() else 0.0
-    if difference > 1e-3 * size:
-        notes.append(
-            f"G_out differs from V_1 + V_2 - V_3 - V_4 by {difference:.3g} V rms, with {size:.3g} V rms "
-            "of its own: check the order and the signs of the voltages"
-        )
+def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
+    """Outputs that are not recorded from their voltages; where both are, they must agree."""
+    for o in a.outputs:
+        columns = a.voltages(o, outputs)
+        if columns is None:
+            continue
+        sum_, formula = o.combined(np.stack([outputs[c] for c in columns])), a.formula(o, columns)
+        if o.name not in outputs:
+            outputs[o.name] = sum_
+            notes.append(f"{o.name} is derived: {formula}")
+            continue
+        there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
+        difference = np.sqrt(np.mean((sum_ - outputs[o.name])[there] ** 2)) if there.any() else 0.0
+        size = np.sqrt(np.mean(outputs[o.name][there] ** 2)) if there.any() else 0.0
+        if difference > 1e-3 * size:
+            notes.append(
+                f"{o.name} differs from {formula} by {difference:.3g} V rms, with {size:.3g} V rms "
+                "of its own: check the order and the signs of the voltages"
+            )
 
 
 def _derive_acceleration(
-    channels: dict[str, Array], placed: dict[str, Array], grid: Grid, valid: Mask, notes: list[str]
+    channels: dict[str, Array],
+    placed: dict[str, Array],
+    grid: Grid,
+    valid: Mask,
+    notes: list[str],
+    derivative: Derivative,
 ) -> None:
     missing = [n for n in ANGULAR_ACCELERATION if n not in channels]
     if not missing:
         return
     for name, rate_name in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-        derived = _differentiated(placed[rate_name], grid)
+        derived, sure = differentiated(placed[rate_name], grid, derivative)
         # A sample that stands alone between two gaps has no derivative.
-        valid &= np.isfinite(derived)
+        valid &= sure
         channels[name] = _filled(derived, name)
-    notes.append(
-        "omegadot_x, omegadot_y, omegadot_z are derived from omega, good to 40 % of the Nyquist frequency"
-    )
+    notes.append(derivative.note)
 
 
-def _differentiated(x: Array, grid: Grid) -> Array:
-    """Time derivative at the samples' own instants; where they jitter, by way of the even grid."""
-    if not grid.jitters:
-        return differentiate(x, 1 / grid.step)
-    even = np.polyval(np.polyfit(np.arange(len(x)), grid.time, 1), np.arange(len(x)))
-    there = np.isfinite(x)
-    if np.sum(there) < 8:
-        return differentiate(x, 1 / grid.step)
-    resampled = np.where(there, make_interp_spline(grid.time[there], x[there], 5)(even), np.nan)
-    slope = differentiate(resampled, 1 / grid.step)
+def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
+    """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
+    resampled = _evenly(x, grid)
+    slope, sure = derivative.of(resampled, 1 / grid.step)
     there = np.isfinite(slope)
-    return np.where(there, make_interp_spline(even[there], slope[there], 5)(grid.time), np.nan)
+    if resampled is x or np.sum(there) < 8:
+        return slope, sure
+    even = _even(grid)
+    return np.where(there, make_interp_spline(even[there], slope[there], 5)(grid.time), np.nan), sure
+
+
+def _evenly(x: Array, grid: Grid) -> Array:
+    """Samples at evenly spaced instants; themselves where they do not jitter."""
+    there = np.isfinite(x)
+    if not grid.jitters or np.sum(there) < 8:
+        return x
+    return np.where(there, make_interp_spline(grid.time[there], x[there], 5)(_even(grid)), np.nan)
+
+
+def _even(grid: Grid) -> Array:
+    n = len(grid.time)
+    return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:

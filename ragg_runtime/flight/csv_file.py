@@ -1,12 +1,15 @@
-"""CSV flights: a header of ``name [unit]``, then numbers; ``.gz`` is read as well."""
+"""CSV flights: a header of ``name [unit]``, or names and a row of units below; ``.gz`` is read as well."""
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import gzip
 import io
+import itertools
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
@@ -14,9 +17,14 @@ import pyarrow as pa
 import pyarrow.csv
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.flight.arrow import floats
-from ragg_runtime.flight.record import Array
-from ragg_runtime.flight.source import Batch, Column, Source, columns_of
+from ragg_runtime.flight.arrow import floats, texts
+from ragg_runtime.flight.instants import is_instant
+from ragg_runtime.flight.one_table import joined
+from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, units_below
+
+NAME = "csv"
+ENDINGS = (".csv", ".csv.gz")
+MAGIC = ()
 
 LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
@@ -25,30 +33,44 @@ _MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
 # Of damaged or cut off files, compressed ones among them.
 _UNREADABLE = (UnicodeDecodeError, OSError, EOFError, zlib.error)
 _NOT_CSV = "the file is not a table of comma-separated values"
+_GZIP = b"\x1f\x8b"
+_SNIFFED = 50  # rows that are looked at to tell columns of numbers from columns of text
+_AT_ONCE = 65536  # rows that are written at a time
 
 
-def open_csv(path: Path, compressed: bool) -> Source:
-    """The CSV file as a source; UserError if it has no header of names and units."""
-    skipped, header = _header(path, compressed)
-    delimiter = max(",;\t", key=header.count)
-    try:
-        names = next(csv.reader([header], delimiter=delimiter))
-    except csv.Error as error:
-        raise UserError(_NOT_CSV, where=path, found=str(error)) from None
-    columns = columns_of(path, [(name, None) for name in names])
-    return Source(path, columns, lambda: _batches(path, compressed, columns, delimiter, skipped + 1))
+@dataclass(frozen=True)
+class _Layout:
+    """Where the table begins in the file, and its columns, all of them."""
+
+    path: Path
+    compressed: bool
+    delimiter: str
+    skip: int
+    headings: tuple[Heading, ...]
 
 
-def write_csv(path: Path, columns: list[tuple[Column, Array]], compressed: bool) -> None:
+def open_tables(path: Path, look: Look) -> Sequence[Table]:
+    """The CSV file as one table; UserError if it has no header."""
+    with path.open("rb") as stream:
+        compressed = stream.read(2) == _GZIP
+    layout = _layout(path, compressed, look)
+    wanted = tuple(h for h in layout.headings if look.wants(h.name))
+    return (Table(path, wanted, lambda: _batches(layout, wanted)),)
+
+
+def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
-    table = pa.table({c.name: pa.array(v, from_pandas=True) for c, v in columns})
-    header = ",".join(_quoted(f"{c.name} [{c.unit}]") for c, _ in columns) + "\n"
+    columns, lines = joined(tables)
+    compressed = path.name.lower().endswith(".gz")
+    header = ",".join(_quoted(f"{c.name} [{c.unit}]" if c.unit else c.name) for c in columns) + "\n"
     options = pyarrow.csv.WriteOptions(include_header=False)
     with path.open("wb") as raw:
         # Without a name and a time in the gzip header, equal flights give equal files.
         stream: IO[bytes] = gzip.GzipFile("", "wb", 6, raw, mtime=0) if compressed else raw  # type: ignore[assignment]
         stream.write(header.encode())
-        pyarrow.csv.write_csv(table, stream, options)
+        for rows in lines(_AT_ONCE):
+            table = pa.table({c.name: pa.array(rows[c.name], from_pandas=True) for c in columns})
+            pyarrow.csv.write_csv(table, stream, options)
         if compressed:
             stream.close()
 
@@ -78,63 +100,97 @@ def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
         yield line
 
 
-def _header(path: Path, compressed: bool) -> tuple[int, str]:
-    """Number of comment or empty lines before the header, and the header."""
+def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
+    """Header, units and kinds of the columns, from the first rows."""
     try:
         with _open(path, compressed) as stream:
-            for number, line in enumerate(_lines(stream, path)):
-                if line.strip() and not line.startswith("#"):
-                    return number, line.rstrip("\n")
+            lines = _lines(stream, path)
+            skipped, header = _header(lines, path)
+            delimiter = max(",;\t", key=header.count)
+            names = next(csv.reader([header], delimiter=delimiter))
+            first: list[list[str]] = []
+            with contextlib.suppress(
+                csv.Error, *_UNREADABLE
+            ):  # it is told with its line when the rows are read
+                first.extend(itertools.islice(csv.reader(lines, delimiter=delimiter), _SNIFFED))
+    except csv.Error as error:
+        raise UserError(_NOT_CSV, where=path, found=str(error)) from None
     except _UNREADABLE as error:
-        raise UserError(
-            _NOT_CSV,
-            where=path,
-            found=str(error),
-            expected="UTF-8 text: a header of `name [unit]`, then numbers",
-            remedy="copy the file again, or save it as CSV, Parquet or NetCDF-4",
-        ) from None
+        raise _not_text(path, error) from None
+    found = [heading(name, path, n) for n, name in enumerate(names, 1)]
+    below = 0
+    units = units_below(first[0], len(found)) if first and not any(h.unit for h in found) else None
+    if units is not None:
+        found = [replace(h, unit=u) for h, u in zip(found, units, strict=True)]
+        below, first = 1, first[1:]
+    headings = [
+        replace(h, text=look.allows_text(h.name) and _text(h.name, n, first)) for n, h in enumerate(found)
+    ]
+    return _Layout(path, compressed, delimiter, skipped + 1 + below, distinct(path, headings))
+
+
+def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:
+    """Number of comment or empty lines before the header, and the header."""
+    for number, line in enumerate(lines):
+        if line.strip() and not line.startswith("#"):
+            return number, line.rstrip("\n")
     raise UserError("the flight file has no header", where=path, expected="time [s],a_x [g],...")
 
 
-def _batches(
-    path: Path, compressed: bool, columns: tuple[Column, ...], delimiter: str, skip: int
-) -> Iterator[Batch]:
-    names = [c.name for c in columns]
+def _text(name: str, column: int, rows: Sequence[Sequence[str]]) -> bool:
+    """Whether a column holds text: its first value is no number (for ``time``: is an instant)."""
+    value = next((r[column] for r in rows if len(r) > column and r[column] not in _MISSING), "0")
+    return not _is_number(value) and (name != "time" or is_instant(value))
+
+
+def _not_text(path: Path, error: Exception) -> UserError:
+    return UserError(
+        _NOT_CSV,
+        where=path,
+        found=str(error),
+        expected="UTF-8 text: a header of `name [unit]`, then numbers",
+        remedy="copy the file again, or save it as CSV, Parquet or NetCDF-4",
+    )
+
+
+def _batches(layout: _Layout, wanted: Sequence[Heading]) -> Iterator[RawBatch]:
+    names = [h.name for h in layout.headings]
+    types = {h.name: pa.string() if h.text else pa.float64() for h in layout.headings}
     try:
-        with pa.input_stream(str(path), compression="gzip" if compressed else None) as stream:
+        compression = "gzip" if layout.compressed else None
+        with pa.input_stream(str(layout.path), compression=compression) as stream:
             reader = pyarrow.csv.open_csv(
                 stream,
-                pyarrow.csv.ReadOptions(skip_rows=skip, column_names=names, block_size=1 << 22),
-                pyarrow.csv.ParseOptions(delimiter=delimiter),
+                pyarrow.csv.ReadOptions(skip_rows=layout.skip, column_names=names, block_size=1 << 22),
+                pyarrow.csv.ParseOptions(delimiter=layout.delimiter),
                 pyarrow.csv.ConvertOptions(
-                    column_types={n: pa.float64() for n in names}, null_values=_MISSING
+                    column_types=types, null_values=_MISSING, include_columns=[h.name for h in wanted]
                 ),
             )
             for batch in reader:
-                yield {n: floats(batch.column(n)) for n in names}
+                yield {h.name: (texts if h.text else floats)(batch.column(h.name)) for h in wanted}
     except pa.ArrowInvalid as error:
         if "Empty CSV" not in str(error):
-            raise _fault(path, compressed, columns, delimiter, skip, str(error)) from None
+            raise _fault(layout, wanted, str(error)) from None
     except (OSError, EOFError) as error:
         raise UserError(
             "the file is damaged or cut off",
-            where=path,
+            where=layout.path,
             found=str(error),
-            expected="a whole file" + (" (gzip)" if compressed else ""),
+            expected="a whole file" + (" (gzip)" if layout.compressed else ""),
             remedy="copy it again",
         ) from None
 
 
-def _fault(
-    path: Path, compressed: bool, columns: tuple[Column, ...], delimiter: str, skip: int, error: str
-) -> UserError:
+def _fault(layout: _Layout, wanted: Sequence[Heading], error: str) -> UserError:
     """Say in which line and column the reader stumbled."""
+    path, skip, columns = layout.path, layout.skip, layout.headings
     try:
-        with _open(path, compressed) as stream:
+        with _open(path, layout.compressed) as stream:
             lines = _lines(stream, path)
             for _ in range(skip):
                 next(lines)
-            rows = csv.reader(lines, delimiter=delimiter)
+            rows = csv.reader(lines, delimiter=layout.delimiter)
             for row in rows:
                 line = f"line {skip + rows.line_num}"
                 if row and len(row) != len(columns):
@@ -146,7 +202,8 @@ def _fault(
                         remedy="the file may be damaged or cut off",
                     )
                 for column, text in zip(columns, row, strict=False):
-                    if text not in _MISSING and not _is_number(text):
+                    number = not column.text and column in wanted
+                    if number and text not in _MISSING and not _is_number(text):
                         return UserError(
                             "not a number",
                             where=at(path, line, f"column {column.name!r}"),

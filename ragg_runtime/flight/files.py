@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import contextlib
+import glob
 import hashlib
-from collections.abc import Iterator, Mapping
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import replacing
-from ragg_runtime.flight.assemble import layout
-from ragg_runtime.flight.csv_file import open_csv, write_csv
-from ragg_runtime.flight.netcdf_file import open_netcdf, write_netcdf
-from ragg_runtime.flight.parquet_file import open_parquet, write_parquet
+from ragg_runtime.flight.angular_acceleration import REACH
+from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
+from ragg_runtime.flight.formats import ending_of, format_of
+from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
-from ragg_runtime.flight.source import FORMATS, Batch, Column, Source, check_content, format_of
+from ragg_runtime.flight.source import Batch, Column, Source, Written
+from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.flight.spool import spooled
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
-from ragg_runtime.signals.derivative import WINDOW
 
 IN_MEMORY = 48 << 20
 """Most memory, bytes, that the columns of a flight may take; those of a longer one are laid down on disk."""
@@ -26,15 +32,27 @@ IN_MEMORY = 48 << 20
 MOST_BYTES = 32 << 30
 """Most bytes that the columns of a flight may take there: what unfolds beyond is no flight."""
 
+UNFOLDS = 200
+"""Most times its size on disk that a longer flight may take in memory. Of thirty columns of which two thirds stand still
+and the rest is stored to 16 bits it is 20 times: what unfolds to more was made to fill a disc."""
+
 PART = 32768
 """Rows of such a flight that are read at a time."""
 
-_HALO = WINDOW
+_HALO = 2 * REACH
 """Rows of the neighbouring parts that a part is read with: the reach of the derivative and more."""
 
 
-def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Flight:
-    """The flight in a CSV (``.csv``, ``.csv.gz``), Parquet or NetCDF-4 file, in SI.
+def read_flight(
+    path: Path | str,
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    mapping: Mapped | None = None,
+    line: str | None = None,
+) -> Flight:
+    """The flight in a file (see :mod:`ragg_runtime.flight.formats`), in SI.
 
     Columns are described in :class:`~ragg_runtime.flight.record.Flight`; the header of a CSV column is
     ``name [unit]``, elsewhere the unit is the column's attribute ``units``. Missing samples are filled in
@@ -48,30 +66,121 @@ def read_flight(path: Path | str, g0: float, *, need_output: bool = True) -> Fli
         The g of the file's units, m/s^2.
     need_output
         False lets a file of motion alone pass.
+    accelerometers
+        Those of the instrument: which columns are its outputs.
+    mapping
+        What the columns are, where the file has names and units of its own.
+    line
+        Which line is meant, where the file has several.
 
     Raises
     ------
     UserError
-        If the file cannot be read as a uniformly sampled flight: what is wrong, where, and what to do.
+        If the file cannot be read as one uniformly sampled flight: what is wrong, where, and what to do.
     """
     path = Path(path)
-    source = open_source(path)
-    plan = layout(path, source.columns, g0, need_output=need_output)
+    sources = open_sources(path, mapping)
+    if line is not None:
+        sources = [s for s in sources if s.line == line] or sources
+    return _flight(_single(sources, path), g0, need_output, accelerometers, line is not None)
+
+
+def read_flights(
+    path: Path | str,
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    mapping: Mapped | None = None,
+) -> list[Flight]:
+    """The flights in a file, one for each line; the arguments are those of :func:`read_flight`."""
+    sources = open_sources(Path(path), mapping)
+    return [_flight(s, g0, need_output, accelerometers, len(sources) > 1) for s in sources]
+
+
+def _flight(
+    source: Source, g0: float, need_output: bool, accelerometers: Accelerometers, several: bool
+) -> Flight:
+    plan = layout(source.path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
     batches: list[Batch] = []
     held = 0
+    with _line_named(source, several):
+        for batch in source.batches():
+            held += sum(v.nbytes for v in batch.values())
+            if held > IN_MEMORY:
+                batches.clear()
+                whole = plan.whole(_bounded(source))
+                parts = _chunks(source, plan, whole, PART, several)
+                return _noted(enough(spooled(parts, source.path, MOST_BYTES), whole.rows), source)
+            batches.append(batch)
+        rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
+        whole = plan.whole([rows])
+        made = plan.flight(rows, whole, name=_name(source, several), digest=file_digest(source.path))
+        return _noted(enough(made, whole.rows), source)
+
+
+def _bounded(source: Source) -> Iterator[Batch]:
+    """The rows of a source that is no compression bomb. UserError otherwise, before anything is laid down on disk."""
+    held, size = 0, source.path.stat().st_size
     for batch in source.batches():
         held += sum(v.nbytes for v in batch.values())
-        if held > IN_MEMORY:
-            batches.clear()
-            parts = iter_flight_chunks(path, g0, PART, need_output=need_output)
-            return spooled(parts, path, MOST_BYTES)
-        batches.append(batch)
-    rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
-    return plan.flight(rows, name=flight_name(path), digest=file_digest(path))
+        if source.path.is_file() and held > max(IN_MEMORY, UNFOLDS * size):
+            raise UserError(
+                "the file unfolds to more than a record can be compressed",
+                where=source.path,
+                found=f"more than {held / 1e9:.3g} GB of numbers in {size / 1e6:.3g} MB on disk",
+                expected=f"at most {UNFOLDS} times as much",
+                remedy="if it is a record that hardly changes, save it as CSV or without compression",
+            )
+        yield batch
+
+
+def _noted(made: Flight, source: Source) -> Flight:
+    return replace(made, notes=(*source.notes, *made.notes)) if source.notes else made
+
+
+@contextlib.contextmanager
+def _line_named(source: Source, several: bool) -> Iterator[None]:
+    """Say in the message which of several lines is at fault."""
+    try:
+        yield
+    except UserError as error:
+        if not several:
+            raise
+        raise UserError(
+            f"line {source.line}: {error.what}",
+            where=error.where,
+            found=error.found,
+            expected=error.expected,
+            remedy=error.remedy,
+        ) from None
+
+
+def _name(source: Source, several: bool) -> str:
+    return flight_name(source.path) + (f":{source.line}" if several else "")
+
+
+def _single(sources: Sequence[Source], path: Path) -> Source:
+    if len(sources) == 1:
+        return sources[0]
+    names = [str(s.line) for s in sources]
+    raise UserError(
+        "the file holds several lines",
+        where=path,
+        found=", ".join(names[:12]) + (" ..." if len(names) > 12 else ""),
+        expected="one flight",
+        remedy="name the line that is meant in a mapping: [file] lines = [...]; or convert it first",
+    )
 
 
 def iter_flight_chunks(
-    path: Path | str, g0: float, rows: int, *, need_output: bool = True
+    path: Path | str,
+    g0: float,
+    rows: int,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    mapping: Mapped | None = None,
 ) -> Iterator[Flight]:
     """The same flight in consecutive parts of ``rows`` (>= 2) file rows, in memory for a few parts only.
 
@@ -81,9 +190,13 @@ def iter_flight_chunks(
     path = Path(path)
     if rows < 2:
         raise UserError("a part of a flight needs at least two rows", found=rows)
-    source = open_source(path)
-    plan = layout(path, source.columns, g0, need_output=need_output)
-    name, digest = flight_name(path), file_digest(path)
+    source = _single(open_sources(path, mapping), path)
+    plan = layout(path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
+    yield from _chunks(source, plan, plan.whole(source.batches()), rows, False)
+
+
+def _chunks(source: Source, plan: Layout, whole: Whole, rows: int, several: bool) -> Iterator[Flight]:
+    name, digest = _name(source, several), file_digest(source.path)
     step: float | None = None
     before: Batch | None = None
     done = 0
@@ -102,9 +215,9 @@ def iter_flight_chunks(
         if after is not None:
             pieces.append({n: v[:_HALO] for n, v in after.items()})
         joined = {n: np.concatenate([p[n] for p in pieces]) for n in part}
-        flight = plan.flight(joined, name=name, digest=digest, first_row=done - lead + 1, step=step)
+        flight = plan.flight(joined, whole, name=name, digest=digest, first_row=done - lead + 1, step=step)
         edges = plan.known.to_si(
-            joined["time"][[max(lead - 1, 0), lead + size - 1]], _unit(source, "time"), "s", str(path)
+            joined["time"][[max(lead - 1, 0), lead + size - 1]], _unit(source, "time"), "s", str(source.path)
         )
         first = 0 if before is None else int(np.searchsorted(flight.time, edges[0], "right"))
         yield flight.part(slice(first, int(np.searchsorted(flight.time, edges[1], "right"))))
@@ -115,42 +228,42 @@ def iter_flight_chunks(
 def write_flight(
     flight: Flight, path: Path | str, units_of: Mapping[str, str] | None = None, g0: float | None = None
 ) -> None:
-    """Write a flight to CSV (``.csv``, ``.csv.gz``), Parquet or NetCDF-4, by the ending; whole or not at all.
+    """Write a flight in any of the formats, by the ending of the name; whole or not at all.
 
     In SI, the default, reading it back gives the same numbers to the last bit. ``units_of`` gives some
     columns another unit; ``g0`` (m/s^2) is needed where one is made with g. Samples that are not valid are
     written without output (without motion, if there is no output).
     """
-    path = Path(path)
+    write_tables(Path(path), lambda: [Written(_columns(flight, units_of or {}, g0))])
+
+
+def write_tables(path: Path, tables: Callable[[], Sequence[Written]]) -> None:
+    """Write tables in the format of the name's ending, whole or not at all (a second file of a pair goes with it)."""
     kind = format_of(path)
-    columns = _columns(flight, units_of or {}, g0)
+    made = tables()
     with replacing(path) as temporary:
-        if kind == "csv":
-            write_csv(temporary, columns, path.name.lower().endswith(".gz"))
-        elif kind == "parquet":
-            write_parquet(temporary, columns)
-        else:
-            write_netcdf(temporary, columns)
+        try:
+            kind.write_tables(temporary, made)
+            for beside in _beside(temporary):
+                os.replace(beside, path.with_suffix(beside.suffix))
+        finally:
+            for beside in _beside(temporary):
+                beside.unlink()
 
 
-def open_source(path: Path) -> Source:
-    """The file as columns in its own units, by the ending of its name and its content."""
-    kind = format_of(path)
-    compressed = check_content(path, kind)
-    if kind == "csv":
-        return open_csv(path, compressed)
-    return open_parquet(path) if kind == "parquet" else open_netcdf(path)
+def _beside(temporary: Path) -> list[Path]:
+    """Files that a writer put beside the one that it was asked for: same name, another ending."""
+    found = temporary.parent.glob(f"{glob.escape(temporary.stem)}.*")
+    return sorted(p for p in found if p.suffix != temporary.suffix)
 
 
 def flight_name(path: Path) -> str:
     """The file's name without its ending; the folder's where the file is just called ``flight``."""
-    stem = path.name
-    for suffix in sorted(FORMATS, key=len, reverse=True):
-        if stem.lower().endswith(suffix):
-            stem = stem[: -len(suffix)]
-            break
+    ending = ending_of(path.name)
+    stem = path.name[: -len(ending)] if ending is not None else path.name
     folder = path.resolve().parent.name
-    return f"{folder}/{stem}" if stem == "flight" and folder else stem
+    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
 def file_digest(path: Path) -> str:

@@ -11,8 +11,23 @@ from pathlib import Path
 
 import h5py
 
-MOST = 20_000
-"""Objects of a file up to which it is looked through: a flight has one a column, and a few for its axes."""
+from ragg_runtime.base.errors import UserError
+
+MOST = 200_000
+"""Objects of a file up to which it is looked through: a survey of 2,000 lines has some 30 columns in each."""
+
+
+def refuse_elsewhere(path: Path) -> None:
+    """UserError if anything in the file stands in another one; OSError etc. if it is damaged."""
+    found = leads_elsewhere(path)
+    if found is not None:
+        raise UserError(
+            "the file does not hold its numbers itself",
+            where=path,
+            found=found,
+            expected="a file whose numbers all stand in it",
+            remedy="copy the data into one file, with nccopy or h5repack for example",
+        )
 
 
 def leads_elsewhere(path: Path) -> str | None:

@@ -1,143 +1,245 @@
-"""A flight file as it stands: columns with the file's own units, in batches of rows."""
+"""A flight file as it stands: tables of columns with the file's own names and units, in batches of rows."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
+from typing import Any, Protocol, TypeVar
 
-from ragg_runtime.base.errors import UserError
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.flight.record import Array
+from ragg_runtime.instrument.units import units
 
 Batch = Mapping[str, Array]
+RawBatch = Mapping[str, NDArray[Any]]
+"""Name -> (n,) float64, NaN where nothing stands; columns of text are object arrays of str, empty for nothing."""
 
-FORMATS: Mapping[str, str] = {
-    ".csv": "csv",
-    ".csv.gz": "csv",
-    ".parquet": "parquet",
-    ".pq": "parquet",
-    ".nc": "netcdf",
-    ".nc4": "netcdf",
-    ".h5": "netcdf",
-    ".hdf5": "netcdf",
-}
-"""File name endings and the format that they stand for."""
-
-_MAGIC = (
-    (b"PAR1", "parquet"),
-    (b"\x89HDF\r\n\x1a\n", "netcdf"),
-    (b"CDF", "classic NetCDF"),
-    (b"PK\x03\x04", "zip or Excel"),
-)
-_GZIP = b"\x1f\x8b"
+_PAREN = re.compile(r"\s*(?P<name>.*?\S)\s*\((?P<unit>[^()]+)\)\s*")
 _HEADER = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\]\s*)?")
 
 
 @dataclass(frozen=True)
 class Column:
-    """A column's name and the unit that the file gives it."""
+    """A column's name and the unit that the file gives it; ``""`` where it gives none."""
 
     name: str
     unit: str
 
 
 @dataclass(frozen=True)
+class Heading:
+    """A column as it stands in a file: name, unit (``""``: none given), whether it holds text."""
+
+    name: str
+    unit: str = ""
+    text: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """One table of a file, in the file's own names and units.
+
+    Attributes
+    ----------
+    path
+        The file.
+    headings
+        Its columns.
+    batches
+        A function that yields the rows of exactly these columns.
+    line
+        Name of the flight line that the table is, where the file has several.
+    """
+
+    path: Path
+    headings: tuple[Heading, ...]
+    batches: Callable[[], Iterator[RawBatch]]
+    line: str | None = None
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is wanted of a file.
+
+    Attributes
+    ----------
+    only
+        Names of the columns that are needed; ``None``: all of them.
+    text
+        Whether columns of text may pass. Otherwise what is no number is an error, except for instants in a
+        column ``time`` and names in a column ``line``.
+    part
+        The group (HDF5), structure (MATLAB) or sheet (Excel) that is meant, where a file has several.
+    """
+
+    only: frozenset[str] | None = None
+    text: bool = False
+    part: str | None = None
+
+    def wants(self, name: str) -> bool:
+        return self.only is None or name in self.only
+
+    def allows_text(self, name: str) -> bool:
+        return self.text or name == "time" or is_line(name)
+
+
+@dataclass(frozen=True)
 class Source:
-    """A flight file: its columns, and a function that yields its rows (float64, NaN where nothing stands)."""
+    """A flight: columns of numbers under the names of the contract, each with a unit, and its rows.
+
+    ``line`` is the flight line, where the file has several; ``origin`` the instant at which ``time`` is 0, if
+    it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file.
+    """
 
     path: Path
     columns: tuple[Column, ...]
     batches: Callable[[], Iterator[Batch]]
+    line: str | None = None
+    origin: datetime | None = None
+    notes: tuple[str, ...] = ()
 
 
-def format_of(path: Path) -> str:
-    """``csv``, ``parquet`` or ``netcdf`` by the ending of the name; UserError for any other."""
-    name = path.name.lower()
-    for suffix in sorted(FORMATS, key=len, reverse=True):
-        if name.endswith(suffix):
-            return FORMATS[suffix]
+@dataclass(frozen=True)
+class Written:
+    """A table to be written: columns (N,) with their units, and the name of the line, where there are several."""
+
+    columns: Sequence[tuple[Column, Array]]
+    line: str | None = None
+
+
+class Format(Protocol):
+    """A file format: a module with these names; :mod:`ragg_runtime.flight.formats` lists them."""
+
+    @property
+    def NAME(self) -> str:
+        """As it is called in messages."""
+
+    @property
+    def ENDINGS(self) -> Sequence[str]:
+        """Endings of file names, in small letters, each of one format alone."""
+
+    @property
+    def MAGIC(self) -> Sequence[bytes]:
+        """What such files begin with; none for text."""
+
+    def open_tables(self, path: Path, look: Look) -> Sequence[Table]:
+        """The tables of a file. Whoever reads files of strangers: one UserError, nothing executed, no end of memory."""
+
+    def write_tables(self, path: Path, tables: Sequence[Written]) -> None:
+        """Write tables to ``path`` so that :meth:`open_tables` gives every number back to the last bit."""
+
+
+class Place(Protocol):
+    """A table in a file that may hold several: where it stands, and its columns."""
+
+    @property
+    def place(self) -> str:
+        """Group, structure or sheet."""
+
+    def headings(self) -> tuple[Heading, ...]:
+        """Its columns."""
+
+
+Placed = TypeVar("Placed", bound=Place)
+
+
+def is_line(name: str) -> bool:
+    """Whether a column of this name tells flight lines apart."""
+    return name.casefold() == "line"
+
+
+def heading(text: str, path: Path, number: int = 1) -> Heading:
+    """Name and unit of ``name [unit]`` or ``name (unit)``; what stands in round brackets must be a unit."""
+    match = _HEADER.fullmatch(text)
+    if match is None:
+        raise UserError(
+            f"column {number} has no readable name",
+            where=path,
+            found=repr(text),
+            expected="name [unit], such as a_x [g]",
+        )
+    if match["unit"] is None:
+        paren = _PAREN.fullmatch(match["name"])
+        if paren is not None and is_unit(paren["unit"]):
+            return Heading(one_line(paren["name"]), paren["unit"].strip())
+    return Heading(one_line(match["name"]), (match["unit"] or "").strip())
+
+
+def units_below(cells: Sequence[str], count: int) -> list[str] | None:
+    """The units in a row below the names: each cell is a unit, perhaps in brackets, or empty; not all numbers."""
+    found = [re.sub(r"\s*(?:\[(.*)\]|\((.*)\))\s*", r"\1\2", c).strip() for c in cells]
+    if len(found) != count or not all(not c or is_unit(c) for c in found):
+        return None
+    return found if any(c not in ("", "1") for c in found) else None
+
+
+def is_unit(text: str) -> bool:
+    """Whether the text reads as a unit."""
+    known = units(9.8)  # whether a text is a unit does not depend on the model's g
+    try:
+        known.parse(text)
+    except UserError:
+        return False
+    return bool(text.strip())
+
+
+def distinct(path: Path, headings: Sequence[Heading]) -> tuple[Heading, ...]:
+    """The headings; UserError if a name stands there twice."""
+    seen: set[str] = set()
+    for h in headings:
+        if h.name in seen:
+            raise UserError(
+                f"the column {h.name!r} stands there twice", where=path, remedy="remove or rename one"
+            )
+        seen.add(h.name)
+    return tuple(headings)
+
+
+def chosen(path: Path, found: Sequence[Placed], look: Look) -> list[Placed]:
+    """The tables that are meant: all if they are lines of one kind; UserError where a choice is needed."""
+    if look.part is not None:
+        part = look.part.strip("/")
+        found = [t for t in found if t.place.strip("/") == part or t.place.strip("/").startswith(part + "/")]
+    kinds = {tuple(sorted(h.name for h in t.headings())) for t in found}
+    if found and len(kinds) == 1:
+        return list(found)
+    everything = [t.place or "/" for t in found]
     raise UserError(
-        "the ending of the file name stands for no flight format",
+        "the file holds no table" if not found else "the file holds several tables that differ",
         where=path,
-        found=path.suffix or "no ending",
-        expected=", ".join(FORMATS),
-        remedy="save the record in one of these formats",
+        found=", ".join(everything[:12]) + (" ..." if len(everything) > 12 else "") or None,
+        expected="vectors of numbers of one length, in one place or in groups that are alike"
+        if look.part is None
+        else f"a table in {look.part!r}",
+        remedy="say in a mapping which is meant: [file] part = ...",
     )
 
 
-def check_content(path: Path, expected: str) -> bool:
-    """Compare the first bytes of an existing file with its format; True if it is compressed (gzip)."""
-    if path.exists() and not (path.is_file() or path.is_dir()):
-        raise UserError(
-            "a flight file is needed here, not a device or a pipe",
-            where=path,
-            expected="a regular file",
-            remedy="write the record to a file first",
-        )
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(8)
-    except FileNotFoundError:
-        raise UserError(
-            "the flight file does not exist",
-            where=path,
-            expected="a CSV, Parquet or NetCDF file",
-            remedy="check the name and the folder",
-        ) from None
-    except IsADirectoryError:
-        raise UserError(
-            "a flight file is needed here, not a directory", where=path, remedy="name the files in it"
-        ) from None
-    except OSError as error:
-        raise UserError("the flight file cannot be read", where=path, found=error.strerror) from None
-    if not head:
-        raise UserError(
-            "the flight file is empty",
-            where=path,
-            found="0 bytes",
-            expected="a header of names and units, then rows",
-            remedy="the recording or the copy may have failed: get the file again",
-        )
-    found = next((kind for magic, kind in _MAGIC if head.startswith(magic)), "csv")
-    if found != expected:
-        raise UserError(
-            "the content does not fit the ending of the file name",
-            where=path,
-            found="neither Parquet nor NetCDF" if found == "csv" else f"a {found} file",
-            expected=expected,
-            remedy="rename the file, or save it as CSV, Parquet or NetCDF-4",
-        )
-    return head.startswith(_GZIP)
+def not_numbers(path: Path, name: str, found: object) -> UserError:
+    return UserError(
+        "the column does not hold numbers", where=f"{path}: column {name!r}", found=found, expected="float64"
+    )
 
 
-def columns_of(path: Path, headers: Sequence[tuple[str, str | None]]) -> tuple[Column, ...]:
-    """Columns from pairs of header and unit; where the unit is None it is in the header, ``name [unit]``."""
-    found: list[Column] = []
-    for number, (header, unit) in enumerate(headers, 1):
-        match = _HEADER.fullmatch(header)
-        if match is None:
-            raise UserError(
-                f"column {number} has no readable name",
-                where=path,
-                found=repr(header),
-                expected="name [unit], such as a_x [g]",
-            )
-        name, given = match["name"], (match["unit"] if unit is None else unit)
-        if given is None or not given.strip():
+def columns_of(path: Path, headings: Sequence[Heading]) -> tuple[Column, ...]:
+    """Columns from headings; UserError where a unit is missing."""
+    for h in headings:
+        if not h.unit:
+            example = _EXAMPLES.get(h.name.split("_")[0], "K")
             raise UserError(
                 "the column has no unit",
-                where=f"{path}: column {name!r}",
-                found=repr(header),
-                expected=f"{name} [unit], such as {name} [{_EXAMPLES.get(name.split('_')[0], 'K')}]",
-                remedy="write the unit; a pure number has the unit 1; none is guessed",
+                where=f"{path}: column {h.name!r}",
+                found=repr(h.name),
+                expected=f"{h.name} [unit], such as {h.name} [{example}]",
+                remedy="write the unit; a pure number has the unit 1; none is guessed. Or say once for all files "
+                "what their columns are: ragg map FLIGHT -o mapping.toml",
             )
-        if any(c.name == name for c in found):
-            raise UserError(
-                f"the column {name!r} stands there twice", where=path, remedy="remove or rename one"
-            )
-        found.append(Column(name, given.strip()))
-    return tuple(found)
+    return tuple(Column(h.name, h.unit) for h in headings)
 
 
 _EXAMPLES = {

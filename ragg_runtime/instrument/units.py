@@ -18,6 +18,7 @@ import pint
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.unit_spelling import spellings
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -76,15 +77,18 @@ class Units:
     def _parse(self, text: str, where: str | None) -> Any:
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
-        remedy = _complaint(text)
-        if remedy is None:
-            try:
-                return self._registry.parse_units(text.replace("·", "*"))
-            except pint.UndefinedUnitError as error:
-                names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
-                remedy = f"{', '.join(map(str, names))} is not a known unit"
-            except Exception:  # what pint raises for a malformed expression is not documented
-                remedy = None
+        remedy: str | None = None
+        for spelling in spellings(text):
+            complaint = _complaint(spelling)
+            if complaint is None:
+                try:
+                    return self._registry.parse_units(spelling.replace("·", "*"))
+                except pint.UndefinedUnitError as error:
+                    names = (error.unit_names,) if isinstance(error.unit_names, str) else error.unit_names
+                    complaint = f"{', '.join(map(str, names))} is not a known unit"
+                except Exception:  # what pint raises for a malformed expression is not documented
+                    complaint = None
+            remedy = remedy or complaint
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
@@ -206,7 +210,7 @@ def _values(value: object, where: str | None, count: int) -> float | tuple[float
             "wrong number of values",
             where=where,
             found=f"{len(value)} values",
-            expected=f"one number, or {count} (A1, A2, A3, A4)" if count > 1 else "one number",
+            expected=f"one number, or {count} ({_each(count)})" if count > 1 else "one number",
         )
     return tuple(_number(v, where) for v in value)
 
@@ -242,8 +246,17 @@ def _not_a_quantity(raw: object, where: str | None, count: int) -> UserError:
         where=where,
         found=repr(raw),
         expected='"0.1 m", { value = 0.1, unit = "m" }'
-        + (f' or {{ value = [{", ".join("1234567890"[:count])}], unit = "m" }}' if count > 1 else ""),
+        + (f' or {{ value = [{_numbers(count)}], unit = "m" }}' if count > 1 else ""),
     )
+
+
+def _each(count: int) -> str:
+    """A1, A2 ... A8."""
+    return ", ".join(f"A{k + 1}" for k in range(count)) if count <= 4 else f"A1 ... A{count}"
+
+
+def _numbers(count: int) -> str:
+    return ", ".join(str(k + 1) for k in range(count)) if count <= 4 else f"1, 2, ... {count}"
 
 
 def _complaint(text: str) -> str | None:

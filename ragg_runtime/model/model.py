@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import sys
 from collections.abc import Mapping
@@ -13,6 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ragg_runtime.instrument.layout import PAPER, Layout
 
 if TYPE_CHECKING:
     from ragg_runtime.model.native import Evaluator
@@ -26,7 +29,6 @@ class Chain(Protocol):
     INPUTS: tuple[str, ...]
     PARAMETERS: tuple[tuple[str, int], ...]
     ROWS: tuple[tuple[str, bool], ...]
-    SIGNS: tuple[int, ...]
     SIZE: int
 
     def accelerometer(
@@ -93,6 +95,8 @@ class Model:
         The model in C: file name -> text, as derived.
     folded
         The generated module of the folded form, which only the paper's model has.
+    layout
+        Whose accelerometers the chain is.
     fitting
         The C of chain and signatures: of what fits evaluate.
     in_machine_code
@@ -106,6 +110,7 @@ class Model:
     digest: str
     sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
+    layout: Layout = PAPER
     fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     in_machine_code: bool = field(default=False, compare=False)
 
@@ -119,28 +124,36 @@ class Model:
         from ragg_runtime.model.native import for_fits
 
         modules = {"chain": self.chain, "signatures": self.signatures}
-        return for_fits(modules, self.fitting if self.in_machine_code else {})
+        return for_fits(modules, self.fitting if self.in_machine_code else {}, self.layout)
 
     def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
         from ragg_runtime.model.native import evaluator
 
-        return evaluator(self.chain, self.sources, self.folded, backend)
+        return evaluator(self.chain, self.sources, self.folded, backend, self.layout)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
         return next((e for e in (*self.effects, *self.candidates) if e.id == identifier), None)
 
 
-@cache
-def packaged() -> Model:
-    """The model of the paper, without further effects, as derived and committed."""
-    import generated
-    from generated import chain, folded, signatures
+def packaged(kinematics: str = "platform") -> Model:
+    """The model of the paper, without further effects, as derived and committed; or that of full kinematics."""
+    return _packaged(kinematics)
 
-    root = resources.files(generated)
+
+@cache
+def _packaged(kinematics: str) -> Model:
+    import generated
+    import generated.full
+
+    package = generated if kinematics == "platform" else generated.full
+    root = resources.files(package)
     manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
 
+    chain, folded, signatures = (
+        importlib.import_module(f"{package.__name__}.{n}") for n in ("chain", "folded", "signatures")
+    )
     names = (f"{n}.{kind}" for n in ("chain", "folded", "signatures") for kind in ("c", "h"))
     c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
     model = _model(manifest, chain, signatures, c)
@@ -149,8 +162,8 @@ def packaged() -> Model:
     return replace(model, sources=sources, folded=folded, in_machine_code=True)
 
 
-def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
-    """A model from derived source texts (``derive.pipeline.derive_model``).
+def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout = PAPER) -> Model:
+    """A model from derived source texts (``derive.pipeline.derive_model``), for this layout.
 
     The texts are executed: pass only what the derivation of this program has just yielded or what is,
     byte for byte, the same.
@@ -165,7 +178,7 @@ def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
         modules[name] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")})
+    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")}, layout=layout)
 
 
 def _model(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.flight.sampling import JITTER_NOTED
 from ragg_runtime.flight.spool import let_go
@@ -16,7 +17,6 @@ from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle
 from ragg_runtime.plausibility.quick_fit import explain
 from ragg_runtime.plausibility.subsample import CHUNK, Picker
-from ragg_runtime.signals.derivative import differentiate
 
 BETTER = 1.1
 """Factor by which the model's residual must fall for jittering instants to be taken otherwise than they stand."""
@@ -42,7 +42,9 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
         worst = max(worst, float(np.max(np.abs(x.time[k] - (first + step * k)), initial=0.0)) / step)
     let_go(x.time, x.valid)
     jitters = worst > JITTER_NOTED
-    encoder = "spin_angle" in x.channels
+    discs = instrument.layout.discs
+    # without an angle to find: recorded, standing still, or those of several discs
+    encoder = p.disc.angle_column in x.channels or len(discs) > 1 or p.disc.spin_frequency == 0.0
     start = float(x.time[0])
     if not jitters and (encoder or start == 0.0):
         return None
@@ -51,7 +53,7 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     tried: list[tuple[float, bool, float]] = []  # residual, even instants, where the disc's angle is 0
     if jitters:
         tried.append((explain(model, instrument, p.pick(rows, even=True)).rms, True, first))
-    f = instrument.spin_frequency
+    f = p.disc.spin_frequency
     for origin in () if encoder else (first, 0.0) if jitters else (0.0,):
         late = float(disc_angle(np.array([start]), f)[0] - disc_angle(np.array([origin]), f)[0])
         tried.append((explain(model, instrument, p.pick(rows, phase=late)).rms, False, origin))
@@ -78,4 +80,5 @@ def _rederived(x: Flight, step: float) -> dict[str, NDArray[np.float64]]:
     if not x.written or ANGULAR_ACCELERATION[0] in x.written:
         return {}
     pairs = zip(ANGULAR_RATE, ANGULAR_ACCELERATION, strict=True)
-    return {change: differentiate(x.channels[rate], 1 / step) for rate, change in pairs}
+    found = planned([x.channels[n] for n in ANGULAR_RATE], 1 / step)
+    return {change: found.of(x.channels[rate], 1 / step)[0] for rate, change in pairs}

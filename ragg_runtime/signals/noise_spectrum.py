@@ -32,6 +32,11 @@ SMOOTH = 0.7
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
 
+FINE = 12
+"""Intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it:
+what is left of a derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so
+that a line does not bend it."""
+
 
 @dataclass(frozen=True)
 class NoiseModel:
@@ -86,18 +91,53 @@ class NoiseModel:
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
 
 
-def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
+def estimate(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
+
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise.
 
     First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate)
+    f, p, count = _periodogram(residuals, rate, without)
     red = _red_and_white(f, p, count)
+    coarse, fine = (_corrected(f, p, count, red(f), w) for w in (np.log, _dense(rate)))
+    # Twice the gain in log likelihood against the number of coefficients (BIC).
+    gain = coarse.cost - fine.cost
+    correction = fine if gain > (fine.size - coarse.size) * np.log(len(f)) else coarse
     x = np.log(f)
-    base = red(f)
-    inner = np.linspace(x[0], x[-1], KNOTS - 2)
+    grid = np.linspace(x[0] - BELOW, x[-1], 513)
+    near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
+    spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
+    log_psd = np.asarray(np.log(red(np.exp(grid))) + correction.at(np.exp(np.clip(grid, x[0], x[-1]))))
+    model = NoiseModel(rate, grid, log_psd, spread)
+    # the level once more by itself: the penalties must not bias it
+    level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
+    return NoiseModel(rate, grid, model.log_psd + np.log(level), spread)
+
+
+@dataclass(frozen=True)
+class _Correction:
+    """A spline of the log-spectrum's departure from red and white; ``cost`` is minus twice the log likelihood."""
+
+    at: Callable[[Array], Array]
+    size: int
+    cost: float
+
+
+def _dense(rate: float) -> Callable[[Array], Array]:
+    """A scale of frequency that is logarithmic for low ones and even for high ones, FINE intervals to the Nyquist frequency."""
+    return lambda f: np.asarray(np.log(f) + f * (2 * FINE / rate))
+
+
+def _corrected(f: Array, p: Array, count: Array, base: Array, scale: Callable[[Array], Array]) -> _Correction:
+    """The correction of ``base`` to the periodogram p (n,) at f (n,), knots evenly spaced on a scale of frequency."""
+    x = scale(f)
+    size = max(KNOTS, round(float(x[-1] - x[0]))) if scale is not np.log else KNOTS
+    inner = np.linspace(x[0], x[-1], size - 2)
     knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
     X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
     roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
@@ -110,17 +150,15 @@ def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
         b = b + step
         if np.max(np.abs(step)) < 1e-8:
             break
-    grid = np.linspace(np.log(f[0]) - BELOW, x[-1], 513)
-    correction = interpolate.BSpline(knots, b, 3)(np.clip(grid, x[0], x[-1]))
-    near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
-    spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
-    model = NoiseModel(rate, grid, np.asarray(np.log(red(np.exp(grid))) + correction), spread)
-    # the level once more by itself: the penalties must not bias it
-    level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
-    return NoiseModel(rate, grid, model.log_psd + np.log(level), spread)
+    fitted = X @ b
+    cost = 2 * float(np.sum(count * (fitted + p / (base * np.exp(fitted)))))
+    spline = interpolate.BSpline(knots, b, 3)
+    return _Correction(lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
 
 
-def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array, Array]:
+def _periodogram(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None
+) -> tuple[Array, Array, Array]:
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency)."""
     longest = max(len(r) for r in residuals)
     usable = [r for r in residuals if len(r) >= max(64, longest // 4)]
@@ -130,8 +168,10 @@ def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array,
     for r in usable:
         f, p = signal.periodogram(r, rate, window="hann", detrend="constant")
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        frequency.append(f[LOWEST:-1])
-        density.append(without_lines(p[LOWEST:-1]))
+        kept = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
+        kept[:LOWEST] = kept[-1:] = False
+        frequency.append(f[kept])
+        density.append(without_lines(p[kept]))
     f, p = np.concatenate(frequency), np.concatenate(density)
     edges = np.geomspace(f.min() * 0.999, f.max() * 1.001, 120)
     which = np.digitize(f, edges)

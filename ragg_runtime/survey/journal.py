@@ -7,6 +7,7 @@ it is there or not; what a killed process left of a line is cut off by the next 
 from __future__ import annotations
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -15,19 +16,24 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.survey.task import Job, Record
+from ragg_runtime.survey.task import Job, Record, divided
 
 KIND = "ragg survey"
+_LONGEST_HEAD = 1 << 16  # bytes
 
 
 def head(job: Job) -> Record:
     """The first line: figures under the same head may stand in one table."""
     text = hashlib.sha256(job.text.encode()).hexdigest()
-    return {"kind": KIND, "model": text, "program": dict(job.program)}
+    found: Record = {"kind": KIND, "model": text, "program": dict(job.program)}
+    if job.mapping is not None:
+        found["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
+    return found
 
 
 def sha256(path: Path) -> str | None:
-    """Digest of a file, as a flight's; ``None`` if it cannot be read."""
+    """Digest of a file, as a flight's (also of ``file::line``); ``None`` if it cannot be read."""
+    path, _ = divided(str(path))
     try:
         with path.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
@@ -65,39 +71,46 @@ class Journal:
 
         Raises UserError if the file is another survey's, or no survey's.
         """
-        with open(self._handle, "rb", closefd=False) as stream:
-            stream.seek(0)
-            text = stream.read()
-        whole = text[: text.rfind(b"\n") + 1]
-        if not whole and KIND.encode() not in text[:80] and text:
-            raise self._foreign("no line of JSON")
-        os.ftruncate(self._handle, len(whole))
-        lines = whole.splitlines()
-        if not lines:
-            self.append(head(job))
-            return {}
-        self._compare(lines[0], job)
+        lines = self._lines()
+        if lines:
+            self._compare(lines[0], job)
         wanted = dict.fromkeys(files)
         found: dict[str, Record] = {}
         for number, line in enumerate(lines[1:], 2):
             record = self._parsed(line, number)
             if record.get("file") in wanted:
                 found[record["file"]] = record
+        # Only now is it certain that the file is a survey's, and what follows its last line one that was cut off.
+        os.ftruncate(self._handle, sum(map(len, lines)))
+        if not lines:
+            self.append(head(job))
         return {
             file: r for file, r in found.items() if "verdict" in r and r.get("sha256") == sha256(Path(file))
         }
 
+    def _lines(self) -> list[bytes]:
+        """The whole lines of the file, with their ends. UserError if it does not begin as a survey's does."""
+        with open(self._handle, "rb", closefd=False) as stream:
+            stream.seek(0)
+            first = stream.readline(_LONGEST_HEAD)
+            if first and self._parsed(first, 1).get("kind") != KIND:
+                raise self._foreign(first[:80].decode(errors="replace"))
+            text = first + stream.read()
+        return text[: text.rfind(b"\n") + 1].splitlines(keepends=True)
+
     def _compare(self, line: bytes, job: Job) -> None:
         found, asked = self._parsed(line, 1), head(job)
-        if found.get("kind") != KIND:
-            raise self._foreign(line[:80].decode(errors="replace"))
-        for key, what in (("model", "model.toml"), ("program", "version of the program")):
-            if found.get(key) != asked[key]:
+        for key, what in (
+            ("model", "model.toml"),
+            ("program", "version of the program"),
+            ("mapping", "mapping of the flights' columns"),
+        ):
+            if found.get(key) != asked.get(key):
                 raise UserError(
                     f"these results are of another {what}",
                     where=self.path,
                     found=found.get(key),
-                    expected=asked[key],
+                    expected=asked.get(key, "none"),
                     remedy="name another results file: the figures of both would not fit together",
                 )
 
@@ -123,8 +136,10 @@ class Journal:
 @contextlib.contextmanager
 def journal(path: Path) -> Iterator[Journal]:
     """Open or make a results file; UserError if that cannot be done or another survey is writing to it."""
-    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0)
+    flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0)
     try:
+        if path.exists() and not path.is_file():
+            raise OSError(errno.EINVAL, "it is not a regular file")
         handle = os.open(path, flags, 0o666)
     except OSError as error:
         raise UserError(

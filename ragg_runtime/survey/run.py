@@ -7,10 +7,11 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.landmarks import Landmarks, overlap, same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import Job, Record, job
+from ragg_runtime.survey.task import LANDMARKS, Job, Record, expanded, job
 from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
@@ -27,8 +28,9 @@ def survey(
     tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: tuple[str, str, bool] | None = None,
 ) -> Survey:
-    """Diagnose flights one by one.
+    """Diagnose flights one by one; each line of a file that has several is a flight.
 
     Parameters
     ----------
@@ -45,6 +47,8 @@ def survey(
         Certificates for a scheduler at ``tls://host:port``; by default those of Dask's own configuration.
     resume
         Results file: what stands in it is not done again (flights in error are), what is done is added.
+    mapping
+        Text and place of the mapping by which flights are read, and whether it is the model's own.
 
     Raises
     ------
@@ -57,8 +61,8 @@ def survey(
         raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
     if jobs is not None and jobs < 1:
         raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
-    given = job(text, path, cluster=scheduler is not None)
-    files = ordered(flights)
+    given = job(text, path, cluster=scheduler is not None, mapping=mapping)
+    files = expanded(given, ordered(flights))
     records: dict[str, Record] = {}
     with _kept(resume) as kept:
         if kept is not None:
@@ -74,7 +78,23 @@ def survey(
                         kept.append(record)
                     if progress is not None:
                         progress(len(records), len(files), record)
-    return Survey(tuple(records[f] for f in files))
+    return Survey(tuple(_once([records[f] for f in files])))
+
+
+def _once(records: Sequence[Record]) -> Iterator[Record]:
+    """The records; of those that are of one and the same record of an instrument the first, the others in error."""
+    seen: list[Landmarks] = []
+    for r in records:
+        kept = {k: v for k, v in r.items() if k != LANDMARKS}
+        if LANDMARKS in r:
+            own = Landmarks.from_json(r["file"], r[LANDMARKS])
+            same = next(((s, o) for s in seen if (o := overlap(s, own)) is not None), None)
+            if same is not None:
+                message = f"{r['file']}: {same_record(same[0].name, same[1])}"
+                kept = {k: r[k] for k in ("flight", "file", "sha256")}
+                kept["error"] = {"kind": "input", "message": message}
+            seen.append(own)
+        yield kept
 
 
 def ordered(flights: Sequence[Path | str]) -> list[str]:

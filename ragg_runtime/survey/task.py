@@ -32,9 +32,12 @@ from ragg_runtime.diagnosis.diagnose import diagnose_fitted
 from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.landmarks import landmarks
+from ragg_runtime.flight.mapping import Mapped, parse_mapping
+from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model.evaluate import vector
@@ -47,8 +50,17 @@ Array = NDArray[np.float64]
 Record = dict[str, Any]
 """What a survey keeps of a flight: JSON."""
 
+LANDMARKS = "landmarks"
+"""Key of a record under which stands what another flight of the same record is known by; not part of the result."""
+
+MARKED = 64
+"""Landmarks that are kept of a flight: several, whatever part of it another file holds."""
+
 RANKED = 5
 """Effects of the ranking that are kept."""
+
+BETWEEN = "::"
+"""Between the file and the line of a flight."""
 
 
 @dataclass(frozen=True)
@@ -63,16 +75,25 @@ class Job:
         :func:`fingerprint` of the program that asks: one that differs would give other figures.
     cluster
         Whether the flight is looked at on another machine.
+    mapping
+        Text and place of the mapping by which flights are read, and whether it is the model's own.
     """
 
     text: str
     path: str
     program: tuple[tuple[str, str], ...]
     cluster: bool = False
+    mapping: tuple[str, str, bool] | None = None
+
+    def mapped(self) -> Mapped | None:
+        if self.mapping is None:
+            return None
+        text, path, kept = self.mapping
+        return replace(parse_mapping(text, Path(path)), kept=kept)
 
 
-def job(text: str, path: Path, *, cluster: bool = False) -> Job:
-    return Job(text, str(path.resolve()), fingerprint(), cluster)
+def job(text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None) -> Job:
+    return Job(text, str(path.resolve()), fingerprint(), cluster, mapping)
 
 
 @cache
@@ -99,8 +120,8 @@ def examine(given: Job, file: str) -> Record:
 
     Raises MemoryError and OSError, which a further attempt may mend.
     """
-    path = Path(file)
-    record: Record = {"flight": path.name, "file": file}
+    path, line = divided(file)
+    record: Record = {"flight": Path(file).name, "file": file}
     try:
         _same_program(given)
         if given.cluster and not path.exists():
@@ -113,7 +134,14 @@ def examine(given: Job, file: str) -> Record:
             )
         with _one_thread(), alone():
             instrument, model = _model(given.text, given.path)
-            flight = examined(model, instrument, read_flight(path, instrument.g0))
+            read = read_flight(
+                path,
+                instrument.g0,
+                accelerometers=instrument.layout,
+                mapping=given.mapped(),
+                line=line,
+            )
+            flight = examined(model, instrument, read)
             return record | _figures(model, instrument, flight)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
@@ -121,6 +149,26 @@ def examine(given: Job, file: str) -> Record:
         raise
     except Exception as error:
         return record | {"error": {"kind": "fault", "message": _fault(error)}}
+
+
+def expanded(given: Job, files: Sequence[str]) -> list[str]:
+    """The files, and for those with several lines ``file::line`` for each; what cannot be read stays as it is."""
+    found = []
+    for file in files:
+        try:
+            names = [s.line for s in open_sources(Path(file), given.mapped())]
+        except (UserError, OSError):
+            names = [None]
+        found += [file] if len(names) == 1 else [f"{file}{BETWEEN}{n}" for n in names]
+    return found
+
+
+def divided(file: str) -> tuple[Path, str | None]:
+    """The path and the line of ``file::line``; a file of that very name comes first."""
+    path, between, line = file.rpartition(BETWEEN)
+    if not between or Path(file).exists():
+        return Path(file), None
+    return Path(path), line
 
 
 def _same_program(given: Job) -> None:
@@ -187,13 +235,14 @@ def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
         with _deriving:
             return derive.with_effects(instrument, m, ids, candidates=candidates)
 
-    f = fit(model, instrument, [observe(flight, instrument)])
+    f = fit(model, instrument, observations_of([flight], instrument))
     p = vector(model, instrument)
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)
     held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
+        LANDMARKS: landmarks(flight, MARKED).as_json(),
         "samples": len(flight),
         "duration_s": flight.duration,
         "rate_Hz": flight.rate,

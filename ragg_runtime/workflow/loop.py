@@ -10,7 +10,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -19,22 +20,34 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight import read_flights as _read_flights
+from ragg_runtime.flight.landmarks import distinct
+from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
+from ragg_runtime.model_dir.directory import (
+    MAPPING,
+    ModelDir,
+    create_model_dir,
+    load_model_dir,
+    replace_model_dir,
+)
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.survey import Survey
@@ -42,6 +55,12 @@ from ragg_runtime.survey import survey as _survey
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.survey.tls import Tls
 from ragg_runtime.wording import notebook
+
+NO_FORM = (
+    'model.toml has no [model], which means kinematics = "platform" and order = "paper": as in Eq. 9 of the paper '
+    "the accelerometers do not feel that they turn with the disc. Real ones do: with "
+    '[model] kinematics = "full" the model knows it'
+)
 
 
 @dataclass(frozen=True, repr=False)
@@ -58,7 +77,7 @@ class Loaded:
 
     @property
     def name(self) -> str:
-        return self.directory.path.resolve().name
+        return one_line(self.directory.path.resolve().name)
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
@@ -124,8 +143,15 @@ def errors_of(c: Comparison | None) -> dict[str, object] | None:
     }
 
 
-def new(path: Path | str, source: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example."""
+def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
+
+    ``mapping`` is kept with the model: what the columns of its flight files are.
+    """
+    kept = None
+    if mapping is not None:
+        kept = read_text(Path(mapping))
+        parse_mapping(kept, Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -138,8 +164,10 @@ def new(path: Path | str, source: Path | None = None) -> Loaded:
     instrument = parse_instrument(text, Path(source) if source else None)
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
-    history = (Step("new", _now()),)
-    return _loaded(create_model_dir(path, text, generated=derive.files_of(instrument), history=history))
+    history = (Step("new", _now(), text=text),)
+    made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
+    m = _loaded(made)
+    return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
 
 
 def load(path: Path | str) -> Loaded:
@@ -150,28 +178,63 @@ def load(path: Path | str) -> Loaded:
 def _loaded(directory: ModelDir) -> Loaded:
     model = derive.model_of(directory.instrument, directory.generated)
     check_settings(model, directory.instrument)
-    note = (
-        derive.departure(directory.instrument, directory.generated) if directory.instrument.effects else None
-    )
+    note = derive.departure(directory.instrument, directory.generated)
     return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``."""
-    return [settled(examined(m.model, m.instrument, read_flight(p, m.instrument.g0))) for p in paths]
+def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+
+    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
+    default the model's own ``mapping.toml``, if it has one.
+    """
+    how = mapping_of(m, mapping)
+    found = []
+    for path in paths:
+        for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
+            found.append(settled(examined(m.model, m.instrument, x)))
+    return found
 
 
-def compare(m: Loaded, flights: Sequence[Flight]) -> Comparison:
-    """How far the model is from the flights, and where it fails."""
-    return _compare.compare(m.model, m.instrument, flights)
+def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
+    """The mapping that is given, else the one that is kept with the model, else none."""
+    if given is not None:
+        return read_mapping(Path(given))
+    own = m.directory.path / MAPPING
+    return replace(read_mapping(own), kept=True) if own.exists() else None
 
 
-def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
-    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
+    """How far the model is from the flights, and where it fails.
+
+    With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
+    """
+    distinct(flights)
+    c = _compare.compare(m.model, m.instrument, flights)
+    if not ladder:
+        return c
+    return replace(
+        c, ladder=climb(m.instrument, flights, lambda form: derive.without_signatures(m.instrument, form))
+    )
+
+
+def diagnose(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float] = LIMITS,
+    compared: Comparison | None = None,
+) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`).
+
+    ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
+    """
+    distinct(flights)
 
     def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
         return derive.with_effects(m.instrument, model, ids, candidates=candidates)
 
+    if compared is not None:
+        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
 
@@ -206,12 +269,14 @@ def survey(
     tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
+    mapping: Path | None = None,
 ) -> Survey:
     """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
 
     The arguments are those of :func:`ragg_runtime.survey.run.survey`.
     """
     place = m.directory.path / "model.toml"
+    how = mapping_of(m, mapping)
     return _survey(
         m.directory.text,
         place,
@@ -221,18 +286,28 @@ def survey(
         tls=tls,
         resume=resume,
         progress=progress,
+        mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),
     )
 
 
-def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
+) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all; not where the calibration does not converge.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
     """
+    distinct(flights)
     instrument = m.instrument
-    known = derive.known(instrument)
-    symbolic = known.get(effect, at(m.directory.path))
+    symbolic = derive.offered(instrument, effect)
     present = next((s for s in instrument.effects if s.id == effect), None)
     if present is not None and present.values:
         raise UserError(
@@ -266,14 +341,17 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
     if flights:
         after = _compare.compare(model, extended, flights)
         parameters, combinations = calibrated(after, effect)
-        values |= settings(parameters)
+        values |= settings(parameters, instrument.layout.size)
         with_values = replace(
             extended,
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         after = after.with_nominal(with_values)
         if not after.converged:
-            return Added(m, effect, before, after, parameters, combinations)
+            made = Added(m, effect, before, after, parameters, combinations)
+            if tell is not None:
+                tell(made)
+            return made
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",
@@ -282,18 +360,33 @@ def add(m: Loaded, effect: str, flights: Sequence[Flight] = ()) -> Added:
         errors_of(before),
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
+        text,
     )
+    made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
+    if tell is not None:
+        tell(made)
+    if not save:
+        return replace(made, loaded=m)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
-    return Added(_loaded(directory), effect, before, after, parameters, combinations)
+    return replace(made, loaded=_loaded(directory))
 
 
-def remove(m: Loaded, effect: str) -> Loaded:
-    """Take an effect out of the model again."""
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = Step("remove", _now(), effect)
+    step = Step("remove", _now(), effect, text=text)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
     )
@@ -313,17 +406,17 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     )
 
 
-def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
-    """Calibrated parameters as they are written to model.toml."""
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for p in parameters:
         if p.accelerometer is None:
             values[p.name] = RawQuantity(p.value, p.unit)
         else:
             old = values.get(p.name)
-            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
-            four[p.accelerometer - 1] = p.value
-            values[p.name] = RawQuantity(tuple(four), p.unit)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
     return values
 
 

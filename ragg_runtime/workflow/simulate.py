@@ -43,7 +43,9 @@ def simulated(
     no_gradient: bool = False,
     voltages: bool = False,
 ) -> Flight:
-    """A flight with hidden effects.
+    """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
+
+    Mounting angles of the second power are flown exactly.
 
     Parameters
     ----------
@@ -58,7 +60,11 @@ def simulated(
     ------
     UserError
     """
-    effects = dict(_parsed(text, instrument.g0) for text in hidden)
+    effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
+    form = instrument.form
+    if not form.second_order_angles:
+        effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
+    first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
@@ -68,6 +74,8 @@ def simulated(
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
         record_gradient=not no_gradient,
         noise=Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if noise else None,
+        rotations="first-order" if first_order else "exact",
+        kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
         seed=seed,
         auxiliaries=plausible(np.random.default_rng([seed, 12])),
@@ -75,7 +83,7 @@ def simulated(
     return s.flight("simulated", voltages=voltages)
 
 
-def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
+def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     identifier, _, rest = text.partition(":")
     model = packaged()
     effect = model.effect(identifier)
@@ -85,7 +93,7 @@ def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
     values: dict[str, Array] = {}
     for part in rest.split(",") if rest else ():
         name, _, numbers = part.partition("=")
-        values[name.strip()] = _numbers(effect, name.strip(), numbers, g0)
+        values[name.strip()] = _numbers(effect, name.strip(), numbers, instrument)
     if not values:
         raise UserError(
             "the hidden effect has no value",
@@ -95,7 +103,8 @@ def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
     return identifier, values
 
 
-def _numbers(effect: Effect, name: str, text: str, g0: float) -> Array:
+def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Array:
+    count = instrument.layout.size
     for q in effect.parameters:
         if q.name == name:
             break
@@ -108,11 +117,12 @@ def _numbers(effect: Effect, name: str, text: str, g0: float) -> Array:
         raw = np.array([float(x) for x in text.split("/")])
     except ValueError:
         raise UserError("not a number", where=f"--effect {effect.id}", found=repr(text)) from None
-    if len(raw) not in ((1,) if q.shared else (1, 4)):
+    if len(raw) not in ((1,) if q.shared else (1, count)):
+        wanted = "one value" if q.shared else f"one value or {'four' if count == 4 else count} joined by /"
         raise UserError(
-            f"{effect.id}: {name} takes {'one value' if q.shared else 'one value or four joined by /'}",
+            f"{effect.id}: {name} takes {wanted}",
             found=repr(text),
         )
-    known = units(g0)
+    known = units(instrument.g0)
     si = np.asarray(known.to_si(raw, q.unit, known.base_unit(q.unit)))
-    return si if len(si) == 4 else si[0]
+    return si if len(si) == count and not q.shared else si[0]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from derive.chain import accelerometer
 from derive.effect import Effect
-from derive.stages import Order
+from derive.stages import Kinematics, Order
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, symbol
 from derive.tape import Program, simplify
 from ragg_runtime.instrument.units import units
@@ -52,9 +52,9 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
 
 
 @lru_cache
-def voltage(effects: tuple[Effect, ...], order: Order) -> Evaluated:
+def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
-    a = accelerometer(effects, order)
+    a = accelerometer(effects, order, kinematics=kinematics)
     return evaluated(simplify(a.tape.assignments, [("V", a.voltage)], {}))
 
 

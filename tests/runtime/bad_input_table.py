@@ -431,9 +431,9 @@ TABLE: dict[str, tuple[Row, ...]] = {
         ),
         Row(
             "an unknown ending",
-            text(TEXT, "flight.xlsx"),
-            ("flight.xlsx", ".parquet", ".csv"),
-            ("compare", "model", "flight.xlsx"),
+            text(TEXT, "flight.xls"),
+            ("flight.xls", ".parquet", ".csv"),
+            ("compare", "model", "flight.xls"),
         ),
         Row(
             "an Excel file with the ending csv",
@@ -849,8 +849,8 @@ TABLE: dict[str, tuple[Row, ...]] = {
         Row(
             "an output file of no known format",
             lambda: None,
-            ("x.xlsx", ".parquet"),
-            ("simulate", "model", "--duration", "60", "-o", "x.xlsx"),
+            ("x.xls", ".parquet"),
+            ("simulate", "model", "--duration", "60", "-o", "x.xls"),
         ),
         Row("no flight", lambda: None, ("FLIGHTS",), ("compare", "model")),
         Row(
@@ -872,6 +872,53 @@ TABLE: dict[str, tuple[Row, ...]] = {
             ("compare", "model", "flight.csv", "--report", "none/x.html"),
         ),
         Row("an unknown option", lambda: None, ("--jsn",), ("compare", "model", "flight.csv", "--jsn", "-")),
+    ),
+    "Mappings and the field's files": (
+        Row(
+            "a mapping with a question left",
+            both(
+                flown(same),
+                text('[time]\ncolumn = "time"\n[columns]\na_x = { column = "a_x", unit = "?" }\n', "m.toml"),
+            ),
+            ("m.toml", "a_x", "not answered"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "a mapping of another file",
+            both(flown(same), text('[time]\ncolumn = "UTC"\nformat = "iso"\n', "m.toml")),
+            ("UTC", "not in the file", "ragg map"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "axes that are a mirror image",
+            both(flown(same), text('[time]\ncolumn = "time"\n[axes]\nx = "y"\ny = "x"\n', "m.toml")),
+            ("mirror", "right-handed", "sign = -1"),
+            ("compare", "model", "flight.csv", "--map", "m.toml"),
+        ),
+        Row(
+            "a .dat file without its .dfn",
+            text("1 2 3\n", "flight.dat"),
+            ("flight.dfn", "missing"),
+            ("compare", "model", "flight.dat"),
+        ),
+        Row(
+            "an XYZ file without units",
+            text("/ time a_x\nLine 10\n0 1\n1 2\n", "flight.xyz"),
+            ("no unit", "ragg map"),
+            ("compare", "model", "flight.xyz"),
+        ),
+        Row(
+            "converted into an unknown format",
+            flown(same),
+            (".xls", ".xlsx"),
+            ("convert", "flight.csv", "flight.xls"),
+        ),
+        Row(
+            "quality control of a record without gradients",
+            flown(same),
+            ("no gradient", "ragg map"),
+            ("qc", "flight.csv"),
+        ),
     ),
 }
 

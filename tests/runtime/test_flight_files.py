@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, files, iter_flight_chunks, read_flight, write_flight
+from ragg_runtime.flight import Flight, formats, iter_flight_chunks, read_flight, write_flight
 
 G0 = 9.8
 SUFFIXES = (".csv", ".csv.gz", ".parquet", ".nc")
@@ -129,8 +129,7 @@ def test_a_failed_writer_leaves_the_old_file(
         target.write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    for writer in ("write_csv", "write_parquet", "write_netcdf"):
-        monkeypatch.setattr(files, writer, full)
+    monkeypatch.setattr(formats.format_of(path), "write_tables", full)
     with pytest.raises(UserError, match="No space left"):
         write_flight(flight(), path)
     assert path.read_bytes() == b"old"

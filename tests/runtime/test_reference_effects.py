@@ -9,12 +9,13 @@ import itertools
 
 import numpy as np
 import pytest
+import sympy as sp
 from scipy.spatial.transform import Rotation
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import CATALOGUE, Motion, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.effects import resolve
-from ragg_runtime.reference.effects.force import third_order_tensor, vibration
+from ragg_runtime.reference.effects.force import fourth_order_tensor, third_order_tensor, vibration
 from ragg_runtime.reference.gravity import Gradient, PointMass
 from ragg_runtime.reference.instruments import perfect, trimmed
 from ragg_runtime.reference.motion import recorded_motion
@@ -80,10 +81,22 @@ SIZES = {
     "m": 1e-3,
     "1/s^2/rad": 1e-7,
     "1/(m s^2)": 1e-7,
+    "1/(m^2 s^2)": 1e-7,
     "(m/s^2)^2": 1e-2,
     "V": 3.0,
+    "1/s^2": 1e-7,
+    "rad/s": 1e-5,
+    "(rad/s)/(m/s^2)": 1e-5,
+    "m/s^2": 1e-4,
+    "(m/s^2)/(K/s)": 1e-3,
+    "1/(K/s)": 1e-4,
+    "(m/s^2)/(rad/s)^2": 1e-4,
+    "s^2": 1e-4,
 }
-RECORD_ONLY = {"time-offset", "imu-lever-arm", "imu-misalignment", "gyro-scale"}
+RECORD_ONLY = {
+    "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-bias",
+    "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
+}  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation"}
 PER_ACCELEROMETER = [
     e for e, parameters in CATALOGUE.items() if any(p.per_accelerometer for p in parameters.values())
@@ -223,11 +236,14 @@ def test_lag_out_of_range_is_refused() -> None:
 
 def test_pendulum_angular() -> None:
     motion = Motion(
-        still().a, (Sinusoids(0.0, [0.1], [0.1], [0.0]), Sinusoids(0.0, [0.3], [0.1], [0.0]), Sinusoids())
+        still().a, (Sinusoids(0.5, [0.1], [0.1], [0.0]), Sinusoids(-0.7, [0.3], [0.1], [0.0]), Sinusoids(0.4))
     )
     change = force({"pendulum-angular": {"K_pa": [1e-5, 1e-5, 1e-5, 0]}}, motion)
-    # The radial axes of A1, A2, A3 are +x, -x, +y; omegadot = 2 pi 0.1 (0.1, 0.3, 0).
-    expected = 1e-5 * 2 * np.pi * 0.1 * np.array([0.1, -0.1, 0.3, 0.0])
+    # The radial axes of A1, A2, A3 are +x, -x, +y; omegadot = 2 pi 0.1 (0.1, 0.3, 0), and the disc's turning about
+    # z is turned itself: omega x Omega = Omega (omega_y, -omega_x, 0).
+    spin = 2 * np.pi * 0.25
+    x, y = 2 * np.pi * 0.1 * 0.1 + spin * -0.7, 2 * np.pi * 0.1 * 0.3 - spin * 0.5
+    expected = 1e-5 * np.array([x, -x, y, 0.0])
     np.testing.assert_allclose(change[:, 0], expected, rtol=1e-6, atol=1e-16)
 
 
@@ -268,13 +284,57 @@ def test_gain_step_jumps_at_its_instant() -> None:
 # --- geometry ---
 
 
+def test_a_steady_disc_on_a_still_platform_is_drawn_to_its_axis() -> None:
+    # f_y = -Omega^2 R, which a misaligned input axis sees.
+    tilted = perfect().replace(vartheta_z=[1e-3, 0, 0, 0])
+    change = force({"disc-spin": {"share": 1.0}}, still(), tilted, duration=8.0)
+    np.testing.assert_allclose(change[0], -1e-3 * 0.1 * (2 * np.pi * 0.25) ** 2, rtol=1e-9)
+    np.testing.assert_allclose(change[1:], 0.0, atol=1e-15)
+
+
+def test_coriolis_lifts_an_accelerometer_that_moves_forward_on_a_pitching_platform() -> None:
+    # At phi = 0 A1 moves along +y with Omega R; 2 omega x v has z component 2 omega_x Omega R, seen by -vartheta_y f_z
+    # with nominal z pointing down.
+    tilted = perfect().replace(vartheta_y=[1e-3, 0, 0, 0])
+    change = force({"disc-spin": {"share": 1.0}}, still(omega=(0.02, 0, 0)), tilted)
+    assert change[0, 0] == pytest.approx(1e-3 * 2 * 0.02 * 2 * np.pi * 0.25 * 0.1, rel=1e-6)
+
+
+def test_full_kinematics_are_disc_spin_with_share_one() -> None:
+    full = run(None, kinematics="full").voltages
+    np.testing.assert_array_equal(full, run({"disc-spin": {"share": 1.0}}).voltages)
+    assert np.std(full - PLAIN.voltages) > 0
+    with pytest.raises(UserError, match="full kinematics already"):
+        run({"disc-spin": {"share": 1.0}}, kinematics="full")
+
+
+def test_a_swing_of_the_disc_pushes_along_the_turn() -> None:
+    """R phi'': all four feel it, so that a scale factor's excess shows it."""
+    n, c = 2, 1e-4
+    flight = run({"encoder-harmonic": {"c_2": c}}, perfect(), still(), 8.0, gravity=None, kinematics="full")
+    spin = 2 * np.pi * 0.25
+    expected = -0.1 * (n * spin) ** 2 * c * np.cos(n * spin * flight.time)
+    np.testing.assert_allclose(flight.voltages / GAIN, np.tile(expected, (4, 1)), atol=1e-12)
+
+
 def test_arm_stretch_is_in_equilibrium_with_its_own_force() -> None:
-    # f_y = a_x - omega_z^2 R with R = R0 + c f_y; f_x = omegadot_z R.
+    # f_y = a_x cos phi - omega_z^2 R with R = R0 + c f_y; f_x = omegadot_z R + 2 (omega_z + Omega) dR/dt.
     omega, omegadot, c, a = 0.2, 2 * np.pi * 0.1, 1e-2, 3.0
     motion = Motion(still(a=(a, 0, 0)).a, (Sinusoids(), Sinusoids(), Sinusoids(omega, [1.0], [0.1], [0.0])))
     change = force({"arm-stretch": {"c_r": [c, 0, 0, 0]}}, motion)
     R = (0.1 + c * a) / (1 + c * omega**2)
-    assert change[0, 0] == pytest.approx(omegadot * (R - 0.1), rel=1e-9)
+    growth = -2 * c * omega * omegadot * R / (1 + c * omega**2)
+    expected = omegadot * (R - 0.1) + 2 * (omega + 2 * np.pi * 0.25) * growth
+    assert change[0, 0] == pytest.approx(expected, rel=1e-6)
+
+
+def test_an_arm_that_stretches_as_the_disc_turns_feels_coriolis() -> None:
+    # Steady force a along x: dR = c a cos(phi), so f_x = 2 Omega dR/dt = -2 Omega^2 c a sin(phi) on a still platform.
+    c, a, spin = 1e-6, 3.0, 2 * np.pi * 0.25
+    change = force({"arm-stretch": {"c_r": [c, 0, 0, 0]}}, still(a=(a, 0, 0)), duration=4.0)
+    phi = spin * np.arange(64) / 16
+    size = 2 * spin**2 * c * a
+    np.testing.assert_allclose(change[0], -size * np.sin(phi), rtol=0, atol=1e-7 * size)
 
 
 def test_arm_sag_follows_the_downward_axis() -> None:
@@ -450,6 +510,30 @@ def test_near_mass_is_what_newton_adds_to_the_gradient() -> None:
     tensor = third_order_tensor(resolve({"near-mass": T})["near-mass"])
     np.testing.assert_allclose(np.einsum("iij->j", tensor), 0, atol=1e-22)
     np.testing.assert_allclose(np.einsum("ijj->i", tensor), 0, atol=1e-22)
+
+
+def test_the_fourth_derivative_is_what_a_perfect_instrument_sees_of_a_near_mass() -> None:
+    """Newton's law less value, gradient and third derivative: opposite accelerometers add it up instead."""
+    site = np.array([2.4, -1.6, 1.1])
+    x = sp.symbols("x y z", real=True)
+    G, m = sp.Float("6.6743e-11", 30), 2000
+    potential = G * m / sp.sqrt(sum((sp.Float(str(s), 30) - v) ** 2 for s, v in zip(site, x, strict=True)))
+    T = {}
+    for name in CATALOGUE["near-mass"]:
+        axes = [x["xyz".index(k)] for k in name.removeprefix("T_")]
+        T[name] = float(sp.diff(potential, *axes).subs(dict.fromkeys(x, 0)))
+    mass = PointMass(2000.0, site)
+    linear = Gradient(mass.gradient(np.zeros(1))[:, 0])
+    third = {k: v for k, v in T.items() if len(k) == 5}
+    newton, flat, even, both = (
+        run(e, perfect(), still(), 4.0, gravity=g).G_out
+        for e, g in ((None, mass), (None, linear), ({"near-mass": third}, linear), ({"near-mass": T}, linear))
+    )
+    missing = np.max(np.abs(newton - flat))
+    assert np.max(np.abs(even - flat)) < 1e-5 * missing
+    assert np.max(np.abs(newton - both)) < 0.05 * missing
+    tensor = fourth_order_tensor(resolve({"near-mass": T})["near-mass"])
+    np.testing.assert_allclose(np.einsum("iijk->jk", tensor), 0, atol=1e-20)
 
 
 def test_vibration_rectification_closed_form() -> None:

@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import Layout
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
-"""Inputs, one series of N samples each, in the order of the model; ``None``: not recorded, zero."""
+"""Inputs, one series of N samples each, in the order of the model; ``None``: not recorded, zero (the rate of the disc
+angle: 2 pi spin_frequency)."""
 
 BLOCK = 4096
 """Samples that threads and NumPy blocks are cut at: a multiple of the block of the generated C."""
@@ -83,6 +85,17 @@ class Base:
     """What both backends share: arguments are checked, series cut, parts put together."""
 
     chain: Module
+    layout: Layout
+
+    @property
+    def size(self) -> int:
+        """Number of accelerometers."""
+        return self.layout.size
+
+    @property
+    def several(self) -> bool:
+        """Whether the generated code is that of a layout other than the paper's, function by accelerometer."""
+        return not self.layout.like_paper
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -97,18 +110,25 @@ class Base:
                 found=len(inputs),
                 expected=f"{len(self.chain.INPUTS)}: {names}",
             )
-        rows = inputs if _is_matrix(inputs, len(time)) else self._each(inputs, len(time))
         values = np.ascontiguousarray(p, dtype=np.float64)
         if values.shape != (self.chain.SIZE,):
             raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
         phi = None if angle is None else _series(angle, "angle", len(time))
+        spin = 2 * np.pi * float(values[self.size if self.several else 1]) if phi is None else None
+        rows = inputs if _is_matrix(inputs, len(time)) else self._each(inputs, len(time), spin)
         return Case(time, rows, values, phi)
 
-    def _each(self, inputs: Series, length: int) -> tuple[Array, ...]:
+    def _each(self, inputs: Series, length: int, spin: float | None) -> tuple[Array, ...]:
         zero: Array | None = None
         rows: list[Array] = []
         for name, x in zip(self.chain.INPUTS, inputs, strict=True):
-            if x is None:
+            if x is None and name == "d_spin_angle":
+                if spin is None:
+                    raise UserError(
+                        "the disc angle is given, but not its rate", expected="a series d_spin_angle, rad/s"
+                    )
+                rows.append(np.full(length, spin))
+            elif x is None:
                 zero = np.zeros(length) if zero is None else zero
                 rows.append(zero)
             else:

@@ -74,12 +74,30 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "spin-phase-offset": _shared("rad", "phi_0"),
     "encoder-harmonic": _shared("rad", "c_1", "s_1", "c_2", "s_2", "c_3", "s_3", "c_4", "s_4"),
     "spin-rate-jitter": _shared("rad", "sigma_phi") | _shared("rad/s^0.5", "sigma_walk"),
+    "disc-spin": _shared("1", "share"),
+    "spin-rate-offset": _shared("1", "epsilon"),
+    "gradient-offset": _shared("1/s^2", "G_xx", "G_xy", "G_xz", "G_yy", "G_yz"),
+    "gyro-bias": _shared("rad/s", "b_x", "b_y", "b_z"),
+    "gyro-g-sensitivity": _shared("(rad/s)/(m/s^2)", *(f"d_{i}{k}" for i in "xyz" for k in "xyz")),
+    "imu-acceleration-scale": _shared("1", "s_x", "s_y", "s_z"),
+    "imu-acceleration-bias": _shared("m/s^2", "b_x", "b_y", "b_z"),
+    "imu-acceleration-misalignment": _shared("rad", "m_xy", "m_xz", "m_yx", "m_yz", "m_zx", "m_zy"),
+    "clock-drift": _shared("1", "epsilon"),
+    "bias-step": _each("m/s^2", "dK0") | _shared("s", "t_step"),
+    "output-gain-step": _shared("1", "g") | _shared("s", "t_step"),
+    "output-filter": _shared("s^2", "b"),
+    "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot") | _each("1/(K/s)", "dK1_dTdot"),
+    "anisoinertia": _each("(m/s^2)/(rad/s)^2", "K_ip"),
     "time-offset": _shared("s", "delta_t"),
     "imu-lever-arm": _shared("m", "l_x", "l_y", "l_z"),
     "imu-misalignment": _shared("rad", "e_x", "e_y", "e_z"),
     "gyro-scale": _shared("1", "s_x", "s_y", "s_z"),
     "self-gradient": _shared("1/s^2/rad", *_TURNING),
-    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz"),
+    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz")
+    | _shared(
+        "1/(m^2 s^2)",
+        *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
+    ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
@@ -87,12 +105,12 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
 """Every effect and its parameters."""
 
 
-def resolve(effects: EffectValues | None) -> Injected:
-    """Check what a user asked for and fill in the neutral values.
+def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
+    """Check what a user asked for and fill in the neutral values, for ``count`` accelerometers.
 
     Returns
     -------
-    For each effect, all of its parameters: (4,) arrays per accelerometer, () arrays shared.
+    For each effect, all of its parameters: (count,) arrays per accelerometer, () arrays shared.
 
     Raises
     ------
@@ -116,7 +134,7 @@ def resolve(effects: EffectValues | None) -> Injected:
                     remedy=did_you_mean(name, known),
                 )
         resolved[effect] = {
-            name: _values(effect, name, parameter, given.get(name, parameter.neutral))
+            name: _values(effect, name, parameter, given.get(name, parameter.neutral), count)
             for name, parameter in known.items()
         }
     return resolved
@@ -130,20 +148,23 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     return {
         "thermal-bias": ("temperature",),
         "thermal-scale": ("temperature",),
+        "thermal-lag": ("temperature",),
         "pressure-bias": ("pressure",),
         "magnetic-bias": ("B_x", "B_y", "B_z"),
     }.get(effect, ())
 
 
-def _values(effect: str, name: str, parameter: Parameter, given: ArrayLike) -> NDArray[np.float64]:
+def _values(
+    effect: str, name: str, parameter: Parameter, given: ArrayLike, count: int
+) -> NDArray[np.float64]:
     expected = (
-        f"four numbers, or one for all, in {parameter.unit}"
+        f"{'four' if count == 4 else count} numbers, or one for all, in {parameter.unit}"
         if parameter.per_accelerometer
         else (f"one number in {parameter.unit}")
     )
     try:
         value = np.asarray(given, dtype=np.float64)
-        value = np.broadcast_to(value, (4,)) if parameter.per_accelerometer else value.reshape(())
+        value = np.broadcast_to(value, (count,)) if parameter.per_accelerometer else value.reshape(())
     except (TypeError, ValueError):
         raise UserError(
             f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected

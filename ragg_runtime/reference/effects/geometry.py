@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from typing import Literal, TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected
 from ragg_runtime.reference.rotation import by_vector
+from ragg_runtime.reference.taylor import Taylor
 
 Array = NDArray[np.float64]
+Kinematics: TypeAlias = Literal["platform", "full"]
 
 
-def disc_angle(nominal: Array, error: Array, effects: Injected) -> Array:
+def disc_angle(nominal: Taylor, time: Array, error: Array, effects: Injected) -> Taylor:
     """True angle of the disc where the model believes ``nominal`` (N,) rad; ``error`` is the random part."""
     phi = nominal
     if offset := effects.get("spin-phase-offset"):
         phi = phi + offset["phi_0"]
+    if fast := effects.get("spin-rate-offset"):
+        gained = fast["epsilon"] * nominal.first
+        phi = phi + Taylor(gained * time, gained, np.zeros_like(gained))
     if encoder := effects.get("encoder-harmonic"):
-        phi = phi + sum(
-            encoder[f"c_{n}"] * np.cos(n * nominal) + encoder[f"s_{n}"] * np.sin(n * nominal)
-            for n in (1, 2, 3, 4)
-        )
+        for n in (1, 2, 3, 4):
+            turned = nominal * float(n)
+            phi = phi + turned.cosine() * encoder[f"c_{n}"] + turned.sine() * encoder[f"s_{n}"]
     return phi + error
 
 
@@ -45,6 +52,19 @@ def wobble(effects: Injected) -> Array | None:
     """Lean of the disc about axes that turn with it, (3, 3) in the disc frame, or None."""
     lean = effects.get("spin-axis-wobble")
     return None if lean is None else by_vector(np.array([lean["w_x"], lean["w_y"], 0.0]))
+
+
+def spin_share(kinematics: Kinematics, effects: Injected) -> float:
+    """How much of the disc's own turning the accelerometers feel: all of it in full kinematics."""
+    if kinematics not in ("platform", "full"):
+        raise UserError("unknown kinematics", found=kinematics, expected="platform or full")
+    given = effects.get("disc-spin")
+    if kinematics == "full" and given is not None:
+        raise UserError(
+            "the effect 'disc-spin' is in an instrument of full kinematics already",
+            remedy='leave it out, or simulate with kinematics = "platform"',
+        )
+    return 1.0 if kinematics == "full" else 0.0 if given is None else float(given["share"])
 
 
 def bends(j: int, effects: Injected) -> bool:

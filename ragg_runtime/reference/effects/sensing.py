@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.effects.catalogue import Injected, Values
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import by_vector
 
@@ -15,10 +15,12 @@ Array = NDArray[np.float64]
 def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState:
     """What the motion sensor reports at (N,) s.
 
-    The sensor sits at l (lever arm), its axes are turned by e (misalignment), its gyroscopes scale each
-    its own axis, and its record is late by delta_t; the true motion goes through them in that order.
+    The sensor sits at l (lever arm), its axes are turned by e (misalignment), its gyroscopes and accelerometers scale,
+    lean and stray each by itself, and its record is late by delta_t; the true motion goes through them in that order.
     """
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
+    if drift := effects.get("clock-drift"):
+        time = time - drift["epsilon"] * time
     true = motion.at(time, delay)
     a, omega, omegadot = true.a, true.omega, true.omegadot
     if lever := effects.get("imu-lever-arm"):
@@ -31,4 +33,22 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
     if scale := effects.get("gyro-scale"):
         factor = 1 + np.array([scale["s_x"], scale["s_y"], scale["s_z"]])[:, None]
         omega, omegadot = factor * omega, factor * omegadot
+    if force := effects.get("gyro-g-sensitivity"):
+        D = np.array([[force[f"d_{i}{k}"] for k in "xyz"] for i in "xyz"])
+        jerk = np.stack([s.rate(time, delay) for s in motion.a])
+        omega, omegadot = omega + D @ a, omegadot + D @ jerk
+    if rates := effects.get("gyro-bias"):
+        omega = omega + _vector(rates, "b")
+    if skew := effects.get("imu-acceleration-misalignment"):
+        lean = np.array([[1.0 if i == k else skew[f"m_{i}{k}"] for k in "xyz"] for i in "xyz"])
+        a = lean @ a
+    if scale := effects.get("imu-acceleration-scale"):
+        a = (1 + _vector(scale, "s")) * a
+    if offset := effects.get("imu-acceleration-bias"):
+        a = a + _vector(offset, "b")
     return MotionState(a, omega, omegadot)
+
+
+def _vector(values: Values, name: str) -> Array:
+    """Three values, (3, 1)."""
+    return np.array([[float(values[f"{name}_{k}"])] for k in "xyz"])

@@ -9,15 +9,20 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected
+from ragg_runtime.reference.motion import MotionState
+from ragg_runtime.reference.taylor import Taylor, carried
 
 Array = NDArray[np.float64]
 Triple = tuple[Array, Array, Array]
+Triad = tuple[Taylor, Taylor, Taylor]
 
 REFERENCE_TEMPERATURE = 293.15
 """Temperature (K) at which bias and scale factor have their test-sheet values."""
 
 REFERENCE_PRESSURE = 101325.0
 """Pressure (Pa) at which the bias has its test-sheet value."""
+
+RATE_OF_TEMPERATURE = "d_temperature"
 
 _CUBIC_POWERS = {
     f"K_{name}": tuple(name.count(axis) for axis in "iop")
@@ -36,6 +41,10 @@ def bias(
         value = value + pressure["dK0_dp"][j] * (auxiliaries["pressure"] - REFERENCE_PRESSURE)
     if drift := effects.get("bias-drift"):
         value = value + drift["dK0_dt"][j] * time
+    if step := effects.get("bias-step"):
+        value = value + step["dK0"][j] * (time >= step["t_step"])
+    if warming := effects.get("thermal-lag"):
+        value = value + warming["dK0_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE]
     return value
 
 
@@ -48,6 +57,10 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
         factor = factor * (1 + drift["dK1_dt"][j] * time)
     if step := effects.get("gain-step"):
         factor = factor * (1 + step["dK1"][j] * (time >= step["t_step"]))
+    if common := effects.get("output-gain-step"):
+        factor = factor * (1 + common["g"] * (time >= common["t_step"]))
+    if warming := effects.get("thermal-lag"):
+        factor = factor * (1 + warming["dK1_dTdot"][j] * auxiliaries[RATE_OF_TEMPERATURE])
     return factor
 
 
@@ -60,17 +73,39 @@ def angles_in_second_order(effects: Injected) -> float:
     return 1.0 if order is None else float(order["kappa"])
 
 
+def case_rate(triad: Triad, motion: MotionState) -> Triple:
+    """Angular rate of a case about its x, y and z axes, rad/s, from where these axes move to."""
+    moving = [np.cross(motion.omega, v.value, axis=0) + v.first for v in triad]
+    x, y, z = triad
+
+    def towards(velocity: Array, axis: Taylor) -> Array:
+        return np.asarray(np.sum(velocity * axis.value, axis=0))
+
+    return towards(moving[1], z), towards(moving[2], x), towards(moving[0], y)
+
+
+def case_acceleration(triad: Triad, motion: MotionState) -> Triple:
+    """Angular acceleration of a case about its x, y and z axes, rad/s^2, from where these axes turn to."""
+    x, y, z = ((v.value, carried(v, motion.omega, motion.omegadot)) for v in triad)
+
+    def about(next_: tuple[Array, Array], last: tuple[Array, Array]) -> Array:
+        # u'' = alpha x u + Omega x (Omega x u); of the two, the first alone is antisymmetric.
+        return np.asarray(np.sum(next_[1] * last[0] - last[1] * next_[0], axis=0) / 2)
+
+    return about(y, z), about(z, x), about(x, y)
+
+
 def further_terms(
     j: int,
     f: Triple,
-    triad: Triple,
-    omegadot: Array,
+    triad: Triad,
+    motion: MotionState,
     auxiliaries: Mapping[str, Array],
     effects: Injected,
 ) -> Array | float:
     """What accelerometer j adds to Eq. 1, m/s^2.
 
-    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``omegadot`` (3, N) rad/s^2.
+    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``motion`` the platform's.
     """
     f_i = f[0]
     total: Array | float = 0.0
@@ -82,10 +117,13 @@ def further_terms(
     if odd := effects.get("odd-quadratic"):
         total = total + odd["K_oq"][j] * f_i * np.abs(f_i)
     if pendulum := effects.get("pendulum-angular"):
-        total = total + pendulum["K_pa"][j] * np.sum(omegadot * triad[1], axis=0)
+        total = total + pendulum["K_pa"][j] * case_acceleration(triad, motion)[1]
+    if uneven := effects.get("anisoinertia"):
+        about_x, _, about_z = case_rate(triad, motion)
+        total = total + uneven["K_ip"][j] * about_x * about_z
     if magnetic := effects.get("magnetic-bias"):
         field = np.stack([auxiliaries[f"B_{axis}"] for axis in "xyz"])
-        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0], axis=0)
+        total = total + magnetic["dK0_dB"][j] * np.sum(field * triad[0].value, axis=0)
     return total
 
 
@@ -95,10 +133,10 @@ LONGEST_LAG = 0.03
 _NODES, _WEIGHTS = np.polynomial.laguerre.laggauss(10)
 
 
-def lags(effects: Injected) -> Array:
-    """Time constants of the four accelerometers, (4,) s."""
+def lags(effects: Injected, count: int) -> Array:
+    """Time constants of the accelerometers, (count,) s."""
     if "lag" not in effects:
-        return np.zeros(4)
+        return np.zeros(count)
     tau = effects["lag"]["tau"]
     if np.any(tau < 0) or np.any(tau > LONGEST_LAG):
         raise UserError("a lag is out of range", found=tau.tolist(), expected=f"0 to {LONGEST_LAG} s")
@@ -108,3 +146,16 @@ def lags(effects: Injected) -> Array:
 def lag_quadrature(tau: float) -> tuple[tuple[float, float], ...]:
     """Delays (s) and weights of 1/(1 + tau s): u(t) = integral of exp(-x) V(t - tau x) dx, Gauss-Laguerre."""
     return tuple((tau * float(x), float(w)) for x, w in zip(_NODES, _WEIGHTS, strict=True))
+
+
+def averaging(effects: Injected) -> tuple[tuple[float, float], ...]:
+    """Delays (s) and weights of the output's average over its converter's interval; empty: there is none.
+
+    The average over T, centred, has the curvature b = T^2/24.
+    """
+    b = float(effects["output-filter"]["b"]) if "output-filter" in effects else 0.0
+    if b < 0:
+        raise UserError("b of output-filter must not be negative", found=f"{b:g} s^2")
+    half = np.sqrt(24 * b) / 2
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    return tuple((half * float(x), float(w) / 2) for x, w in zip(nodes, weights, strict=True)) if b else ()

@@ -1,0 +1,49 @@
+"""A pendulum whose moments of inertia differ, on a case that turns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import SensedForce
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    assert c.geometry is not None
+    rate = c.case.omega
+    return i + p.K_ip * rate.dot(c.geometry.tau[0, :]) * rate.dot(c.geometry.tau[2, :])
+
+
+EFFECT = Effect(
+    id="anisoinertia",
+    title="Anisoinertia of the pendulum",
+    physics=(
+        "The pendulum's moments of inertia about its input and its pendulous axis differ: turning about both at once "
+        "twists it about its output axis. The case spins about the pendulous axis all the time, so that the "
+        "platform's rate about the input axis shows times the spin."
+    ),
+    source="IEEE Std 1293, angular-velocity-sensitive terms of a pendulous accelerometer",
+    equation=(
+        r"I_j/K_{j1} \mathrel{+}= K_{ip}\,(\bm\omega \cdot \bm\tau_{jx})(\bm\omega \cdot \bm\tau_{jz}),\;"
+        r" \bm\omega = \bm\omega_{im} + \dot\phi\,\bm e_z"
+    ),
+    limits=(
+        "Rate of the case along the nominal axes. With a steady spin it is a rate about the tangential axis, as "
+        "pendulum-angular has one in omega x Omega: the two differ by the angular acceleration alone."
+    ),
+    parameters=(
+        EffectParameter(
+            "K_ip",
+            "K_{ip}",
+            "ug/(rad/s)^2",
+            "bias per product of the rates about input and pendulous axis",
+            10.0,
+        ),
+    ),
+    transducer=transducer,
+)

@@ -1,0 +1,36 @@
+"""A null bias, or an offset of the output, that jumps at an unknown instant."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"K0": k["K0"] + p.dK0 * sp.Heaviside(c.time - p.t_step, 1)}
+
+
+EFFECT = Effect(
+    id="bias-step",
+    title="Step of the null bias, or of the output's offset",
+    physics="A shock, a relay or a released strain shifts an accelerometer's null, or the offset of the output, at once.",
+    source="IEEE Std 1293, bias stability; common fault of analogue front ends",
+    equation=r"K_0 \leftarrow K_0 + \Delta K_0 [t \ge t_s]",
+    limits=(
+        "One step a record; its instant is scanned, not fitted. G_out alone sees one combination of the four, which a "
+        "step of the output's own offset makes as well."
+    ),
+    kind="step",
+    parameters=(
+        EffectParameter("dK0", r"\Delta K_0", "ug", "step of the null bias", 0.01),
+        EffectParameter("t_step", "t_s", "s", "instant of the step", 1.0, shared=True, fitted=False),
+    ),
+    instrument=instrument,
+)

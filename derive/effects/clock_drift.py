@@ -1,0 +1,46 @@
+"""The clock of the motion record runs at another rate than that of the output."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    def at_true_instant(v: sp.Matrix) -> sp.Matrix:
+        return v.applyfunc(lambda e: c.shifted(e, p.epsilon * c.time))
+
+    return m._replace(
+        a=at_true_instant(m.a), omega=at_true_instant(m.omega), omegadot=at_true_instant(m.omegadot)
+    )
+
+
+EFFECT = Effect(
+    id="clock-drift",
+    title="Drift of the motion record's clock",
+    physics=(
+        "Motion sensor and output are sampled by clocks that drift apart: the motion that is true at t stands in the "
+        "record at t + epsilon t."
+    ),
+    source="frequency accuracy of quartz oscillators (IEEE Std 1139): 1e-8 with an oven, 1e-5 without",
+    equation=(
+        r"\bm v(t) = \bm v_{rec}(t + \epsilon t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}"
+    ),
+    limits=(
+        "To second order in epsilon t, which must be far below the time scale of the motion; from the instant 0 of the "
+        "record's time column (another one is time-offset)."
+    ),
+    parameters=(
+        EffectParameter(
+            "epsilon", r"\epsilon", "1", "lateness of the motion record that a second adds", 1e-6, shared=True
+        ),
+    ),
+    sensing=sensing,
+)

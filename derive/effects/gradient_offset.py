@@ -1,0 +1,43 @@
+"""A constant gradient of masses that stand still around the disc."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    xx, xy, xz, yy, yz = (p[f"G_{k}"] for k in COMPONENTS)
+    # Outside the masses the gradient is free of trace.
+    return m._replace(Gamma=m.Gamma + sp.Matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, -(xx + yy)]]))
+
+
+EFFECT = Effect(
+    id="gradient-offset",
+    title="Gradient of masses at rest around the disc",
+    physics=(
+        "Housing, gimbals and counterweights that do not turn with the disc attract it with a constant gradient, "
+        "which the gradients known beforehand do not hold."
+    ),
+    source="self-gradient modelling of airborne gradiometers (paper, Section I: self-gradient modeling)",
+    equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G",
+    limits=(
+        "Constant, at rest in the measurement frame. Only G_xx - G_yy and G_xy are seen by a well-made instrument; "
+        "any other constant signal at twice the spin rate looks the same, that of rectified vibration for one."
+    ),
+    parameters=tuple(
+        EffectParameter(f"G_{k}", f"G_{{{k}}}", "Eo", f"constant gradient {k}", 100.0, shared=True)
+        for k in COMPONENTS
+    ),
+    sensing=sensing,
+)

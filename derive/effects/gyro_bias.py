@@ -1,0 +1,35 @@
+"""Biases of the gyroscopes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    return m._replace(omega=m.omega - sp.Matrix([p.b_x, p.b_y, p.b_z]))
+
+
+EFFECT = Effect(
+    id="gyro-bias",
+    title="Bias of the gyroscopes",
+    physics="Each gyroscope reports a rate that is not there; its derivative is not touched.",
+    source="IEEE Std 528, bias of a gyroscope: 0.01 deg/h (navigation grade) to 10 deg/h (tactical grade)",
+    equation=r"\bm\omega_{im} = \bm\omega_{rec} - \bm b",
+    limits=(
+        "Constant over the record. It shows as the product with the rate, and in full kinematics with the spin, "
+        "of which null biases absorb what is constant."
+    ),
+    parameters=tuple(
+        EffectParameter(f"b_{k}", f"b_{k}", "deg/h", f"bias of the gyroscope about {k}", 1.0, shared=True)
+        for k in "xyz"
+    ),
+    sensing=sensing,
+)

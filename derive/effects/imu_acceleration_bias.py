@@ -1,0 +1,35 @@
+"""Biases of the motion sensor's accelerometers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    return m._replace(a=m.a - sp.Matrix([p.b_x, p.b_y, p.b_z]))
+
+
+EFFECT = Effect(
+    id="imu-acceleration-bias",
+    title="Bias of the motion sensor's accelerometers",
+    physics="The motion sensor reports a specific force that is not there.",
+    source="IEEE Std 1293, null bias: 25 ug (navigation grade) to 1 mg (tactical grade)",
+    equation=r"\bm a = \bm a_{rec} - \bm b",
+    limits=(
+        "Constant over the record. Horizontal biases look like a constant force that turns in the disc's frame; b_z is "
+        "absorbed by null biases."
+    ),
+    parameters=tuple(
+        EffectParameter(f"b_{k}", f"b_{k}", "ug", f"bias of the accelerometer along {k}", 50.0, shared=True)
+        for k in "xyz"
+    ),
+    sensing=sensing,
+)

@@ -1,0 +1,49 @@
+"""Axes of the motion sensor's accelerometers that are not at right angles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+PAIRS = ("xy", "xz", "yx", "yz", "zx", "zy")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    skewed = sp.Matrix(3, 3, lambda i, k: 0 if i == k else p[f"m_{'xyz'[i]}{'xyz'[k]}"])
+    return m._replace(a=m.a - skewed * m.a + skewed * skewed * m.a)
+
+
+EFFECT = Effect(
+    id="imu-acceleration-misalignment",
+    title="Misalignment of the motion sensor's accelerometers",
+    physics=(
+        "Each accelerometer of the motion sensor leans by itself, so that it reports a little of the force along the "
+        "other axes; the gyroscopes' axes are those of the measurement frame."
+    ),
+    source="IEEE Std 1293, input-axis misalignment: 10 to 1000 microradians",
+    equation=r"\bm a_{rec} = (\bm 1 + \bm m)\,\bm a,\; m_{kk} = 0",
+    limits=(
+        "To second order in m. A common turn of the three accelerometers is imu-misalignment but for the gyroscopes; "
+        "the two are told apart by the angular rate alone."
+    ),
+    parameters=tuple(
+        EffectParameter(
+            f"m_{k}",
+            f"m_{{{k}}}",
+            "rad",
+            f"share of the force along {k[1]} in what is reported along {k[0]}",
+            1e-4,
+            shared=True,
+        )
+        for k in PAIRS
+    ),
+    sensing=sensing,
+)

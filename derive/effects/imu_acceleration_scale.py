@@ -1,0 +1,34 @@
+"""Scale factors of the motion sensor's accelerometers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    return m._replace(a=sp.Matrix([m.a[n] / (1 + p[f"s_{k}"]) for n, k in enumerate("xyz")]))
+
+
+EFFECT = Effect(
+    id="imu-acceleration-scale",
+    title="Scale error of the motion sensor's accelerometers",
+    physics="Each accelerometer of the motion sensor reports (1 + s) times the specific force along its axis.",
+    source="IEEE Std 1293, scale-factor error: 50 ppm (navigation grade) to 1000 ppm (tactical grade)",
+    equation=r"a_k = a_{k,rec}/(1 + s_k)",
+    limits="Exact in s; one scale an axis, the same for both signs.",
+    parameters=tuple(
+        EffectParameter(
+            f"s_{k}", f"s_{k}", "1", f"relative scale error of the accelerometer along {k}", 1e-4, shared=True
+        )
+        for k in "xyz"
+    ),
+    sensing=sensing,
+)

@@ -1,0 +1,282 @@
+/* The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15, with the rate of the disc in Eq. 9).
+ * Derived; do not edit: change the derivation and run `make derive`. */
+#include "folded.h"
+
+#include <math.h>
+
+/* A product added to something, rounded once where the processor does that. */
+#ifdef FP_FAST_FMA
+#define FMA(x, y, z) fma(x, y, z)
+#else
+#define FMA(x, y, z) ((x) * (y) + (z))
+#endif
+
+enum { BLOCK = 128 }; /* samples at a time: what is between two loops stays in the first cache */
+
+/* x y = *high + *low, exactly. */
+static inline void two_product(double x, double y, double *high, double *low) {
+    const double product = x * y;
+#ifdef FP_FAST_FMA
+    *low = fma(x, y, -product);
+#else
+    const double split = 134217729.0, a = split * x, b = split * y;
+    const double x1 = a - (a - x), x2 = x - x1, y1 = b - (b - y), y2 = y - y1;
+    *low = ((x1 * y1 - product) + x1 * y2 + x2 * y1) + x2 * y2;
+#endif
+    *high = product;
+}
+
+/* The nearest whole number, without a call, for |x| < 2^51. */
+static inline double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
+
+/* Cosine and sine of (high + low) + quarters pi/2, for quarters -2 ... 2, |high| up to about pi/4, |low| < 1e-6:
+ * Taylor series up to the 17th and 16th power. */
+static inline void turn(double high, double low, double quarters, double *cosine, double *sine) {
+    const double x = high + low, rest = (high - x) + low;
+    const double z = x * x;
+    const double s_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 355687428096000.0), (-1.0 / 1307674368000.0)), (1.0 / 6227020800.0)), (-1.0 / 39916800.0)), (1.0 / 362880.0)), (-1.0 / 5040.0)), (1.0 / 120.0)), (-1.0 / 6.0));
+    const double c_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 20922789888000.0), (-1.0 / 87178291200.0)), (1.0 / 479001600.0)), (-1.0 / 3628800.0)), (1.0 / 40320.0)), (-1.0 / 720.0)), (1.0 / 24.0));
+    const double half = 0.5 * z;
+    const double s = x + FMA(x * z, s_tail, FMA(-half, rest, rest));
+    const double c = (1.0 - half) + (((1.0 - (1.0 - half)) - half) + FMA(z * z, c_tail, -x * rest));
+    const double q = fabs(quarters);
+    const double even = 1.0 - q, odd = quarters * (2.0 - q); /* one of them is 0, the other 1 or -1 */
+    *cosine = FMA(even, c, -odd * s);
+    *sine = FMA(even, s, odd * c);
+}
+
+/* Cosine and sine of the disc angle at n <= BLOCK instants. Whole turns are dropped exactly, whatever the time. */
+static void disc(size_t n, const double *restrict t, double spin_frequency, double *restrict cosine,
+                 double *restrict sine) {
+    for (size_t i = 0; i < n; ++i) {
+        double turns, error, high, low;
+        two_product(spin_frequency, t[i], &turns, &error);
+        const double part = turns - nearest(turns); /* exact, as is what follows */
+        const double quarters = nearest(4.0 * part);
+        const double rest = part - 0.25 * quarters;
+        two_product(6.283185307179586, rest, &high, &low);
+        turn(high, FMA(6.283185307179586, error, FMA(2.4492935982947064e-16, rest, low)), quarters, cosine + i, sine + i);
+    }
+}
+
+/* The same of an encoder's angle, rad. */
+static void encoder(size_t n, const double *restrict angle, double *restrict cosine, double *restrict sine) {
+    for (size_t i = 0; i < n; ++i) {
+        const double quarters = nearest(0.6366197723675814 * angle[i]);
+        double high, low;
+        two_product(quarters, 1.5707963267948966, &high, &low);
+        const double difference = angle[i] - high;
+        const double rest = difference - low;
+        const double further = ((difference - rest) - low) - 6.123233995736766e-17 * quarters;
+        turn(rest, further, quarters - 4.0 * nearest(0.25 * quarters), cosine + i, sine + i);
+    }
+}
+
+/* At n <= BLOCK samples from at on; returns n. */
+static size_t turning(size_t at, size_t end, const double *t, double spin_frequency, const double *angle,
+                      double *cosine, double *sine) {
+    const size_t n = end - at < BLOCK ? end - at : BLOCK;
+    if (angle) {
+        encoder(n, angle + at, cosine, sine);
+    } else {
+        disc(n, t + at, spin_frequency, cosine, sine);
+    }
+    return n;
+}
+enum { FOLDED = 49 };
+
+typedef long double wide; /* what is folded once may be folded carefully */
+
+/* The coefficients: all that the instrument's parameters contribute. */
+static void fold(const double *p, double c[FOLDED]) {
+    wide e[33][4];
+    for (int j = 0; j < 4; ++j) {
+        const wide radius = p[0];
+        const wide dR = p[2 + j];
+        const wide beta_x = p[6 + j];
+        const wide beta_z = p[10 + j];
+        const wide vartheta_x = p[14 + j];
+        const wide vartheta_y = p[18 + j];
+        const wide vartheta_z = p[22 + j];
+        const wide K0 = p[26 + j];
+        const wide K1 = p[30 + j];
+        const wide K2 = p[34 + j];
+        const wide K4 = p[38 + j];
+        const wide K5 = p[42 + j];
+        const wide K6 = p[46 + j];
+        const wide K7 = p[50 + j];
+        const wide K8 = p[54 + j];
+        const wide k_VI = p[58 + j];
+        const wide R = radius + dR, k1 = k_VI * K1;
+        (void)vartheta_x;
+
+        e[0][j] = R*k1;
+        e[1][j] = k1;
+        e[2][j] = K2*(R*R)*k1;
+        e[3][j] = -K4*(R*R)*k1;
+        e[4][j] = K5*(R*R)*k1;
+        e[5][j] = K6*(R*R)*k1;
+        e[6][j] = K7*(R*R)*k1;
+        e[7][j] = -K8*(R*R)*k1;
+        e[8][j] = (R*beta_x*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0);
+        e[9][j] = (R*beta_x*k1)*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[10][j] = (R*beta_x*k1)*(-beta_x*vartheta_z + vartheta_y);
+        e[11][j] = (R*beta_z*k1)*(beta_x*beta_z*vartheta_y + beta_z*vartheta_z + 1.0);
+        e[12][j] = (R*beta_z*k1)*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[13][j] = (R*beta_z*k1)*(beta_x*vartheta_y + vartheta_z);
+        e[14][j] = (R*beta_z*k1)*(-beta_x*vartheta_z + vartheta_y);
+        e[15][j] = (R*k1)*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[16][j] = (R*k1)*(-beta_x*vartheta_z + vartheta_y);
+        e[17][j] = 2.0*K2*R*k1;
+        e[18][j] = -K4*R*k1;
+        e[19][j] = 2.0*K5*R*k1;
+        e[20][j] = K6*R*k1;
+        e[21][j] = 2.0*K7*R*k1;
+        e[22][j] = -K8*R*k1;
+        e[23][j] = (beta_z*k1)*(beta_x*vartheta_y + vartheta_z);
+        e[24][j] = k1*(beta_x*vartheta_y - beta_z + vartheta_z);
+        e[25][j] = k1*(-beta_x*vartheta_z + vartheta_y);
+        e[26][j] = K0*k1;
+        e[27][j] = K2*k1;
+        e[28][j] = -K4*k1;
+        e[29][j] = K5*k1;
+        e[30][j] = K6*k1;
+        e[31][j] = K7*k1;
+        e[32][j] = -K8*k1;
+    }
+    c[0] = (double)(e[26][0] + e[26][1] - e[26][2] - e[26][3]);
+    c[1] = (double)(e[1][2] - e[1][3] + e[24][0] - e[24][1] + e[23][2] - e[23][3]);
+    c[2] = (double)(e[1][0] - e[1][1] + e[23][0] - e[23][1] - e[24][2] + e[24][3]);
+    c[3] = (double)(e[25][0] + e[25][1] - e[25][2] - e[25][3]);
+    c[4] = (double)(e[15][0] + e[15][1] - e[11][2] - e[11][3]);
+    c[5] = (double)(e[0][2] + e[0][3] + e[12][0] + e[12][1] + e[13][2] + e[13][3]);
+    c[6] = (double)(e[9][0] - e[9][1] + e[8][2] - e[8][3]);
+    c[7] = (double)(e[0][0] + e[0][1] + e[13][0] + e[13][1] + e[12][2] + e[12][3]);
+    c[8] = (double)(e[11][0] + e[11][1] - e[15][2] - e[15][3]);
+    c[9] = (double)(e[8][0] - e[8][1] - e[9][2] + e[9][3]);
+    c[10] = (double)(e[16][0] - e[16][1] + e[14][2] - e[14][3]);
+    c[11] = (double)(e[14][0] - e[14][1] - e[16][2] + e[16][3]);
+    c[12] = (double)(e[10][0] + e[10][1] - e[10][2] - e[10][3]);
+    c[13] = (double)(e[29][0] + e[29][1] - e[27][2] - e[27][3]);
+    c[14] = (double)(e[30][0] + e[30][1] + e[30][2] + e[30][3]);
+    c[15] = (double)(e[32][0] - e[32][1] + e[28][2] - e[28][3]);
+    c[16] = (double)(e[19][0] - e[19][1]);
+    c[17] = (double)(-e[17][2] + e[17][3]);
+    c[18] = (double)(e[20][0] - e[20][1]);
+    c[19] = (double)(e[20][2] - e[20][3]);
+    c[20] = (double)(e[22][0] + e[22][1]);
+    c[21] = (double)(e[18][2] + e[18][3]);
+    c[22] = (double)(e[27][0] + e[27][1] - e[29][2] - e[29][3]);
+    c[23] = (double)(e[28][0] - e[28][1] - e[32][2] + e[32][3]);
+    c[24] = (double)(e[20][0] - e[20][1]);
+    c[25] = (double)(e[20][2] - e[20][3]);
+    c[26] = (double)(e[17][0] - e[17][1]);
+    c[27] = (double)(-e[19][2] + e[19][3]);
+    c[28] = (double)(e[18][0] + e[18][1]);
+    c[29] = (double)(-e[22][2] - e[22][3]);
+    c[30] = (double)(e[31][0] + e[31][1] - e[31][2] - e[31][3]);
+    c[31] = (double)(e[22][0] + e[22][1]);
+    c[32] = (double)(e[18][2] + e[18][3]);
+    c[33] = (double)(e[18][0] + e[18][1]);
+    c[34] = (double)(-e[22][2] - e[22][3]);
+    c[35] = (double)(e[21][0] - e[21][1]);
+    c[36] = (double)(-e[21][2] + e[21][3]);
+    c[37] = (double)(e[4][0] + e[4][1]);
+    c[38] = (double)(e[5][0] + e[5][1]);
+    c[39] = (double)(e[7][0] - e[7][1]);
+    c[40] = (double)(-e[2][2] - e[2][3]);
+    c[41] = (double)(e[5][2] + e[5][3]);
+    c[42] = (double)(e[3][2] - e[3][3]);
+    c[43] = (double)(e[2][0] + e[2][1]);
+    c[44] = (double)(e[3][0] - e[3][1]);
+    c[45] = (double)(-e[4][2] - e[4][3]);
+    c[46] = (double)(-e[7][2] + e[7][3]);
+    c[47] = (double)(e[6][0] + e[6][1]);
+    c[48] = (double)(-e[6][2] - e[6][3]);
+}
+
+/* G_out of n samples from at on, by the cosine and sine of the disc angle. */
+static void block(size_t n, const double *const *in, size_t at, const double *restrict cosine,
+                  const double *restrict sine, const double c[FOLDED], double *restrict G) {
+    const double *restrict in_a_x = in[0] + at;
+    const double *restrict in_a_y = in[1] + at;
+    const double *restrict in_a_z = in[2] + at;
+    const double *restrict in_omega_x = in[3] + at;
+    const double *restrict in_omega_y = in[4] + at;
+    const double *restrict in_omega_z = in[5] + at;
+    const double *restrict in_omegadot_x = in[6] + at;
+    const double *restrict in_omegadot_y = in[7] + at;
+    const double *restrict in_omegadot_z = in[8] + at;
+    const double *restrict in_Gamma_xx = in[9] + at;
+    const double *restrict in_Gamma_xy = in[10] + at;
+    const double *restrict in_Gamma_xz = in[11] + at;
+    const double *restrict in_Gamma_yy = in[12] + at;
+    const double *restrict in_Gamma_yz = in[13] + at;
+    const double *restrict in_Gamma_zz = in[14] + at;
+    const double *restrict in_d2_spin_angle = in[15] + at;
+    const double *restrict in_d_spin_angle = in[16] + at;
+    for (size_t i = 0; i < n; ++i) {
+        const double cos_phi = cosine[i], sin_phi = sine[i];
+        const double a_x = in_a_x[i];
+        const double a_y = in_a_y[i];
+        const double a_z = in_a_z[i];
+        const double omega_x = in_omega_x[i];
+        const double omega_y = in_omega_y[i];
+        const double omega_z = in_omega_z[i];
+        const double omegadot_x = in_omegadot_x[i];
+        const double omegadot_y = in_omegadot_y[i];
+        const double omegadot_z = in_omegadot_z[i];
+        const double Gamma_xx = in_Gamma_xx[i];
+        const double Gamma_xy = in_Gamma_xy[i];
+        const double Gamma_xz = in_Gamma_xz[i];
+        const double Gamma_yy = in_Gamma_yy[i];
+        const double Gamma_yz = in_Gamma_yz[i];
+        const double Gamma_zz = in_Gamma_zz[i];
+        const double d2_spin_angle = in_d2_spin_angle[i];
+        const double d_spin_angle = in_d_spin_angle[i];
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double M_xx = -Gamma_xx - x0 - x1;
+        const double M_xy = FMA(omega_x, omega_y, -Gamma_xy - omegadot_z);
+        const double M_xz = FMA(omega_x, omega_z, -Gamma_xz + omegadot_y);
+        const double M_yx = FMA(omega_x, omega_y, -Gamma_xy + omegadot_z);
+        const double x2 = (omega_x*omega_x);
+        const double M_yy = -Gamma_yy - x1 - x2;
+        const double M_yz = FMA(omega_y, omega_z, -Gamma_yz - omegadot_x);
+        const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
+        const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
+        const double M_zz = -Gamma_zz - x0 - x2;
+        const double of_platform_xr = FMA(M_xy, sin_phi, M_xx*cos_phi);
+        const double of_platform_xt = FMA(-M_xx, sin_phi, M_xy*cos_phi);
+        const double of_platform_yr = FMA(M_yy, sin_phi, M_yx*cos_phi);
+        const double of_platform_yt = FMA(-M_yx, sin_phi, M_yy*cos_phi);
+        const double of_platform_zr = FMA(M_zy, sin_phi, M_zx*cos_phi);
+        const double of_platform_zt = FMA(-M_zx, sin_phi, M_zy*cos_phi);
+        const double x3 = 2.0*d_spin_angle;
+        const double x4 = omega_z*x3;
+        const double x5 = (d_spin_angle*d_spin_angle);
+        const double x6 = omega_x*x3;
+        const double x7 = omega_y*x3;
+        const double a_r = FMA(a_y, sin_phi, a_x*cos_phi);
+        const double a_t = FMA(-a_x, sin_phi, a_y*cos_phi);
+        const double M_rr = FMA(of_platform_yr, sin_phi, FMA(cos_phi, of_platform_xr, -x4 - x5));
+        const double M_rt = FMA(of_platform_yt, sin_phi, FMA(cos_phi, of_platform_xt, -d2_spin_angle));
+        const double M_rz = FMA(M_yz, sin_phi, M_xz*cos_phi);
+        const double M_tr = FMA(-of_platform_xr, sin_phi, FMA(cos_phi, of_platform_yr, d2_spin_angle));
+        const double M_tt = FMA(-of_platform_xt, sin_phi, FMA(cos_phi, of_platform_yt, -x4 - x5));
+        const double M_tz = FMA(-M_xz, sin_phi, M_yz*cos_phi);
+        const double M_zr = FMA(sin_phi, x7, FMA(cos_phi, x6, of_platform_zr));
+        const double M_zt = FMA(-sin_phi, x6, FMA(cos_phi, x7, of_platform_zt));
+        G[i] = FMA(a_z, FMA(a_z, c[30], FMA(M_zt, c[36], FMA(M_zr, c[35], FMA(M_tt, c[34], FMA(M_tr, c[33], FMA(M_rt, c[32], FMA(M_rr, c[31], c[3]))))))), FMA(a_t, FMA(a_z, c[23], FMA(a_t, c[22], FMA(M_zt, c[29], FMA(M_zr, c[28], FMA(M_tt, c[27], FMA(M_tr, c[26], FMA(M_rt, c[25], FMA(M_rr, c[24], c[2])))))))), FMA(a_r, FMA(a_z, c[15], FMA(a_t, c[14], FMA(a_r, c[13], FMA(M_zt, c[21], FMA(M_zr, c[20], FMA(M_tt, c[19], FMA(M_tr, c[18], FMA(M_rt, c[17], FMA(M_rr, c[16], c[1]))))))))), FMA(M_zz, c[12], FMA(M_zt, FMA(M_zt, c[48], c[11]), FMA(M_zr, FMA(M_zr, c[47], c[10]), FMA(M_tz, c[9], FMA(M_tt, FMA(M_zt, c[46], FMA(M_tt, c[45], c[8])), FMA(M_tr, FMA(M_zr, c[44], FMA(M_tr, c[43], c[7])), FMA(M_rz, c[6], FMA(M_rt, FMA(M_zt, c[42], FMA(M_tt, c[41], FMA(M_rt, c[40], c[5]))), FMA(M_rr, FMA(M_zr, c[39], FMA(M_tr, c[38], FMA(M_rr, c[37], c[4]))), c[0]))))))))))));
+    }
+}
+
+void ragg_folded_output(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
+                        double *G) {
+    double c[FOLDED], cosine[BLOCK], sine[BLOCK];
+    fold(p, c);
+    for (size_t at = 0, size; at < n; at += size) {
+        size = turning(at, n, t, p[1], angle, cosine, sine);
+        block(size, in, at, cosine, sine, c, G + at);
+    }
+}

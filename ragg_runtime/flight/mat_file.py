@@ -1,0 +1,247 @@
+"""MATLAB flights: vectors, or structures of vectors (several alike are lines); units in a structure ``units``.
+
+Version 5 to 7 through SciPy, 7.3 (HDF5) through h5py. Functions and objects in such files are not touched.
+"""
+
+from __future__ import annotations
+
+import re
+import struct
+import zlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import hdf5_file
+from ragg_runtime.flight.mat73 import write_73
+from ragg_runtime.flight.shapes import Place, places
+from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
+
+if TYPE_CHECKING:
+    import h5py
+
+NAME = "MATLAB"
+ENDINGS = (".mat",)
+MAGIC = (b"MATLAB 5", b"MATLAB 7", *hdf5_file.MAGIC)
+
+MOST_BYTES = 2 << 30
+"""Bytes that the variables of a file before 7.3 may unfold to: MATLAB itself writes no larger ones."""
+
+_LARGE = 1 << 30  # bytes of columns from which 7.3 is written
+_COMPRESSED = 15  # of the format: a compressed element
+_HEADER = 128  # bytes, of the format
+_LONGEST = 63  # characters of a name, of MATLAB
+
+
+def open_tables(path: Path, look: Look) -> Sequence[Table]:
+    """The tables of a MATLAB file."""
+    with path.open("rb") as stream:
+        head = stream.read(10)
+    if head.startswith((b"MATLAB 7.3", hdf5_file.MAGIC[0][:8])):
+        return hdf5_file.tables_of(path, look, _unit_73)
+    found = [t for t in _structures(_loaded(path), look, path) if t.columns]
+    found = chosen(path, found, look)
+    return [
+        Table(path, t.headings(), lambda t=t: _batches(t), t.place if len(found) > 1 else None)  # type: ignore[misc]
+        for t in found
+    ]
+
+
+def write_tables(path: Path, tables: Sequence[Written]) -> None:
+    """Write columns as vectors; several lines as structures; 7.3 where 5 has no room."""
+    from scipy.io import savemat  # slow to import, and only this format needs it
+
+    whole: dict[str, Any] = {}
+    for number, table in enumerate(tables):
+        names = _names([c.name for c, _ in table.columns])
+        inside: dict[str, Any] = {
+            n: np.asarray(v)[:, None] for n, (_, v) in zip(names, table.columns, strict=True)
+        }
+        inside["units"] = {n: c.unit for n, (c, _) in zip(names, table.columns, strict=True) if c.unit}
+        inside["names"] = {n: c.name for n, (c, _) in zip(names, table.columns, strict=True) if c.name != n}
+        inside = {n: v for n, v in inside.items() if not isinstance(v, dict) or v}
+        if table.line is None:
+            whole |= inside
+        else:
+            whole[_names([f"line_{table.line}"])[0] if table.line else f"line_{number}"] = inside | {
+                "line": table.line
+            }
+    if sum(v.nbytes for t in tables for _, v in t.columns) > _LARGE:
+        write_73(path, whole)
+        return
+    with path.open("wb") as stream:  # given a name, SciPy would append an ending
+        savemat(stream, whole, long_field_names=True, do_compression=True)  # type: ignore[arg-type]
+        stream.seek(0)
+        stream.write(b"MATLAB 5.0 MAT-file".ljust(116))  # SciPy writes the date there
+
+
+@dataclass(frozen=True)
+class _Structure:
+    """A structure of vectors: where it stands (its line), its columns."""
+
+    place: str
+    length: int
+    columns: tuple[tuple[Heading, Place], ...]
+    arrays: Mapping[str, NDArray[Any]]
+
+    def headings(self) -> tuple[Heading, ...]:
+        return tuple(h for h, _ in self.columns)
+
+
+def _structures(variables: Mapping[str, Any], look: Look, path: Path) -> Iterator[_Structure]:
+    waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
+    while waiting:
+        place, inside = waiting.pop(0)
+        arrays: dict[str, NDArray[Any]] = {}
+        for name, value in inside.items():
+            if name in ("units", "names"):
+                continue
+            if isinstance(value, np.ndarray) and value.dtype.names is not None:
+                parts = value.ravel()
+                for k, element in enumerate(parts, 1):
+                    fields = {n: element[n] for n in value.dtype.names}
+                    own = _word(fields.get("line"))
+                    label = own or (name if len(parts) == 1 else f"{name}_{k}")
+                    waiting.append((f"{place}/{label}" if place else label, fields))
+            elif isinstance(value, np.ndarray) and (values := _vector(value)) is not None:
+                arrays[name] = values
+        yield _structure(place, inside, arrays, look, path)
+
+
+def _structure(
+    place: str, inside: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], look: Look, path: Path
+) -> _Structure:
+    units, names = _fields(inside.get("units")), _fields(inside.get("names"))
+    if look.only is not None:
+        wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
+        arrays = {n: v for n, v in arrays.items() if n in wanted or names.get(n) in wanted}
+    arrays = {n: v for n, v in arrays.items() if v.dtype.kind in "fiub" or look.allows_text(n)}
+    length, found = places({n: v.shape for n, v in arrays.items()}, f"{path}: {place or 'variables'}")
+    columns = []
+    for number, p in enumerate(found, 1):
+        h = heading(names.get(p.column, p.column), path, number)
+        if look.wants(h.name):
+            text = arrays[p.array].dtype.kind == "O"
+            unit = units.get(p.column) or units.get(p.array) or h.unit
+            columns.append((Heading(h.name, unit, text), p))
+    distinct(path, [h for h, _ in columns])
+    return _Structure(place=place, length=length, columns=tuple(columns), arrays=arrays)
+
+
+def _batches(table: _Structure) -> Iterator[RawBatch]:
+    found: dict[str, NDArray[Any]] = {}
+    for h, p in table.columns:
+        values = p.rows(table.arrays[p.array], 0, table.length)
+        found[h.name] = values if h.text else values.astype(np.float64)
+    yield found
+
+
+def _vector(value: NDArray[Any]) -> NDArray[Any] | None:
+    """An array of numbers, or of texts (object), or ``None``."""
+    if value.dtype.kind in "fiub":
+        return value if value.size > 1 else None
+    if value.dtype.kind == "U" and value.size > 1:
+        return np.array([t.strip() for t in value.ravel()], dtype=object)
+    if value.dtype.kind == "O" and value.size > 1:  # a cell array
+        words = [_word(v) for v in value.ravel()]
+        return np.array(words, dtype=object) if any(words) else None
+    return None
+
+
+def _word(value: Any) -> str:
+    """The text that a variable holds; ``""`` if it is none."""
+    while isinstance(value, np.ndarray) and value.size == 1:
+        value = value.ravel()[0]
+    return str(value).strip() if isinstance(value, str) else ""
+
+
+def _fields(value: Any) -> dict[str, str]:
+    """Texts in the fields of a structure."""
+    if not (isinstance(value, np.ndarray) and value.dtype.names is not None and value.size == 1):
+        return {}
+    element = value.ravel()[0]
+    return {n: _word(element[n]) for n in value.dtype.names if _word(element[n])}
+
+
+def _loaded(path: Path) -> dict[str, Any]:
+    from scipy.io import loadmat  # slow to import, and only this format needs it
+
+    try:
+        with path.open("rb") as stream:
+            _check_size(stream, path)
+        found = loadmat(path, mat_dtype=False, chars_as_strings=True)
+    except UserError:
+        raise
+    except Exception as error:  # SciPy raises what it comes upon
+        raise UserError(
+            "the MATLAB file is damaged",
+            where=path,
+            found=(str(error) or type(error).__name__).split("\n", 1)[0][:200],
+            expected="a whole MAT-file, version 5 to 7.3",
+            remedy="copy it again, or save it anew: save('flight.mat', '-v7')",
+        ) from None
+    return {n: v for n, v in found.items() if not n.startswith("__")}
+
+
+def _check_size(stream: BinaryIO, path: Path) -> None:
+    """Unfold the compressed elements once without keeping them: a small file may hold endless zeros."""
+    head = stream.read(_HEADER)
+    order = "<" if head[126:128] == b"IM" else ">"
+    total = 0
+    while len(tag := stream.read(8)) == 8:
+        kind, size = struct.unpack(order + "II", tag)
+        if kind != _COMPRESSED:
+            total += size
+            stream.seek(size, 1)
+        else:
+            unfolding, left = zlib.decompressobj(), size
+            while left > 0 and (piece := stream.read(min(left, 1 << 16))):
+                left -= len(piece)
+                while piece:
+                    total += len(unfolding.decompress(piece, 1 << 20))
+                    piece = unfolding.unconsumed_tail
+                    if total > MOST_BYTES:
+                        break
+        if total > MOST_BYTES:
+            raise UserError(
+                "the MATLAB file is out of all proportion",
+                where=path,
+                found=f"more than {MOST_BYTES} bytes when unfolded",
+                expected=f"at most {MOST_BYTES} bytes",
+                remedy="save it with '-v7.3', or cut it into several files",
+            )
+
+
+def _unit_73(data: h5py.Dataset) -> str:
+    """The unit of a dataset in a MATLAB 7.3 file: in the structure ``units`` beside it."""
+    import h5py  # slow to import, and only files built on HDF5 need it
+
+    units = data.parent.get("units")
+    name = data.name.rsplit("/", 1)[-1]
+    text = units.get(name) if isinstance(units, h5py.Group) else None
+    if isinstance(text, h5py.Dataset) and text.dtype.kind in "ui" and 0 < text.size <= 200:
+        return "".join(
+            chr(int(c)) for c in np.asarray(text[()]).ravel(order="F") if 0 < int(c) < 0x110000
+        ).strip()
+    return hdf5_file.unit_of(data)
+
+
+def _names(names: Sequence[str]) -> list[str]:
+    """Names as MATLAB allows them, each once."""
+    found: list[str] = []
+    for name in names:
+        plain = re.sub(r"\W", "_", name, flags=re.ASCII) or "x"
+        plain = (plain if plain[0].isalpha() else f"x{plain}")[: _LONGEST - 4]
+        if plain in ("units", "names", "line"):
+            plain += "_"
+        number, unique = 1, plain
+        while unique in found:
+            number += 1
+            unique = f"{plain}_{number}"
+        found.append(unique)
+    return found

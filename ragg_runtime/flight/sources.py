@@ -1,0 +1,233 @@
+"""From a file to flights' sources: its tables, divided into lines, under the names of the contract."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.flight.formats import open_file
+from ragg_runtime.flight.instants import WAYS, Clock, Way, midnight, way_of
+from ragg_runtime.flight.lines import split
+from ragg_runtime.flight.mapping import Entry, Mapped
+from ragg_runtime.flight.record import Array
+from ragg_runtime.flight.source import (
+    Batch,
+    Column,
+    Heading,
+    Look,
+    RawBatch,
+    Source,
+    Table,
+    columns_of,
+    is_line,
+    not_numbers,
+)
+
+_VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
+_TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
+
+
+def open_sources(path: Path, mapping: Mapped | None = None, *, lenient: bool = False) -> list[Source]:
+    """The flights in a file: one, or one for each line.
+
+    Without a mapping the columns stand under the names of the contract, each with its unit. ``lenient`` lets
+    columns without a unit pass and leaves out those that are no numbers, for a copy in another format.
+    """
+    if mapping is not None and mapping.kept and not _applies(path, mapping):
+        mapping = None
+    if mapping is None:
+        look = Look(text=lenient)
+        tables = _lines(open_file(path, look), None)
+        sources = _plain(tables, lenient)
+    else:
+        look = Look(only=mapping.columns, text=True, part=mapping.part)
+        found = open_file(path, look)
+        _check_names(found[0], mapping)
+        tables = _lines(found, mapping.line)
+        if mapping.lines is not None:
+            tables = _chosen(tables, mapping.lines, path)
+        sources = _mapped(tables, mapping)
+    if not sources:
+        raise UserError("the file holds no rows", where=path)
+    return sources
+
+
+def _applies(path: Path, mapping: Mapped) -> bool:
+    """Whether a file has any column that the mapping gives another name."""
+    renamed = {e.column for n, e in mapping.channels.items() if e.column != n}
+    renamed |= {n for n in mapping.time.columns if n != "time"}
+    if not renamed:
+        return True
+    return any(h.name in renamed for t in open_file(path, Look(text=True)) for h in t.headings)
+
+
+def _lines(tables: Sequence[Table], column: str | None) -> list[Table]:
+    if len(tables) > 1 or not tables:
+        return list(tables)
+    (table,) = tables
+    name = column or next((h.name for h in table.headings if is_line(h.name)), None)
+    return [table] if name is None else split(table, name)
+
+
+def _chosen(tables: Sequence[Table], names: Sequence[str], path: Path) -> list[Table]:
+    known = [t.line for t in tables]
+    missing = [n for n in names if n not in known]
+    if missing:
+        raise UserError(
+            "the file has no such line",
+            where=path,
+            found=", ".join(missing),
+            expected=", ".join(str(n) for n in known[:20]),
+        )
+    return [t for t in tables if t.line in names]
+
+
+def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
+    origin: datetime | None = None
+    found = []
+    for table in tables:
+        kept = tuple(h for h in table.headings if not h.text or h.name == "time")
+        dropped = [h for h in table.headings if h not in kept]
+        if dropped and not lenient:
+            raise not_numbers(table.path, dropped[0].name, "text")
+        way: Way | None = None
+        if any(h.text for h in kept):
+            way, origin = _looked(table, ("time",), None, origin)
+            kept = tuple(Heading("time", "s") if h.text else h for h in kept)
+        columns = tuple(Column(h.name, h.unit) for h in kept) if lenient else columns_of(table.path, kept)
+        notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
+        batches = partial(_plain_batches, table, columns, way, origin)
+        found.append(
+            Source(table.path, columns, batches, table.line, origin if way and way.dated else None, notes)
+        )
+    return found
+
+
+def _plain_batches(
+    table: Table, columns: Sequence[Column], way: Way | None, origin: datetime | None
+) -> Iterator[Batch]:
+    clock = None if way is None else Clock(way, at(table.path, "column 'time'"), origin)
+    for raw in table.batches():
+        found = {c.name: raw[c.name] for c in columns}
+        if clock is not None:
+            found["time"] = clock([raw["time"]])
+        yield found
+
+
+def _looked(
+    table: Table, names: Sequence[str], way: Way | None, origin: datetime | None
+) -> tuple[Way, datetime | None]:
+    """How the first rows write their instants, and the midnight before them, unless an origin is known."""
+    where = at(table.path, f"column {names[0]!r}")
+    first = next(iter(table.batches()), None)
+    values = [np.empty(0) if first is None else first[n] for n in names]
+    way = way or way_of(values[0])
+    if way is None:
+        raise not_numbers(table.path, names[0], "text that is no instant")
+    if way.dated and origin is None and len(values[0]):
+        origin = midnight(way.read(*values, where))
+    return way, origin
+
+
+def _check_names(table: Table, mapping: Mapped) -> None:
+    there = {h.name for h in table.headings}
+    missing = sorted(mapping.columns - there)
+    if missing:
+        raise UserError(
+            "columns that the mapping names are not in the file",
+            where=table.path,
+            found=", ".join(missing),
+            expected=f"the columns of {mapping.path}",
+            remedy="write a mapping for this file: ragg map FLIGHT -o mapping.toml",
+        )
+
+
+def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
+    time = mapping.time
+    way = WAYS.get(time.format)
+    origin = time.origin
+    found = []
+    for table in tables:
+        units = {h.name: h.unit for h in table.headings}
+        texts = {h.name for h in table.headings if h.text}
+        for e in mapping.channels.values():
+            if e.column in texts:
+                raise not_numbers(table.path, e.column, "text")
+        if way is None and time.columns[0] in texts:
+            raise UserError(
+                "time is text, not seconds",
+                where=at(table.path, f"column {time.columns[0]!r}"),
+                remedy=f"say in {mapping.path} how it is written: [time] format = "
+                + ", ".join(map(repr, WAYS)),
+            )
+        if way is not None:
+            _, origin = _looked(table, time.columns, way, origin)
+        headings = [Heading("time", "s" if way else time.unit or units[time.columns[0]])]
+        headings += [Heading(n, e.unit or units[e.column]) for n, e in mapping.channels.items()]
+        columns, rotation = _rotated(columns_of(table.path, headings), mapping)
+        batches = partial(_mapped_batches, table, mapping, origin, rotation)
+        dated = way is None or way.dated
+        notes: tuple[str, ...] = (f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})",)
+        if mapping.demodulator is not None:
+            notes += ("demodulated: " + ", ".join(f"{k} {v}" for k, v in mapping.demodulator.items()),)
+        found.append(Source(table.path, columns, batches, table.line, origin if dated else None, notes))
+    return found
+
+
+def _mapped_batches(
+    table: Table,
+    mapping: Mapped,
+    origin: datetime | None,
+    rotation: Mapping[str, tuple[str, float]],
+) -> Iterator[Batch]:
+    way = WAYS.get(mapping.time.format)
+    clock = None if way is None else Clock(way, at(table.path, f"column {mapping.time.columns[0]!r}"), origin)
+    for raw in table.batches():
+        times = [raw[n] for n in mapping.time.columns]
+        found = {"time": times[0] if clock is None else clock(times)}
+        found |= {n: _scaled(raw, e) for n, e in mapping.channels.items()}
+        turned = {n: found[own] if sign > 0 else -found[own] for n, (own, sign) in rotation.items()}
+        yield found | turned
+
+
+def _scaled(raw: RawBatch, entry: Entry) -> Array:
+    values: Array = raw[entry.column]
+    if entry.factor != 1.0:
+        values = values * entry.factor
+    return values + entry.offset if entry.offset else values
+
+
+def _rotated(
+    columns: tuple[Column, ...], mapping: Mapped
+) -> tuple[tuple[Column, ...], dict[str, tuple[str, float]]]:
+    """Columns in the measurement frame, and for each that changes: the recorder's one and its sign."""
+    if mapping.axes is None:
+        return columns, {}
+    units = {c.name: c.unit for c in columns}
+    rotation: dict[str, tuple[str, float]] = {}
+    for name in units:
+        match = _VECTOR.fullmatch(name)
+        if match is not None:
+            k, sign = mapping.axes["xyz".index(match[2])]
+            rotation[name] = (f"{match[1]}_{'xyz'[k]}", sign)
+        elif name.startswith("Gamma_") and name[6:] in _TENSOR:
+            (i, s), (j, t) = (mapping.axes["xyz".index(a)] for a in name[6:])
+            own = "".join(sorted("xyz"[i] + "xyz"[j]))
+            rotation[name] = (f"Gamma_{own}", s * t)
+    for name, (own, _) in rotation.items():
+        if own not in units:
+            raise UserError(
+                "a component that the axes need is missing",
+                where=at(mapping.path, "[axes]"),
+                found=f"{name} comes from {own}, which [columns] does not have",
+                expected="all components of a vector or a tensor that is turned",
+            )
+    turned = tuple(replace(c, unit=units[rotation[c.name][0]]) if c.name in rotation else c for c in columns)
+    return turned, rotation

@@ -1,0 +1,97 @@
+"""The angular acceleration derived from the rate: as good as the record allows, and no reason to accuse a model."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from ragg_runtime.diagnosis.comparison import compare
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.fit.fitted import noise_floor
+from ragg_runtime.flight.angular_acceleration import BANDS, REACH, Derivative, planned
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
+from ragg_runtime.model.model import packaged
+from ragg_runtime.plausibility import examined
+from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.signals.derivative import differentiate
+from ragg_runtime.signals.noise_spectrum import estimate
+
+RATE = 16.0
+
+
+def test_what_a_wide_band_gives() -> None:
+    t = np.arange(4000) / RATE
+    rng = np.random.default_rng(1)
+    w, phase = 2 * np.pi * rng.uniform(0.01, 0.85 * RATE / 2, 60), rng.uniform(0, 2 * np.pi, 60)
+    x, dx = np.sin(np.outer(t, w) + phase).sum(axis=1), (np.cos(np.outer(t, w) + phase) * w).sum(axis=1)
+    found = planned([x], RATE)
+    derived, sure = found.of(x, RATE)
+    assert found.band == BANDS[-1]
+    assert np.std((derived - dx)[sure]) < 3e-6 * np.std(dx)
+    assert np.std((differentiate(x, RATE) - dx)[sure]) > 0.1 * np.std(dx)
+    assert np.flatnonzero(sure)[[0, -1]].tolist() == [REACH, len(t) - REACH - 1]
+
+
+def test_noise_above_the_motion_is_not_differentiated() -> None:
+    t = np.arange(20000) / RATE
+    x = np.sin(2 * np.pi * 0.3 * t) + 1e-3 * np.random.default_rng(2).normal(size=len(t))
+    found = planned([x], RATE)
+    assert found.band <= 0.2
+    wrong = found.of(x, RATE)[0] - 2 * np.pi * 0.3 * np.cos(2 * np.pi * 0.3 * t)
+    assert np.std(wrong[REACH:-REACH]) < 0.3 * 1e-3 * RATE
+    assert "holds noise alone" in found.note
+
+
+def test_gaps_cost_little_of_short_runs() -> None:
+    x = np.sin(np.arange(1000) / 5.0)
+    x[::50] = np.nan
+    derived, sure = Derivative(unsure=REACH).of(x, RATE)
+    assert np.isnan(derived[::50]).all()
+    assert np.mean(sure) > 0.7
+    assert planned([x], RATE) == Derivative(), "no run is long enough to judge by"
+
+
+def derived(seed: int, rate: float, trim: str, noise: float = 0.0):  # type: ignore[no-untyped-def]
+    """A flight of an instrument whose sheet is right but for its errors, without recorded acceleration."""
+    s = scenario(seed, trim=trim, duration=900.0, rate=rate)  # type: ignore[arg-type]
+    flight = s.simulate().flight()
+    rng = np.random.default_rng(seed)
+    channels = {n: v for n, v in flight.channels.items() if n not in ANGULAR_ACCELERATION}
+    for n in ANGULAR_RATE:
+        channels[n] = channels[n] + np.radians(noise) / 3600 * rng.normal(size=len(flight))
+    found = planned([channels[n] for n in ANGULAR_RATE], rate)
+    valid = np.ones(len(flight), dtype=bool)
+    for n, r in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
+        channels[n], sure = found.of(channels[r], rate)
+        valid &= sure
+    flight = dataclasses.replace(flight, channels=channels, valid=valid)
+    return s.sheet, examined(packaged(), s.sheet, flight)
+
+
+@pytest.mark.parametrize("seed", range(7000, 7006))
+def test_an_unmatched_instrument_sampled_slowly_is_not_accused(seed: int) -> None:
+    """Twenty of twenty such flights were; the error stands in a narrow band at the top, and beside the ends."""
+    sheet, flight = derived(seed, 8.0, "table-v")
+    assert diagnose(packaged(), sheet, [flight]).verdict == "adequate"
+
+
+def test_the_error_of_the_derivative_is_part_of_the_noise() -> None:
+    sheet, flight = derived(7016, 8.0, "table-v")
+    c = compare(packaged(), sheet, [flight])
+    assert c.calibrated.rms_Eo == pytest.approx(noise_floor(c.fitted), rel=0.15)
+    assert c.noise_floor > 3 * 2.8, "it is the largest part"
+
+
+def test_white_noise_keeps_its_coarse_spectrum() -> None:
+    """The finer spline is for what asks for it: elsewhere nothing changes, to the last bit."""
+    x = np.random.default_rng(3).normal(size=20000)
+    white = estimate([x], RATE)
+    assert np.max(np.abs(np.diff(white.log_psd))) < 0.05
+    f = np.fft.rfftfreq(len(x), 1 / RATE)
+    gain = 1 + 30 * np.exp(-(((f - 6.5) / 1.0) ** 2))
+    narrow = estimate([np.fft.irfft(np.fft.rfft(x) * gain, len(x))], RATE)
+    some = (f > 0.1) & (f < 7.9)
+    wrong = np.log(narrow.psd(f[some]) / (2 / RATE * gain[some] ** 2))
+    assert np.sqrt(np.mean(wrong**2)) < 0.25

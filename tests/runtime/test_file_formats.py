@@ -1,0 +1,150 @@
+"""Every format of the field keeps names, units, lines and every number; each reads what others' tools write."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.convert import convert
+from ragg_runtime.flight.files import write_tables
+from ragg_runtime.flight.formats import ALL, open_file
+from ragg_runtime.flight.source import Column, Look, Written
+from ragg_runtime.flight.sources import open_sources
+
+ENDINGS = (".csv", ".csv.gz", ".parquet", ".nc", ".h5", ".mat", ".xlsx", ".xyz", ".dat")
+UNITS = {"time": "s", "a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg", "odd [name]": "1"}
+
+numbers = st.one_of(st.just(float("nan")), st.floats(allow_infinity=False, allow_nan=False))
+
+
+def written(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Written]:
+    rng = np.random.default_rng(seed)
+    found = []
+    for k, line in enumerate(lines or (None,)):
+        columns = [(Column("time", "s"), np.arange(n + k) / 3.0)]
+        for name in ("a_x", "omega_y", "inline", "fuel"):
+            values = rng.normal(size=n + k) * 10.0 ** rng.integers(-12, 12)
+            values[rng.integers(0, n + k)] = np.nan
+            columns.append((Column(name, UNITS[name]), values))
+        found.append(Written(columns, line))
+    return found
+
+
+def content(path: Path) -> dict[str | None, dict[str, tuple[str, np.ndarray]]]:
+    found = {}
+    for s in open_sources(path, lenient=True):
+        batches = list(s.batches())
+        found[s.line] = {c.name: (c.unit, np.concatenate([b[c.name] for b in batches])) for c in s.columns}
+    return found
+
+
+def same(left: dict, right: dict, *, ordered: bool = True) -> None:
+    kind = list if ordered else set
+    assert list(left) == list(right)
+    for line, columns in left.items():
+        assert kind(columns) == kind(right[line])
+        for name, (unit, values) in columns.items():
+            assert unit == right[line][name][0], name
+            assert values.tobytes() == np.where(values == values, right[line][name][1], values).tobytes(), (
+                name
+            )
+            assert np.array_equal(np.isnan(values), np.isnan(right[line][name][1])), name
+
+
+def expected(tables: list[Written]) -> dict:
+    several = len(tables) > 1
+    return {t.line if several else None: {c.name: (c.unit, v) for c, v in t.columns} for t in tables}
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+@pytest.mark.parametrize("lines", [(), ("10", "20.5", "1030"), ("L1", "T20", "north 3")])
+def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None:
+    tables = written(40, lines)
+    path = tmp_path / f"x{ending}"
+    write_tables(path, lambda: tables)
+    found = content(path)
+    if ending == ".nc":  # names of lines are words in the CF conventions
+        found = {None if k is None else k.replace("_", " "): v for k, v in found.items()}
+    same(expected(tables), found, ordered=ending != ".nc")
+    assert sorted(p.suffix for p in tmp_path.iterdir()) == (
+        [".dat", ".dfn"] if ending == ".dat" else [path.suffix]
+    )
+
+
+@settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
+@given(values=arrays(np.float64, st.integers(2, 12), elements=numbers), ending=st.sampled_from(ENDINGS))
+def test_any_number_comes_back_to_the_last_bit(
+    tmp_path_factory: pytest.TempPathFactory, values: np.ndarray, ending: str
+) -> None:
+    path = tmp_path_factory.mktemp("bits") / f"x{ending}"
+    tables = [Written([(Column("time", "s"), np.arange(len(values)) * 0.1), (Column("v", "V"), values)])]
+    write_tables(path, lambda: tables)
+    same(expected(tables), content(path), ordered=ending != ".nc")
+
+
+@pytest.mark.parametrize("pair", list(itertools.pairwise((*ENDINGS, ENDINGS[0]))))
+def test_converted_there_and_back(tmp_path: Path, pair: tuple[str, str]) -> None:
+    first, second = (tmp_path / f"{n}{e}" for n, e in zip("ab", pair, strict=True))
+    back = tmp_path / f"c{pair[0]}"
+    tables = written(25, ("7", "8"))
+    write_tables(first, lambda: tables)
+    told = convert(first, second)
+    assert (told.lines, told.rows) == (2, 51)
+    convert(second, back)
+    same(content(first), content(back), ordered=".nc" not in pair)  # xarray puts variables in another order
+
+
+@pytest.mark.parametrize("ending", [e for e in ENDINGS if e not in (".nc", ".h5")])
+def test_equal_tables_give_equal_files(tmp_path: Path, ending: str) -> None:
+    for name in "ab":
+        write_tables(tmp_path / f"{name}{ending}", lambda: written(20, ("1", "2")))
+    assert (tmp_path / f"a{ending}").read_bytes() == (tmp_path / f"b{ending}").read_bytes()
+
+
+def test_every_format_is_registered_once() -> None:
+    endings = [e for f in ALL for e in f.ENDINGS]
+    assert len(endings) == len(set(endings))
+    assert set(ENDINGS) <= set(endings)
+
+
+def test_a_name_that_begins_like_a_formula_is_text(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    path = tmp_path / "x.xlsx"
+    evil = "=1+1"
+    write_tables(
+        path, lambda: [Written([(Column("time", "s"), np.arange(3.0)), (Column(evil, "V"), np.ones(3))])]
+    )
+    cell = openpyxl.load_workbook(path).active["B1"]
+    assert (cell.data_type, cell.value) == ("s", f"{evil} [V]")
+
+
+def test_lines_in_a_column(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("line [1],time [s],v [V]\n10,0,1\n20,0,2\n10,1,3\n20,1,4\n")
+    found = content(path)
+    assert {k: v["v"][1].tolist() for k, v in found.items()} == {"10": [1.0, 3.0], "20": [2.0, 4.0]}
+    path.write_text("line [1],time [s],v [V]\n10,0,1\n10,1,3\n")
+    assert list(content(path)) == [None]
+
+
+def test_look_takes_only_what_is_asked_for(tmp_path: Path) -> None:
+    for ending in ENDINGS:
+        path = tmp_path / f"x{ending}"
+        write_tables(path, lambda: written(5, ()))
+        (table,) = open_file(path, Look(only=frozenset(("time", "fuel"))))
+        assert {h.name for h in table.headings} == {"time", "fuel"}, ending
+        assert set(next(iter(table.batches()))) == {"time", "fuel"}, ending
+
+
+def test_a_file_into_itself(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    write_tables(path, lambda: written(5, ()))
+    with pytest.raises(UserError, match="itself"):
+        convert(path, path)

@@ -1,0 +1,217 @@
+"""[model] in model.toml: kinematics and order, from the file to the figures."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
+from ragg_runtime.diagnosis.ladder import STEPS
+from ragg_runtime.instrument.edit_toml import model_text
+from ragg_runtime.instrument.form import PAPER, PRESETS, Form
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.evaluate import output, scale_factor, vector
+from ragg_runtime.model.model import packaged
+from ragg_runtime.model.record import SPIN, Record, record, spin
+from ragg_runtime.model_dir import derive
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+EXAMPLE = (Path(__file__).parents[2] / "ragg_runtime" / "example.toml").read_text("utf-8")
+EXACT = Form(kinematics="full", mounting="exact", misalignment="exact", second_order_angles=True)
+
+
+def sheet(model: str) -> str:
+    """The example with another table [model] (or none)."""
+    head, _, rest = EXAMPLE.partition("[model]")
+    return head + model + "\n" + rest[rest.index("[disc]") :]
+
+
+def ragg(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    try:
+        main([str(a) for a in arguments])
+    except SystemExit as end:
+        code = end.code
+        assert isinstance(code, int)
+    else:
+        code = 0
+    said = capsys.readouterr()
+    return code, said.out, said.err
+
+
+@pytest.mark.parametrize(
+    ("table", "form"),
+    [
+        ("", PAPER),
+        ('[model]\nkinematics = "full"', Form(kinematics="full")),
+        ('[model]\norder = "exact"', replace(EXACT, kinematics="platform")),
+        ('[model]\nkinematics = "full"\norder = "exact"', EXACT),
+        ("[model]\norder = { mounting = 2 }", Form(mounting=2)),
+        (
+            '[model]\norder = { mounting = "exact", misalignment = 1, second_order_angles = true }',
+            Form(mounting="exact", second_order_angles=True),
+        ),
+    ],
+)
+def test_forms_are_read_and_written(table: str, form: Form) -> None:
+    instrument = parse_instrument(sheet(table))
+    assert instrument.form == form
+    assert parse_instrument(model_text(instrument)).form == form
+    assert (form.preset is None) == (form.order not in PRESETS.values())
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("model = 3", ("[model]", "table")),
+        ('[model]\nkinematic = "full"', ("kinematic", "kinematics", "did you mean")),
+        ('[model]\nkinematics = "half"', ("kinematics", "'half'", '"platform" or "full"')),
+        ('[model]\norder = "papr"', ("order", "papr", '"paper" or "exact"')),
+        ("[model]\norder = 2", ("order", "2", "mounting")),
+        ("[model]\norder = { mounting = 3 }", ("mounting", "3", '1 or 2 or "exact"')),
+        ("[model]\norder = { misalignment = true }", ("misalignment", "True")),
+        ("[model]\norder = { second_order_angles = 1 }", ("second_order_angles", "true or false")),
+        ("[model]\norder = { mount = 1 }", ("mount", "mounting")),
+    ],
+)
+def test_what_is_no_form_is_refused_with_a_remedy(table: str, words: tuple[str, ...]) -> None:
+    text = table + "\n" + sheet("") if table.startswith("model =") else sheet(table)
+    with pytest.raises(UserError) as refused:
+        parse_instrument(text)
+    for word in words:
+        assert word in str(refused.value)
+
+
+def test_new_says_what_a_sheet_without_a_form_means(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "sheet.toml").write_text(sheet(""))
+    _, _, said = ragg(capsys, "new", tmp_path / "from-sheet", "--from", tmp_path / "sheet.toml")
+    assert "no [model]" in said
+    assert 'kinematics = "full"' in said
+    assert (tmp_path / "from-sheet" / "model.toml").read_text() == sheet("")
+    _, _, said = ragg(capsys, "new", tmp_path / "own")
+    assert said == ""
+    m = loop.load(tmp_path / "own")
+    assert m.instrument.form == Form(kinematics="full")
+    assert m.model is packaged("full")
+    assert loop.load(tmp_path / "from-sheet").model is packaged()
+
+
+def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> None:
+    full, platform = packaged("full"), packaged()
+    assert platform.effect("disc-spin") is not None
+    assert full.effect("disc-spin") is None
+    m = loop.new(tmp_path / "full")
+    with pytest.raises(UserError, match="holds the effect disc-spin already"):
+        loop.add(m, "disc-spin")
+    (tmp_path / "bad.toml").write_text(EXAMPLE.replace("effects = []", 'effects = ["disc-spin"]'))
+    with pytest.raises(UserError, match="holds the effect disc-spin already"):
+        loop.new(tmp_path / "bad", tmp_path / "bad.toml")
+    keeping = parse_instrument(sheet("[model]\norder = { second_order_angles = true }"))
+    assert derive.model_of(keeping).effect("second-order-misalignment") is None
+
+
+@pytest.mark.parametrize(
+    "form",
+    [PAPER, Form(kinematics="full"), EXACT, Form(mounting="exact", misalignment="exact")],
+    ids=["paper", "full", "exact", "platform exact"],
+)
+def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
+    """Nominal error below 0.1 Eo; measured below 1e-5."""
+    instrument = replace(parse_instrument(EXAMPLE), form=form)
+    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0)
+    model = derive.model_of(instrument)
+    p = vector(model, instrument)
+    r = record(flight, instrument)
+    left = (flight.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
+    assert np.sqrt(np.mean(left**2)) < 1e-5
+    other = replace(instrument, form=PAPER if form == EXACT else EXACT)
+    away = derive.model_of(other)
+    q = vector(away, other)
+    left = (flight.outputs["G_out"] - output(away.chain, r, q)) / scale_factor(away, q)
+    assert np.sqrt(np.mean(left**2)) > 0.1
+
+
+def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
+    """Two derived forms, in NumPy and in C, to rounding: 1e-6 Eo."""
+    model, instrument = packaged("full"), parse_instrument(EXAMPLE)
+    flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=30.0)
+    r = record(flight, instrument)
+    p = vector(model, instrument)
+    chain = output(model.chain, r, p)
+    inputs = r.inputs(model.chain)
+    for backend in ("numpy", "c"):
+        e = model.compiled(backend)  # type: ignore[arg-type]
+        assert set(e.inputs[-2:]) == set(SPIN)
+        G = e.output(r.time, inputs, p)
+        assert np.max(np.abs(G - chain)) < 1e-6 * scale_factor(model, p)
+        # without the spin's rate: 2 pi spin_frequency
+        steady = e.output(r.time, [*inputs[:15], None, None], p)
+        np.testing.assert_array_equal(steady, G)
+        with pytest.raises(UserError, match="rate"):
+            e.output(r.time, [*inputs[:15], None, None], p, angle=r.phi)
+
+
+def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
+    """A swing of the disc comes out, the encoder's steps hardly; parts of a record give what the whole gives."""
+    rate, f, step = 16.0, 0.25, 6e-6
+    t = np.arange(4000) / rate
+    swing = 1e-3 * np.sin(2 * np.pi * 2 * f * t)
+    angle = 2 * np.pi * f * t + swing
+    coded = np.mod(step * np.round(angle / step), 2 * np.pi)
+    first, second = (spin(name, coded, t.size, rate, 9.9) for name in SPIN)
+    w = 2 * np.pi * 2 * f
+    inner = slice(20, -20)
+    assert np.std((first - 2 * np.pi * f - 1e-3 * w * np.cos(w * t))[inner]) < 0.02 * 1e-3 * w
+    assert np.std((second + 1e-3 * w**2 * np.sin(w * t))[inner]) < 0.05 * 1e-3 * w**2
+    steady = spin(SPIN[1], np.mod(step * np.round(2 * np.pi * f * t / step), 2 * np.pi), t.size, rate, f)
+    assert np.std(steady[inner]) < 1e-4
+    whole = Record(
+        time=t, wide={"spin_angle": coded}, rate=rate, valid=np.ones(t.size, bool), spin_frequency=f
+    )
+    part = whole.part(slice(1000, 2000)).series(SPIN[1])
+    assert part is not None
+    np.testing.assert_allclose(part, second[1000:2000], rtol=0, atol=1e-9)
+    plain = replace(whole, wide={})
+    for name, value in zip(SPIN, (2 * np.pi * f, 0.0), strict=True):
+        np.testing.assert_array_equal(plain.series(name), value)
+
+
+def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_noise(tmp_path: Path) -> None:
+    (tmp_path / "sheet.toml").write_text(sheet(""))
+    m = loop.new(tmp_path / "paper", tmp_path / "sheet.toml")
+    flight = simulated(replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0)
+    same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0)
+    np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
+    added = loop.add(m, "disc-spin", [flight])
+    assert added.after is not None
+    assert added.after.calibrated.rms_Eo < 1.02 * added.after.noise_floor
+    (share,) = added.parameters
+    assert abs(share.value - 1) < 4 * share.std
+    assert share.std < 0.2
+
+
+def test_the_ladder_says_what_each_step_is_worth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    m = loop.new(tmp_path / "m")
+    flight = simulated(m.instrument, (), seed=5, duration=300.0)
+    c = loop.compare(m, [flight], ladder=True)
+    assert [r.form for r in c.ladder] == list(STEPS)
+    steps = [r.step.rms_Eo for r in c.ladder if r.step is not None]
+    assert steps[0] > 1e4  # the spin: the centripetal force of all four, seen by their misalignment
+    assert all(s < 10 for s in steps[1:])
+    by_form = {r.form: r for r in c.ladder}
+    mine = by_form[m.instrument.form]
+    assert mine.nominal.rms_Eo == pytest.approx(c.nominal.rms_Eo, rel=1e-4)  # k_ggi as calibrated
+    assert mine.calibrated.rms_Eo == pytest.approx(c.calibrated.rms_Eo, rel=1e-3)
+    assert by_form[PAPER].calibrated.rms_Eo > 5 * mine.calibrated.rms_Eo
+    found = c.as_json()["ladder"]
+    assert isinstance(found, list)
+    assert found[1]["kinematics"] == "full"
+    assert found[0]["step"] is None
+    json.dumps(found, allow_nan=False)

@@ -1,0 +1,283 @@
+"""mapping.toml: what it can say, what is refused, what `ragg map` writes of files as companies deliver them."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from click.testing import CliRunner
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import cli
+from ragg_runtime.flight import Flight, read_flight, read_flights, write_flight
+from ragg_runtime.flight.guess import draft
+from ragg_runtime.flight.mapping import Mapped, parse_mapping
+from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.workflow import loop
+
+G0 = 9.8
+HERE = Path("mapping.toml")
+MOTION = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
+
+
+def made(n: int = 300) -> Flight:
+    rng = np.random.default_rng(5)
+    channels = {name: rng.normal(size=n) for name in MOTION}
+    return Flight(time=np.arange(n) / 16, channels=channels, outputs={"G_out": rng.normal(size=n)})
+
+
+def foreign(path: Path, time: str = "{t:.4f}", head: str = "T", lines: tuple[int, ...] = ()) -> Flight:
+    """A recorder's CSV: NED axes in g and dps, the output of the wrong sign in mV."""
+    x = made()
+    names = ["AN", "AE", "AD", "GN", "GE", "GD", "OUT"]
+    rows = ["LINE," * bool(lines) + f"{head}," + ",".join(names)]
+    for line in lines or (0,):
+        for k, t in enumerate(x.time):
+            a = [x.channels[n][k] / G0 for n in ("a_y", "a_x")] + [-x.channels["a_z"][k] / G0]
+            w = [np.degrees(x.channels[n][k]) for n in ("omega_y", "omega_x")]
+            w.append(-np.degrees(x.channels["omega_z"][k]))
+            values = [*a, *w, -1e3 * x.outputs["G_out"][k]]
+            rows.append(
+                f"{line}," * bool(lines) + time.format(t=t, s=t % 60) + "," + ",".join(map(repr, values))
+            )
+    path.write_text("\n".join(rows).replace("np.float64(", "").replace(")", "") + "\n")
+    return x
+
+
+TEXT = """
+[time]
+column = "T"
+unit = "s"
+[columns]
+a_x = { column = "AN", unit = "g" }
+a_y = { column = "AE", unit = "g" }
+a_z = { column = "AD", unit = "g" }
+omega_x = { column = "GN", unit = "dps" }
+omega_y = { column = "GE", unit = "dps" }
+omega_z = { column = "GD", unit = "dps" }
+G_out = { column = "OUT", unit = "V", sign = -1, scale = 1e-3 }
+[axes]
+x = "y"
+y = "x"
+z = "-z"
+"""
+
+
+def parse(text: str = TEXT) -> Mapped:
+    return parse_mapping(text, HERE)
+
+
+def test_units_signs_scales_and_axes(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    x = foreign(path)
+    found = read_flight(path, G0, mapping=parse())
+    assert found.time == pytest.approx(x.time)
+    for name in MOTION:
+        assert found.channels[name] == pytest.approx(x.channels[name], rel=1e-12, abs=1e-12), name
+    assert found.outputs["G_out"] == pytest.approx(x.outputs["G_out"], rel=1e-12)
+    assert found.notes[0].startswith("read by mapping.toml (SHA-256 ")
+
+
+@pytest.mark.parametrize(
+    ("time", "written", "origin"),
+    [
+        ("2026-03-01T12:00:{s:07.4f}Z", 'column = "T"\nformat = "iso"', datetime(2026, 3, 1, tzinfo=UTC)),
+        ("2026-03-01 12:00:{s:07.4f}", 'column = "T"\nformat = "iso"', datetime(2026, 3, 1, tzinfo=UTC)),
+        ("12:00:{s:07.4f}", 'column = "T"\nformat = "clock"', None),
+        ("1200{s:07.4f}", 'column = "T"\nformat = "clock"', None),
+        (
+            "{t:.4f}",
+            'column = "T"\nunit = "s"\norigin = 2026-03-01T12:00:00Z',
+            datetime(2026, 3, 1, 12, tzinfo=UTC),
+        ),
+    ],
+)
+def test_clocks(tmp_path: Path, time: str, written: str, origin: datetime | None) -> None:
+    path = tmp_path / "x.csv"
+    x = foreign(path, time)
+    text = TEXT.replace('column = "T"\nunit = "s"', written)
+    (source,) = open_sources(path, parse(text))
+    assert source.origin == origin
+    found = read_flight(path, G0, mapping=parse(text))
+    assert np.diff(found.time) == pytest.approx(np.diff(x.time), abs=2e-4)
+    noon = 0.0 if "origin" in written else 43200.0
+    assert found.time[0] == pytest.approx(noon, abs=1e-4)
+
+
+def test_gps_week_and_midnight(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    x = foreign(path, "2408,{t:.4f}", head="W,S")
+    found = read_flight(
+        path,
+        G0,
+        mapping=parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"')),
+    )
+    assert found.time == pytest.approx(x.time, abs=1e-4)
+    (source,) = open_sources(
+        path, parse(TEXT.replace('column = "T"\nunit = "s"', 'column = ["W", "S"]\nformat = "gps"'))
+    )
+    assert source.origin == datetime(2026, 3, 1, tzinfo=UTC)  # a Sunday
+    path.write_text("time,v [V]\n23:59:59.5,1\n00:00:00.0,2\n0:00:00.5,3\n")
+    (source,) = open_sources(path)
+    assert next(iter(source.batches()))["time"].tolist() == [86399.5, 86400.0, 86400.5]
+
+
+def test_lines_become_flights(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    foreign(path, lines=(1010, 1020))
+    mapping = parse('[file]\nline = "LINE"\n' + TEXT)
+    assert [x.name for x in read_flights(path, G0, mapping=mapping)] == ["x:1010", "x:1020"]
+    with pytest.raises(UserError, match="several lines"):
+        read_flight(path, G0, mapping=mapping)
+    one = parse('[file]\nline = "LINE"\nlines = ["1020"]\n' + TEXT)
+    assert [x.name for x in read_flights(path, G0, mapping=one)] == ["x"]
+    with pytest.raises(UserError, match="no such line"):
+        read_flights(path, G0, mapping=parse('[file]\nline = "LINE"\nlines = ["7"]\n' + TEXT))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "facts"),
+    [
+        ('unit = "dps"', 'unit = "?"', ("omega_x", "not answered", "not guessed")),
+        ('unit = "dps"', 'unit = "parsnips"', ("not a unit", "parsnips")),
+        ("sign = -1", "sign = -2", ("sign", "scale")),
+        ("scale = 1e-3", "scale = 0", ("zero",)),
+        ("scale = 1e-3", "scale = nan", ("scale", "number")),
+        ('x = "y"', 'x = "-y"', ("mirror",)),
+        ('x = "y"', 'x = "z"', ("twice",)),
+        ('x = "y"', 'x = "w"', ("not an axis",)),
+        ('column = "T"', 'column = ["T", "U"]', ("one column",)),
+        ('unit = "s"', 'format = "iso8601"', ("format", "iso")),
+        ('unit = "s"', 'format = "gps"', ("two columns",)),
+        ('unit = "s"', 'unit = "s"\norigin = "2026"', ("origin",)),
+        ("[axes]", "[axis]", ("unknown key", "axes")),
+        ('column = "AN"', 'colum = "AN"', ("not named",)),
+        ('column = "AN"', 'column = 3', ("column", "text")),
+        ('column = "AN"', 'column = "AX"', ("AX", "not in the file", "ragg map")),
+        ("[time]", "[[time]]", ("not a table",)),
+        ("[columns]", "[columns", ("TOML",)),
+        ('[time]\ncolumn = "T"\nunit = "s"', "", ("[time] is missing",)),
+        ('a_x = { column = "AN", unit = "g" }\n', "", ("axes", "a_y", "a_x")),
+    ],
+)  # fmt: skip
+def test_refused(tmp_path: Path, old: str, new: str, facts: tuple[str, ...]) -> None:
+    path = tmp_path / "x.csv"
+    foreign(path)
+    assert old in TEXT
+    with pytest.raises(UserError) as caught:
+        read_flight(path, G0, mapping=parse(TEXT.replace(old, new, 1)))
+    assert all(f in str(caught.value) for f in facts), str(caught.value)
+    assert len(str(caught.value)) < 2000
+
+
+def test_spellings_of_units_and_a_row_of_units(tmp_path: Path) -> None:
+    x = made()
+    rows = np.column_stack([x.time, *x.channels.values(), x.outputs["G_out"]])
+    body = "\n".join(",".join(repr(float(v)) for v in row) for row in rows)
+    plain = "time [s],a_x [m/s^2],a_y [m/s^2],a_z [m/s^2],omega_x [rad/s],omega_y [rad/s],omega_z [rad/s],G_out [V]"
+    others = [
+        "time (s),a_x (m/s2),a_y (m/s/s),a_z (m s-2),omega_x (rad/s),omega_y (rad/s),omega_z (rad/sec),G_out (V)",
+        "time,a_x,a_y,a_z,omega_x,omega_y,omega_z,G_out\ns,m/s2,m/s²,m.s-2,rad/s,rad/s,rad/s,volts",
+        "time,a_x,a_y,a_z,omega_x,omega_y,omega_z,G_out\n[s],[m/s2],[m/s2],[m/s2],[rad/s],[rad/s],[rad/s],[V]",
+    ]
+    for name, head in zip("abcd", [plain, *others], strict=True):
+        (tmp_path / f"{name}.csv").write_text(head + "\n" + body + "\n")
+    first = read_flight(tmp_path / "a.csv", G0)
+    for name in "bcd":
+        other = read_flight(tmp_path / f"{name}.csv", G0)
+        assert all(np.array_equal(other.channels[n], first.channels[n]) for n in MOTION)
+    (tmp_path / "e.csv").write_text(others[0].replace("(V)", "(raw)") + "\n" + body + "\n")
+    with pytest.raises(UserError, match="no unit"):
+        read_flight(tmp_path / "e.csv", G0)
+
+
+def test_datetime_columns_and_pandas_attrs(tmp_path: Path) -> None:
+    import pandas as pd
+
+    x = made()
+    frame = pd.DataFrame(dict(x.channels) | {"G_out": x.outputs["G_out"]})
+    frame.insert(0, "time", pd.Timestamp("2026-03-01T06:00:00Z") + pd.to_timedelta(x.time, unit="s"))
+    units = dict.fromkeys(MOTION[:3], "m/s2") | dict.fromkeys(MOTION[3:], "rad/s") | {"G_out": "V"}
+    frame.attrs = {"units": units}
+    frame.to_parquet(tmp_path / "x.parquet")
+    found = read_flight(tmp_path / "x.parquet", G0)
+    assert found.time == pytest.approx(x.time + 6 * 3600.0, abs=1e-9)
+    assert np.array_equal(found.channels["a_y"], x.channels["a_y"])
+    table = pq.read_table(tmp_path / "x.parquet")
+    assert pa.types.is_timestamp(table.schema.field("time").type)
+
+
+XYZ = """/ ---------------------------
+/ XYZ EXPORT
+/         X       Y  Altitude  Cross1_raw  Inline1_raw  HHMMSS   YYMMDD  Gyro_X
+/ ======= ======= ========= =========== ============ ======== ======== =======
+//Flight 7
+//Date 2008/07/06
+Line  10
+ 436702.0 3327648.7 75.0 1354.8 -335.3 235959.0 20080703 *
+ 436702.1 3327648.8 75.1 1354.9 -335.4 000000.0 20080704 0.5
+Tie 20
+ 436702.0 3327648.7 75.0 1354.8 * 132850.4 20080704 0.1
+ 436702.1 3327648.8 75.1 1354.9 -335.4 132851.4 20080704 0.2
+"""
+
+
+def test_a_mapping_is_begun_from_an_xyz_file(tmp_path: Path) -> None:
+    path = tmp_path / "x.xyz"
+    path.write_text(XYZ)
+    d = draft(path)
+    assert 'column = ["YYMMDD", "HHMMSS"]  # likely' in d.text
+    assert 'inline_1 = { column = "Inline1_raw", unit = "?", scale = 2 }  # likely' in d.text
+    assert 'omega_x = { column = "Gyro_X", unit = "?" }  # likely' in d.text
+    assert 'easting = { column = "X", unit = "?" }  # guess' in d.text
+    assert len(d.questions) == 6
+    with pytest.raises(UserError, match="not answered"):
+        parse_mapping(d.text, HERE)
+    answered = d.text.replace('unit = "?"', 'unit = "E"')
+    first, second = open_sources(path, parse_mapping(answered, HERE))
+    assert (first.line, second.line) == ("10", "T20")
+    assert first.origin == second.origin == datetime(2008, 7, 3, tzinfo=UTC)
+    rows = next(iter(first.batches()))
+    assert rows["time"].tolist() == [86399.0, 86400.0]
+    assert rows["flight"].tolist() == [7.0, 7.0]
+    assert rows["inline_1"].tolist() == [-670.6, -670.8]
+    assert np.isnan(rows["omega_x"][0])
+
+
+def test_kept_with_the_model(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mapping.toml").write_text(TEXT)
+    m = loop.new("model", None, Path("mapping.toml"))
+    assert Path("model/mapping.toml").read_text() == TEXT
+    how = loop.mapping_of(m, None)
+    assert how is not None
+    assert how.kept
+    foreign(Path("x.csv"))
+    assert read_flights("x.csv", G0, mapping=how)[0].channels["a_x"] == pytest.approx(made().channels["a_x"])
+    write_flight(made(), "plain.csv")  # a file that has none of its columns is read as it is
+    assert np.array_equal(
+        read_flights("plain.csv", G0, mapping=how)[0].channels["a_x"], made().channels["a_x"]
+    )
+    run = CliRunner().invoke(cli, ["new", "other", "--map", "none.toml"])
+    assert isinstance(run.exception, UserError)
+    assert not Path("other").exists()
+
+
+def test_commands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    foreign(Path("x.csv"))
+    Path("m.toml").write_text(TEXT)
+    run = CliRunner().invoke(cli, ["convert", "x.csv", "y.parquet", "--map", "m.toml"])
+    assert (run.exit_code, run.exception) == (0, None)
+    assert "300 rows of 8 columns" in run.output
+    assert read_flight("y.parquet", G0).channels["a_z"] == pytest.approx(made().channels["a_z"])
+    run = CliRunner().invoke(cli, ["map", "x.csv", "-o", "draft.toml"])
+    assert run.exit_code == 0
+    assert "question" in run.output
+    assert "[columns]" in Path("draft.toml").read_text()
+    run = CliRunner().invoke(cli, ["map", "x.csv", "-o", "draft.toml"])
+    assert isinstance(run.exception, UserError)  # what was answered is not overwritten

@@ -1,0 +1,167 @@
+"""What commands write: never over what they read, never in place of a device, all of it before a model changes."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import write_flight
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="devices, links and pipes of Unix")
+
+
+@pytest.fixture(scope="module")
+def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """A model directory with an effect, and a flight of 150 s."""
+    place = tmp_path_factory.mktemp("outputs")
+    m = loop.new(place / "model")
+    write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet")
+    loop.add(m, "lag")
+    return place / "model", place / "flight.parquet"
+
+
+def state(*places: Path) -> dict[str, bytes]:
+    files = [p for x in places for p in ((x,) if x.is_file() else sorted(x.rglob("*"))) if p.is_file()]
+    return {str(p): p.read_bytes() for p in files}
+
+
+def ragg(*arguments: object, redirect: str = "", cwd: Path | None = None) -> tuple[int, str]:
+    """Exit status and stderr of a command, its output redirected by a shell."""
+    line = f'exec "$0" -m ragg_runtime "$@" {redirect}'
+    found = subprocess.run(
+        ["sh", "-c", line, sys.executable, *map(str, arguments)], capture_output=True, text=True, cwd=cwd
+    )
+    assert "Traceback" not in found.stderr, found.stderr
+    return found.returncode, found.stderr
+
+
+@pytest.mark.parametrize("how", ["report", "json", "stdout full", "stdout closed", "json full"])
+def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(
+    how: str, given: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, flight = given
+    before = state(model, flight)
+    nowhere = tmp_path / "nowhere"
+    further: dict[str, tuple[list[object], str]] = {
+        "report": (["--report", nowhere / "r.html"], ""),
+        "json": (["--json", nowhere / "r.json"], ""),
+        "stdout full": ([], "> /dev/full"),
+        "stdout closed": ([], ">&-"),
+        "json full": (["--json", "/dev/full"], ""),
+    }
+    arguments, redirect = further[how]
+    for command in (["add", model, "odd-quadratic", flight], ["remove", model, "lag"]):
+        if how == "report" and command[0] == "remove":
+            continue
+        status, said = ragg(*command, *arguments, redirect=redirect)
+        assert status == 2, said
+        assert said.count("ragg:") == 1
+        assert state(model, flight) == before
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("over", ["flight", "model.toml", "history.json", "generated/manifest.json", "link"])
+@pytest.mark.parametrize("option", ["--json", "--report"])
+def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tuple[Path, Path]) -> None:
+    model, flight = given
+    target = flight if over == "flight" else model / over
+    if over == "link":
+        target = model.parent / "hard-link"
+        target.unlink(missing_ok=True)
+        os.link(flight, target)
+    before = state(model, flight)
+    status, said = ragg("compare", model, flight, option, target)
+    assert status == 2, said
+    assert "written over what the command reads" in said
+    assert state(model, flight) == before
+
+
+def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(
+    given: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, flight = given
+    status, said = ragg("compare", model, flight, "--json", tmp_path / "x", "--report", tmp_path / "x")
+    assert (status, "two results" in said) == (2, True)
+    sheet = tmp_path / "sheet.csv"
+    sheet.symlink_to(model / "model.toml")
+    before = state(model)
+    assert ragg("simulate", model, "-o", sheet)[0] == 2
+    assert state(model) == before
+
+
+def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Path) -> None:
+    model, _ = given
+    assert ragg("history", model, "--json", "/dev/null")[0] == 0
+    assert Path("/dev/null").is_char_device()
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append(pipe.read_text()), daemon=True)
+    reader.start()
+    assert ragg("history", model, "--json", pipe)[0] == 0
+    reader.join(10)
+    assert [s["action"] for s in json.loads(read[0])["steps"]] == ["new", "add"]
+    assert pipe.is_fifo()
+    out = tmp_path / "out"
+    assert ragg("history", model, "--json", "/dev/stdout", redirect=f"> {out}")[0] == 0
+    assert json.loads(out.read_text())["steps"]
+    assert ragg("history", model, "--json", "/dev/fd/3", redirect=f"3>> {out}")[0] == 0
+    assert out.read_text().count('"steps"') == 2
+    status, said = ragg("history", model, "--json", pipe)
+    assert (status, "nobody reads from it" in said) == (2, True)
+
+
+def test_a_link_is_written_through(given: tuple[Path, Path], tmp_path: Path) -> None:
+    link, target = tmp_path / "latest.json", tmp_path / "of-today.json"
+    link.symlink_to(target.name)
+    for _ in range(2):
+        assert ragg("history", given[0], "--json", link)[0] == 0
+        assert link.is_symlink()
+        assert json.loads(target.read_text())["steps"]
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_closed_stderr_and_a_deleted_working_folder(given: tuple[Path, Path], tmp_path: Path) -> None:
+    model, flight = given
+    assert ragg("compare", model, flight, redirect="2>&-")[0] == 0
+    status, _ = ragg("compare", model, tmp_path / "no.csv", redirect="2>&-")
+    assert status == 2
+    found = subprocess.run(
+        ["sh", "-c", f'rmdir "$PWD"; exec {sys.executable} -P -m ragg_runtime compare {model} flight.csv'],
+        cwd=_made(tmp_path / "gone"),
+        capture_output=True,
+        text=True,
+    )
+    assert found.returncode == 2
+    assert found.stderr.count("ragg: ") == 1
+    assert "Traceback" not in found.stderr
+
+
+def _made(folder: Path) -> Path:
+    folder.mkdir()
+    return folder
+
+
+def test_what_is_no_results_file_of_a_survey_is_not_touched(given: tuple[Path, Path], tmp_path: Path) -> None:
+    model, flight = given
+    torn = b'{"kind": "another"}\nand a line that has no end'
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    m = loop.load(model)
+    for k, content in enumerate((flight.read_bytes(), torn, b"ragg survey", b"\n\n", b"{")):
+        kept = tmp_path / f"kept-{k}"
+        kept.write_bytes(content)
+        with pytest.raises(UserError, match="not a results file"):
+            loop.survey(m, [flight], jobs=1, resume=kept)
+        assert kept.read_bytes() == content
+    with pytest.raises(UserError, match="not a regular file"):
+        loop.survey(m, [flight], jobs=1, resume=pipe)

@@ -1,0 +1,107 @@
+"""Auxiliary channels of a lower rate are interpolated or left out, said; a record that lacks half of itself is none."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import Flight, iter_flight_chunks, read_flight, write_flight
+from ragg_runtime.flight.slow import BRIDGED_STEPS, Slow, judged
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+G0 = 9.8
+HIDDEN = "thermal-scale:dK1_dT=0/0/6e-7/0"
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> loop.Loaded:
+    return loop.new(tmp_path_factory.mktemp("slow") / "model")
+
+
+@pytest.fixture(scope="module")
+def hot(model: loop.Loaded) -> Flight:
+    return simulated(model.instrument, [HIDDEN], seed=4, duration=400.0, rate=8.0)
+
+
+def rarely(flight: Flight, every: int, names: tuple[str, ...], path: Path) -> Path:
+    """The flight with some channels recorded at a lower rate."""
+    kept = np.arange(len(flight)) % every == 0
+    channels = {n: np.where(kept, v, np.nan) if n in names else v for n, v in flight.channels.items()}
+    write_flight(dataclasses.replace(flight, channels=channels), path)
+    return path
+
+
+def test_a_thermometer_read_every_ten_seconds_serves_the_diagnosis(
+    model: loop.Loaded, hot: Flight, tmp_path: Path
+) -> None:
+    """It dropped all samples but one in eighty, and acquitted the model."""
+    path = rarely(hot, 80, ("temperature",), tmp_path / "slow.parquet")
+    (read,) = loop.read_flights(model, [path])
+    assert np.flatnonzero(~read.valid).tolist() == list(range(3121, 3200)), "after the last value"
+    assert any("temperature: recorded every 10 s; interpolated" in n for n in read.notes)
+    d = loop.diagnose(model, [read])
+    assert d.verdict == "missing-effect"
+    assert "thermal-scale" in {*d.found, *(o for r in d.ranking[:1] for o in r.indistinguishable_from)}
+
+
+def test_what_changes_faster_than_it_was_recorded_is_left_out(hot: Flight, tmp_path: Path) -> None:
+    fast = {**hot.channels, "B_x": np.random.default_rng(1).normal(size=len(hot)), "pressure": hot.time * 0.0}
+    flight = dataclasses.replace(hot, channels=fast)
+    read = read_flight(rarely(flight, 40, ("B_x", "pressure"), tmp_path / "fast.parquet"), G0)
+    assert np.flatnonzero(~read.valid).tolist() == list(range(3161, 3200))
+    assert "B_x" not in read.channels
+    assert np.all(read.channels["pressure"] == 0.0)
+    assert any("B_x" in n and "left out: it changes too fast" in n for n in read.notes)
+
+
+def test_parts_see_the_whole_channel(hot: Flight, tmp_path: Path) -> None:
+    path = rarely(hot, 200, ("temperature",), tmp_path / "slow.csv")
+    whole = read_flight(path, G0)
+    parts = list(iter_flight_chunks(path, G0, 300))
+    joined = np.concatenate([p.channels["temperature"] for p in parts])
+    assert np.array_equal(joined, whole.channels["temperature"])
+    assert np.array_equal(np.concatenate([p.valid for p in parts]), whole.valid)
+    assert np.sum(~whole.valid) == 199
+
+
+@pytest.mark.parametrize("name", ["omega_z", "G_out"])
+def test_a_record_that_lacks_half_of_its_samples_is_refused(name: str, hot: Flight, tmp_path: Path) -> None:
+    kept = np.arange(len(hot)) % 3 == 0
+    channels = {n: np.where(kept, v, np.nan) if n == name else v for n, v in hot.channels.items()}
+    outputs = {n: np.where(kept, v, np.nan) if n == name else v for n, v in hot.outputs.items()}
+    path = tmp_path / "half.parquet"
+    write_flight(dataclasses.replace(hot, channels=channels, outputs=outputs), path)
+    with pytest.raises(UserError, match="most samples of the flight are incomplete") as refused:
+        read_flight(path, G0)
+    assert f"{name}: without a value" in refused.value.message
+
+
+def test_judgement() -> None:
+    t = np.arange(0.0, 1000.0, 10.0)
+    slow = judged(t, 290 + np.sin(2 * np.pi * t / 400))
+    assert isinstance(slow, Slow)
+    fine = np.arange(0.0, 989.0, 0.5)
+    assert np.max(np.abs(slow.at(fine) - 290 - np.sin(2 * np.pi * fine / 400))) < 0.01
+    assert "fast" in str(judged(t, np.sin(2 * np.pi * t / 30)))
+    assert "regular" in str(judged(np.cumsum(np.random.default_rng(2).exponential(10.0, 100)), np.zeros(100)))
+    assert "3 values" in str(judged(t[:3], t[:3]))
+    holes = np.r_[t[:40], t[44:]]  # one gap of five steps
+    slow = judged(holes, 290 + holes / 1e3)
+    assert isinstance(slow, Slow)
+    assert np.isnan(slow.at(np.array([400.0, 395.0, 425.0]))).tolist() == [True, True, True]
+    assert np.isfinite(slow.at(np.array([390.0, 440.0, 990.0, 0.0]))).all()
+    assert np.isnan(slow.at(np.array([991.0, -1.0]))).all()
+    assert BRIDGED_STEPS < 5
+
+
+def test_a_slow_channel_that_ends_early_does_not_take_the_record_with_it(hot: Flight, tmp_path: Path) -> None:
+    short = np.where(hot.time < 150.0, hot.channels["temperature"], np.nan)
+    flight = dataclasses.replace(hot, channels={**hot.channels, "temperature": short})
+    read = read_flight(rarely(flight, 80, ("temperature",), tmp_path / "short.parquet"), G0)
+    assert read.valid.all()
+    assert any("temperature" in n and "cover 140 s of 399.9 s" in n for n in read.notes)
