@@ -4,8 +4,8 @@
 
 RAW is a recording of H. Carlsson, I. Skog and J. Jalden (see LICENSE.mimu-array here). The four sensors of the front, at
 the corners of a square, are the gradiometer: their axes along the tangents of the circle through them. Specific force is the
-mean of the four of the back, angular rate that of all eight. Angular acceleration, if asked for, is what the four of the
-back feel beside each other: no gradiometer output enters it.
+mean of the four of the back, angular rate that of all eight. Angular acceleration is what the four of the back feel beside
+each other: no output of the gradiometer enters it, nor a derivative of what is sampled too slowly for one.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ BLOCK = 64
 MOTION_FROM = 30.0
 """rad/s that the array must reach before it counts as thrown about."""
 
-LEAD, LENGTH = 5.0, 45.0
-"""s before that at which the second record begins, and how long it is: as small as serves."""
+LENGTH = 45.0
+"""Length of the second record, which begins there, s: as small as serves."""
 
 
 def packets(raw: bytes) -> NDArray[np.int16]:
@@ -95,14 +95,13 @@ def angular_acceleration(force: Array, omega: Array) -> Array:
     )
 
 
-def columns(force: Array, rate: Array, *, measured: bool) -> tuple[dict[str, Array], dict[str, Array]]:
+def columns(force: Array, rate: Array) -> tuple[dict[str, Array], dict[str, Array]]:
     """Channels and outputs of a flight."""
     a, omega = force[:, 1::2].mean(axis=1), rate.mean(axis=1)
     channels = {f"a_{k}": a[:, i] for i, k in enumerate("xyz")}
     channels |= {f"omega_{k}": omega[:, i] for i, k in enumerate("xyz")}
-    if measured:
-        alpha = angular_acceleration(force, omega)
-        channels |= {f"omegadot_{k}": alpha[:, i] for i, k in enumerate("xyz")}
+    alpha = angular_acceleration(force, omega)
+    channels |= {f"omegadot_{k}": alpha[:, i] for i, k in enumerate("xyz")}
     # The gradient of the Earth's field, 3e-6 s^-2, is nothing beside (2000 deg/s)^2 = 1e3 s^-2: known to be none.
     channels |= {f"Gamma_{k}": np.zeros(len(a)) for k in ("xx", "xy", "xz", "yy", "yz", "zz")}
     outputs = {}
@@ -118,7 +117,7 @@ def rests(force: Array, rate: Array, quiet: NDArray[np.bool_]) -> Flight:
     n = len(force) // BLOCK
     whole = quiet[: n * BLOCK].reshape(n, BLOCK).all(axis=1)
     blocks = [x[: n * BLOCK].reshape(n, BLOCK, 8, 3) for x in (force, rate)]
-    channels, outputs = columns(*(x.mean(axis=1) for x in blocks), measured=False)
+    channels, outputs = columns(*(x.mean(axis=1) for x in blocks))
     # The mean angular acceleration of a block is the change of the rate over it.
     omega, quarter = blocks[1].mean(axis=2), BLOCK // 4
     change = omega[:, -quarter:].mean(axis=1) - omega[:, :quarter].mean(axis=1)
@@ -128,9 +127,9 @@ def rests(force: Array, rate: Array, quiet: NDArray[np.bool_]) -> Flight:
     return Flight(time=time, channels=channels, outputs=outputs, name="rests", valid=whole)
 
 
-def motion(force: Array, rate: Array, saturated: NDArray[np.bool_], *, measured: bool) -> Flight:
+def motion(force: Array, rate: Array, saturated: NDArray[np.bool_]) -> Flight:
     """The array thrown about, sample by sample; without what is saturated."""
-    channels, outputs = columns(force, rate, measured=measured)
+    channels, outputs = columns(force, rate)
     for name, x in (channels | outputs).items():
         if not name.startswith("Gamma"):
             x[saturated] = np.nan
@@ -141,13 +140,12 @@ def main(raw: str, folder: str) -> None:
     force, rate, saturated = read(Path(raw))
     size = np.linalg.norm(rate.mean(axis=1), axis=1)
     quiet = ~binary_dilation(size > REST, np.ones(BLOCK))
-    start = max(0, int(np.argmax(size > MOTION_FROM)) - round(LEAD * RATE))
+    start = int(np.argmax(size > MOTION_FROM))
     end = start + round(LENGTH * RATE)
     there = Path(folder)
     write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")
     moving = [x[start:end] for x in (force, rate, saturated)]
-    write_flight(motion(*moving, measured=False), there / "motion.parquet")
-    write_flight(motion(*moving, measured=True), there / "motion-measured.parquet")
+    write_flight(motion(*moving), there / "motion.parquet")
 
 
 if __name__ == "__main__":
