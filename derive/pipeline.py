@@ -69,6 +69,13 @@ def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: 
     return _derive(form, effects, candidates)
 
 
+def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
+    """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
+    (chain, *_) = _chains(form, effects, ())
+    header, source = render.plain_c(chain)
+    return {"plain.h": header, "plain.c": source}
+
+
 def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
     """The effects that a model of this form does not hold already."""
     return tuple(e for e in candidates if not e.moot(form.order, form.kinematics))

@@ -59,13 +59,11 @@ class Target:
             if self.is_stream:
                 if not os.access(path, os.W_OK):
                     raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-                handle, name = tempfile.mkstemp(prefix="ragg-", suffix=path.suffix)
-                self.temporary = Path(name)
-                os.close(handle)
-                return
-            self._place = Path(os.path.realpath(path))
-            clear_stale(self._place)
-            self.temporary = temporary_name(self._place)
+                beside = Path(tempfile.gettempdir()) / f"ragg-output{path.suffix}"
+            else:
+                beside = self._place = Path(os.path.realpath(path))
+            clear_stale(beside)
+            self.temporary = temporary_name(beside)
             os.close(os.open(self.temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
         except FileNotFoundError:
             raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
@@ -163,7 +161,7 @@ def temporary_name(path: Path) -> Path:
 
 
 def clear_stale(path: Path) -> None:
-    """Remove what processes that were killed on this machine left of :func:`temporary_name` for this path."""
+    """Remove what processes of this user that were killed on this machine left of :func:`temporary_name` for this path."""
     if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
         return
     prefix = _prefix(path)
@@ -172,6 +170,8 @@ def clear_stale(path: Path) -> None:
             process = name.removeprefix(prefix).split("-")[0]
             if name.startswith(prefix) and process.isdecimal() and not _lives(int(process)):
                 place = path.with_name(name)
+                if place.lstat().st_uid != os.geteuid():
+                    continue
                 if place.is_dir() and not place.is_symlink():
                     shutil.rmtree(place, ignore_errors=True)
                 else:

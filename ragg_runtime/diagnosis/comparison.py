@@ -15,7 +15,7 @@ from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, convergence
+from ragg_runtime.fit import bursts, columns, convergence
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -51,6 +51,7 @@ class Comparison:
     nominal_values: Array
     ladder: tuple[Rung, ...] = ()
     complaint: str | None = None
+    remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
 
     @property
@@ -109,7 +110,7 @@ class Comparison:
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
             "converged": self.converged,
-            "reason": self.complaint,
+            "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
@@ -209,34 +210,55 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
         f = fit(model, instrument, observations, f.calibration.noise, plain=True)
         calibrated, half, nominal = _three_scores(f)
+    return concluded(f, nominal.whole, calibrated, half.held_out)
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
+    half, _ = f.coefficients((), held_out=True)
+    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    return calibrated, held_out, nominal
+
+
+def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    p = vector(f.model, f.instrument)
+    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+
+
+def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
+    """Search what is left, and say whether the model is adequate."""
     rem = remainder(f)
     available = testable_effects(f)
     choice = selection.choose(field_of(f, available)) if available else None
-    complaint = convergence.complaint(f.calibration, calibrated.held_out, half.held_out)
+    complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
-        nominal=nominal.whole,
+        nominal=nominal,
         scored=calibrated,
-        holdout=half.held_out,
+        holdout=holdout,
         noise_floor=noise,
         adequate=adequate,
         remainder=rem,
-        nominal_values=vector(model, instrument),
+        nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
-        off_sheet=tuple(off_sheet(model, instrument, f.calibration)),
+        remark=disturbed(f),
+        off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
 
 
-def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
-    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
-    p = vector(f.model, f.instrument)
-    half, _ = f.coefficients((), held_out=True)
-    vectors = [f.vector(np.zeros(f.n_base)), f.vector(half)]
-    calibrated, held_out, nominal = f.score(vectors, lambda x: nominal_residual(f, p, x)[None], 1)
-    return calibrated, held_out, nominal
+def disturbed(f: Fitted) -> str | None:
+    """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
+    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.flown]
+    said = [
+        text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
+        for x, text in zip(f.flown, found, strict=True)
+        if text is not None
+    ]
+    return "; ".join(said) or None
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
@@ -248,7 +270,10 @@ def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [
-        channels(e, x.observation.record, k, x.observation.record.valid)
-        for x, e, k in zip(f.flown, residuals, f.scales, strict=True)
-    ]
+    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+
+
+def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
+    r = f.flown[flight].observation.record
+    return channels(x, r, f.scales[flight], r.valid)

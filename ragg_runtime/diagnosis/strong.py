@@ -3,7 +3,8 @@
 A signature is the effect to first order. Of an effect a thousand sigma strong the second order alone may be ten sigma
 strong: enough to prefer a wrong effect, to name another one beside the right, and to raise the noise that is estimated.
 So the strongest effect is chosen among those that come near it with each of them derived into the model and fitted
-nonlinearly; with the best in the model everything is done anew: calibration, noise, tests of the rest.
+nonlinearly; with the best in the model everything is done anew: calibration, noise, tests of the rest. These fits begin at
+the sheet: parameters that had to absorb what was missing may be far from it, in a valley that is long and curved.
 """
 
 from __future__ import annotations
@@ -20,13 +21,12 @@ from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
-from ragg_runtime.fit import calibrate, columns
+from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.significance import log_sf
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -116,12 +116,14 @@ def _strongest(stage: Stage, extend: Extend) -> Taken:
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
     near = sorted(near, key=lambda e: (tests[e].log_p, e))[:CONTENDERS]
-    scores = {e: _score(f, tests[e], _derived(f, [e], stage.instants, extend)) for e in near[: len(near)]}
+    scores = dict.fromkeys(near, 0.0)
+    if len(near) > 1:
+        scores = {e: _score(f, tests[e], _derived(f, [e], stage.instants, extend)) for e in near}
     best = min(scores.values())
     equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
-    after = fit(model, instrument, f.observations, start=_neutral(f, model, instrument))
+    after = fit(model, instrument, f.observations)
     instant = stage.instants.get(effect)
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
 
@@ -139,18 +141,6 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _neutral(f: Fitted, model: Model, instrument: Instrument) -> Array:
-    """Where a fit of the extended model begins: as calibrated without the new effects, SI."""
-    p = vector(model, instrument)
-    known = {
-        c.label: f.calibration.p[k] for c, k in zip(f.calibration.columns, f.calibration.index, strict=True)
-    }
-    for c, place in columns.base_columns(model, instrument):
-        if c.label in known:
-            p[place] = known[c.label]
-    return p
-
-
 def _score(f: Fitted, test: Test, derived: tuple[Model, Instrument]) -> float:
     """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC)."""
     model, instrument = derived
@@ -159,7 +149,6 @@ def _score(f: Fitted, test: Test, derived: tuple[Model, Instrument]) -> float:
         instrument,
         f.observations,
         noise=f.calibration.noise,
-        start=_neutral(f, model, instrument),
     )
     return c.chi2 + test.rank * float(np.log(c.rows))
 
@@ -172,7 +161,7 @@ def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
             kept = [k for k in found if k is not t]
             instants = {k.effect: k.instant for k in kept if k.instant is not None}
             model, instrument = _derived(first, [k.effect for k in kept], instants, extend, candidates=True)
-            fitted = fit(model, instrument, first.observations, start=_neutral(last, model, instrument))
+            fitted = fit(model, instrument, first.observations)
             return _needed([*kept[:-1], replace(kept[-1], after=fitted)], first, extend)
     return found
 

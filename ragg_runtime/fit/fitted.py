@@ -260,6 +260,14 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
+    return about(model, instrument, observations, c)
+
+
+@one_thread
+def about(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+) -> Fitted:
+    """The evidence about a calibration, however it was found."""
     flown = prepared.prepare(model, instrument, observations, c)
     triangles, sums = zip(*(prepared.blocks(x) for x in flown), strict=True)
     return Fitted(

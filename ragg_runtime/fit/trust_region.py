@@ -72,6 +72,11 @@ class Linear:
         return s, U.T @ self.y, Vt.T
 
     @property
+    def step(self) -> Array:
+        """(n,): to where the sum of squares is least."""
+        return np.asarray(np.linalg.solve(self.R, self.y))
+
+    @property
     def decrement(self) -> float:
         """Decrease that the best step promises: |y|^2, the gradient's square in the metric of R^T R."""
         return float(self.y @ self.y)

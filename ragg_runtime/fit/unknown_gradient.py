@@ -34,6 +34,10 @@ LEAD_SECONDS = 100.0
 that oscillates at twice the spin rate."""
 
 
+TAKEN = 0.6 / KNOT_SECONDS
+"""Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
+
+
 @dataclass(frozen=True)
 class Window:
     """What an unknown gradient spans in one window of a segment.
@@ -64,6 +68,23 @@ class Window:
 def unknown(o: Observation) -> bool:
     """Whether the gradient was not recorded."""
     return not all(g in o.record.wide for g in GRADIENTS)
+
+
+def band(o: Observation) -> tuple[float, float] | None:
+    """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
+    if not unknown(o):
+        return None
+    carrier = 2 * spin_frequency(o)
+    return carrier - TAKEN, carrier + TAKEN
+
+
+def spin_frequency(o: Observation) -> float:
+    """Mean, Hz, by the encoder where there is one."""
+    r = o.record
+    if "spin_angle" not in r.wide:
+        return r.spin_frequency
+    step = np.angle(np.exp(1j * np.diff(np.asarray(r.wide["spin_angle"][: 1 << 16]))))
+    return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
 
 
 def splines(time: Array, phi: Array) -> Array:

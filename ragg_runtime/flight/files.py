@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import replacing
 from ragg_runtime.flight.angular_acceleration import REACH
 from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
@@ -31,6 +31,10 @@ IN_MEMORY = 48 << 20
 
 MOST_BYTES = 32 << 30
 """Most bytes that the columns of a flight may take there: what unfolds beyond is no flight."""
+
+UNFOLDS = 200
+"""Most times its size on disk that a longer flight may take in memory. Of thirty columns of which two thirds stand still
+and the rest is stored to 16 bits it is 20 times: what unfolds to more was made to fill a disc."""
 
 PART = 32768
 """Rows of such a flight that are read at a time."""
@@ -105,7 +109,7 @@ def _flight(
             held += sum(v.nbytes for v in batch.values())
             if held > IN_MEMORY:
                 batches.clear()
-                whole = plan.whole(source.batches())
+                whole = plan.whole(_bounded(source))
                 parts = _chunks(source, plan, whole, PART, several)
                 return _noted(enough(spooled(parts, source.path, MOST_BYTES), whole.rows), source)
             batches.append(batch)
@@ -113,6 +117,22 @@ def _flight(
         whole = plan.whole([rows])
         made = plan.flight(rows, whole, name=_name(source, several), digest=file_digest(source.path))
         return _noted(enough(made, whole.rows), source)
+
+
+def _bounded(source: Source) -> Iterator[Batch]:
+    """The rows of a source that is no compression bomb. UserError otherwise, before anything is laid down on disk."""
+    held, size = 0, source.path.stat().st_size
+    for batch in source.batches():
+        held += sum(v.nbytes for v in batch.values())
+        if source.path.is_file() and held > max(IN_MEMORY, UNFOLDS * size):
+            raise UserError(
+                "the file unfolds to more than a record can be compressed",
+                where=source.path,
+                found=f"more than {held / 1e9:.3g} GB of numbers in {size / 1e6:.3g} MB on disk",
+                expected=f"at most {UNFOLDS} times as much",
+                remedy="if it is a record that hardly changes, save it as CSV or without compression",
+            )
+        yield batch
 
 
 def _noted(made: Flight, source: Source) -> Flight:
@@ -242,7 +262,8 @@ def flight_name(path: Path) -> str:
     ending = ending_of(path.name)
     stem = path.name[: -len(ending)] if ending is not None else path.name
     folder = path.resolve().parent.name
-    return f"{folder}/{stem}" if stem == "flight" and folder else stem
+    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
 def file_digest(path: Path) -> str:

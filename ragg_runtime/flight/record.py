@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -132,6 +132,15 @@ class Flight:
     def duration(self) -> float:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
+
+    def without(self, stretches: Sequence[tuple[float, float]]) -> Flight:
+        """The flight with stretches of time (from, to, s since the first sample) marked as not to be used, and said so."""
+        valid, notes = np.array(self.valid), list(self.notes)
+        since = self.time - self.time[0]
+        for first, last in stretches:
+            valid[(since >= first) & (since <= last)] = False
+            notes.append(f"left out by hand: {first:g} s to {last:g} s")
+        return dataclasses.replace(self, valid=valid, notes=tuple(notes))
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

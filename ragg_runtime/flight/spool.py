@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import mmap
 import shutil
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 import pyarrow as pa
@@ -20,67 +22,64 @@ NOTES = 12
 
 
 def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
-    """The flight that consecutive parts make up, its columns in files that vanish with the process.
+    """The flight that consecutive parts make up, its columns in files without a name, which vanish with the process.
 
     Raises
     ------
     UserError
         If they take more than ``most`` bytes, or half of what is free on the disk of the temporary folder.
     """
-    folder = Path(tempfile.mkdtemp(prefix="ragg-"))
-    try:
-        room = shutil.disk_usage(folder).free // 2
-        files: dict[str, list[str]] = {}
-        notes: dict[str, None] = {}
-        first: Flight | None = None
-        written = 0
-        handles = {}
+    folder = Path(tempfile.gettempdir())
+    room = shutil.disk_usage(folder).free // 2
+    names: list[tuple[str, str]] = []
+    notes: dict[str, None] = {}
+    first: Flight | None = None
+    written = 0
+    with contextlib.ExitStack() as stack:
+        handles: list[IO[bytes]] = []
         try:
             for part in parts:
                 if first is None:
                     first = part
-                    files = {
-                        "channels": list(part.channels),
-                        "outputs": list(part.outputs),
-                        "own": ["time", "valid"],
-                    }
-                    names = [f"{group}.{n}" for group, members in files.items() for n in members]
-                    handles = {n: (folder / str(k)).open("wb") for k, n in enumerate(names)}
-                for group, values in (("channels", part.channels), ("outputs", part.outputs)):
-                    for n in files[group]:
-                        handles[f"{group}.{n}"].write(np.ascontiguousarray(values[n]).data)
-                handles["own.time"].write(np.ascontiguousarray(part.time).data)
-                handles["own.valid"].write(np.ascontiguousarray(part.valid).data)
+                    names = [("channels", n) for n in part.channels] + [("outputs", n) for n in part.outputs]
+                    names += [("own", "time"), ("own", "valid")]
+                    # Files without a name: however the process ends, nothing is left of them.
+                    handles = [stack.enter_context(tempfile.TemporaryFile(dir=folder)) for _ in names]
+                own = {"time": part.time, "valid": part.valid}
+                groups = {"channels": part.channels, "outputs": part.outputs, "own": own}
+                for (group, n), handle in zip(names, handles, strict=True):
+                    handle.write(np.ascontiguousarray(groups[group][n]).data)
                 notes |= dict.fromkeys(part.notes)
                 written += part.time.nbytes * len(handles)
                 if written > most:
                     raise _endless(path, most, len(handles))
                 if written > room:
                     raise _no_room(path, folder)
+            for h in handles:
+                h.flush()
         except OSError as error:
             raise _no_room(path, folder, error.strerror) from None
-        finally:
-            for h in handles.values():
-                h.close()
         assert first is not None  # a file without rows is refused before
-        places = {n: folder / str(k) for k, n in enumerate(handles)}
-        valid: Mask = np.memmap(places.pop("own.valid"), dtype=np.bool_, mode="r")
-        found: dict[str, Array] = {n: np.memmap(p, dtype=np.float64, mode="r") for n, p in places.items()}
-    finally:
-        shutil.rmtree(folder)  # what is mapped stays until it is let go
+        # What is mapped stays until it is let go, though the file is closed.
+        maps = dict(zip(names, handles, strict=True))
+        valid: Mask = np.memmap(maps.pop(("own", "valid")), np.bool_, mode="r")
+        mapped: dict[tuple[str, str], Array] = {
+            k: np.memmap(h, np.float64, mode="r") for k, h in maps.items()
+        }
     told = list(notes)
     if len(told) > NOTES:
         told = [*told[:NOTES], f"and {len(told) - NOTES} further notes of this kind"]
     return Flight(
-        time=found["own.time"],
-        channels={n: found[f"channels.{n}"] for n in files["channels"]},
-        outputs={n: found[f"outputs.{n}"] for n in files["outputs"]},
+        time=mapped["own", "time"],
+        channels={n: x for (group, n), x in mapped.items() if group == "channels"},
+        outputs={n: x for (group, n), x in mapped.items() if group == "outputs"},
         name=first.name,
         path=first.path,
         digest=first.digest,
         notes=tuple(told),
         valid=valid,
         units=first.units,
+        written=first.written,
     )
 
 
@@ -117,7 +116,7 @@ def _no_room(path: Path, folder: Path, reason: str | None = None) -> UserError:
     return UserError(
         "the flight is too long for memory, and the disk has too little room to lay its columns down",
         where=path,
-        found=reason or f"{shutil.disk_usage(folder.parent).free / 1e9:.3g} GB free in {folder.parent}",
+        found=reason or f"{shutil.disk_usage(folder).free / 1e9:.3g} GB free in {folder}",
         expected="twice the size of the columns in float64",
         remedy="name another folder in the environment variable TMPDIR, or cut the file into several",
     )

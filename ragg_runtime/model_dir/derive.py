@@ -7,13 +7,15 @@ is imported only where something is derived.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
 from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -52,6 +54,24 @@ class Known:
         )
 
 
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_SYMPY = threading.RLock()
+
+
+def _by_one(function: Callable[P, R]) -> Callable[P, R]:
+    """Let one thread at a time derive: SymPy's caches are not made for several."""
+
+    @functools.wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _SYMPY:
+            return function(*args, **kwargs)
+
+    return alone
+
+
+@_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
     from derive.effects import catalogue, from_sources
@@ -136,7 +156,7 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
         what = "it holds things that are no source files"
     else:
         names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
-        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+        what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
         f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
         "adding or removing an effect writes it again"
@@ -192,6 +212,7 @@ def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument)
 
 
 @cache
+@_by_one
 def derived(
     effects: tuple[SymbolicEffect, ...],
     candidates: tuple[SymbolicEffect, ...],
@@ -241,3 +262,12 @@ def without_signatures(instrument: Instrument, form: Form) -> Model:
     chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
     kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
     return derived(kept, (), form, instrument.layout)[0]
+
+
+def plain_c(instrument: Instrument) -> Mapping[str, str]:
+    """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
+    from derive import pipeline
+
+    return pipeline.derive_plain(
+        _chosen(instrument, known(instrument)), _symbolic(instrument.form, instrument.layout)
+    )

@@ -96,10 +96,18 @@ class Chain:
 
     def voltages(self, time: Array, angle_error: Array) -> Array:
         """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
+        present = self._unfiltered(time, 0.0, angle_error)
+        change = np.zeros_like(present)
+        for delay, weight in transducer.averaging(self.effects):
+            change += weight * (self._unfiltered(time, delay, angle_error) - present)
+        return np.asarray(present + change)
+
+    def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
+        """The voltages (n, N) V so much earlier (s), loops and their lags included."""
         tau = transducer.lags(self.effects, self.size)
         shaken = force.vibration(self.effects)
         V = np.empty((self.size, time.size))
-        now = self._instant(time, 0.0, angle_error)
+        now = self._instant(time, earlier, angle_error)
         for j in range(self.size):
             V[j] = self._average(j, now, shaken)
         for lag in np.unique(tau[tau > 0]):
@@ -107,7 +115,7 @@ class Chain:
             # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
             present, change = V[group], np.zeros((group.size, time.size))
             for delay, weight in transducer.lag_quadrature(float(lag)):
-                past = self._instant(time, delay, angle_error)
+                past = self._instant(time, earlier + delay, angle_error)
                 for row, member in enumerate(group):
                     change[row] += weight * (self._average(int(member), past, shaken) - present[row])
             V[group] = present + change

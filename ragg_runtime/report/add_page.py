@@ -122,7 +122,7 @@ def _steps(history: Sequence[Mapping[str, Any]]) -> list[Step]:
             label = "as it was" if not steps else "same model,\nother flights"
             steps.append(Step(label, start, _value(entry.get("before"), "holdout"), strong=False))
         sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")
-        label = f"{sign} {entry.get('effect', '')}"
+        label = f"{sign} {entry.get('effect') or entry.get('action', '')}".strip()
         if end == end:
             steps.append(Step(label, end, _value(entry.get("after"), "holdout")))
             last = end

@@ -282,3 +282,23 @@ def _quotient(a: str, b: str) -> str:
     if not bottom:
         return top
     return f"{top}/({bottom})" if "/" in bottom or "·" in bottom else f"{top}/{bottom}"
+
+
+def pulls(f: Fitted, most: int) -> list[tuple[str, float]]:
+    """(parameter, distance from the test sheet in plausible sizes) of the calibrated values that moved farthest."""
+    c = f.calibration
+    scale = np.array([q.scale for q in c.columns])
+    away = (c.p[c.index] - vector(f.model, f.instrument)[c.index]) / scale
+    order = np.argsort(-np.abs(away), kind="stable")[:most]
+    return [(c.columns[n].label, float(away[n])) for n in order]
+
+
+def correlations(f: Fitted, most: int) -> list[tuple[str, str, float]]:
+    """(parameter, parameter, correlation) of the pairs that the record ties most closely, largest first."""
+    covariance = posterior(f).covariance
+    std = np.sqrt(np.diag(covariance))
+    r = covariance / np.outer(std, std)
+    i, j = np.triu_indices(len(r), 1)
+    order = np.argsort(-np.abs(r[i, j]), kind="stable")[:most]
+    label = [q.label for q in f.calibration.columns]
+    return [(label[i[k]], label[j[k]], float(r[i[k], j[k]])) for k in order]

@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
@@ -77,7 +77,7 @@ class Loaded:
 
     @property
     def name(self) -> str:
-        return self.directory.path.resolve().name
+        return one_line(self.directory.path.resolve().name)
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
@@ -164,7 +164,7 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     instrument = parse_instrument(text, Path(source) if source else None)
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
-    history = (Step("new", _now()),)
+    history = (Step("new", _now(), text=text),)
     made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
     m = _loaded(made)
     return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
@@ -218,13 +218,23 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
     )
 
 
-def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
-    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+def diagnose(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float] = LIMITS,
+    compared: Comparison | None = None,
+) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`).
+
+    ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
+    """
     distinct(flights)
 
     def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
         return derive.with_effects(m.instrument, model, ids, candidates=candidates)
 
+    if compared is not None:
+        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
 
@@ -285,12 +295,15 @@ def add(
     effect: str,
     flights: Sequence[Flight] = (),
     tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
 ) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
     The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
-    nothing is changed; nor where the calibration does not converge.
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
     """
     distinct(flights)
     instrument = m.instrument
@@ -347,10 +360,13 @@ def add(
         errors_of(before),
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
+        text,
     )
     made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
     if tell is not None:
         tell(made)
+    if not save:
+        return replace(made, loaded=m)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
@@ -368,7 +384,7 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
     """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = Step("remove", _now(), effect)
+    step = Step("remove", _now(), effect, text=text)
     if tell is not None:
         tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(

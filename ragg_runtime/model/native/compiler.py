@@ -8,11 +8,13 @@ options, processor. The cache belongs to the user alone, or is not used.
 from __future__ import annotations
 
 import atexit
+import contextlib
 import hashlib
 import os
 import platform
 import shlex
 import shutil
+import signal
 import subprocess
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -22,6 +24,7 @@ from pathlib import Path
 
 import platformdirs
 
+from ragg_runtime.base.files import clear_stale, temporary_name
 from ragg_runtime.base.lock import locked
 from ragg_runtime.base.ownership import belongs_to_user
 
@@ -39,6 +42,12 @@ FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
     (),
 )
 """Tried in turn: not every compiler knows every processor."""
+
+ANSWERING = 4.0
+"""How long a compiler is waited for that is asked its version, s."""
+
+HANGING = 10.0
+"""How long it is waited for when it compiles, s: it takes half a second. NumPy serves after that."""
 
 _PATIENCE = 120.0  # s; another process may be compiling the same
 
@@ -98,7 +107,10 @@ def find_compiler() -> Sequence[str]:
     """The C compiler as the beginning of a command. Raises BuildError if there is none."""
     if os.environ.get(VARIABLE, "").lower() in ("off", "0", "none"):
         raise BuildError(f"{VARIABLE} is {os.environ[VARIABLE]}")
-    named = shlex.split(os.environ.get("CC", ""))
+    try:
+        named = shlex.split(os.environ.get("CC", ""))
+    except ValueError as error:
+        raise BuildError(f"CC cannot be read as a command: {error}") from None
     for command in (named,) if named else (["cc"], ["gcc"], ["clang"]):
         path = shutil.which(command[0])
         if path:
@@ -146,7 +158,12 @@ def _version(compiler: tuple[str, ...]) -> str:
 def _compile(compiler: Sequence[str], sources: Mapping[str, str], library: Path, record: Path) -> str:
     """Compile into a folder of its own, then put library and record into their places; the command."""
     errors = ""
-    with tempfile.TemporaryDirectory(dir=library.parent, prefix=".compile-") as work:
+    clear_stale(library)
+    folder = temporary_name(library)
+    folder.mkdir(mode=0o700)
+    with contextlib.ExitStack() as stack:
+        stack.callback(shutil.rmtree, folder, ignore_errors=True)
+        work = str(folder)
         for name, text in sources.items():
             (Path(work) / name).write_text(text, "utf-8")
         units = [name for name in sorted(sources) if name.endswith(".c")]
@@ -168,12 +185,33 @@ def _compile(compiler: Sequence[str], sources: Mapping[str, str], library: Path,
 
 
 def _run(command: Sequence[str], folder: str | None = None) -> subprocess.CompletedProcess[str]:
+    patience = HANGING if folder is not None else ANSWERING
     try:
-        return subprocess.run(
-            command, cwd=folder, capture_output=True, text=True, errors="replace", check=False, timeout=300
+        process = subprocess.Popen(
+            command,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            errors="replace",
+            start_new_session=True,
         )
-    except (OSError, subprocess.TimeoutExpired) as error:
+    except OSError as error:
         raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None
+    with process:
+        try:
+            out, err = process.communicate(timeout=patience)
+        except BaseException as error:
+            # What it has started goes with it, and with that the pipes that are waited for.
+            if hasattr(os, "killpg"):
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+            process.kill()
+            if not isinstance(error, subprocess.TimeoutExpired):
+                raise
+            raise BuildError(f"the C compiler {command[0]} does not answer within {patience:g} s") from None
+    return subprocess.CompletedProcess(command, process.returncode, out, err)
 
 
 def _whole(library: Path, record: Path) -> bool:

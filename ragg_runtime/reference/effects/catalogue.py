@@ -85,7 +85,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "clock-drift": _shared("1", "epsilon"),
     "bias-step": _each("m/s^2", "dK0") | _shared("s", "t_step"),
     "output-gain-step": _shared("1", "g") | _shared("s", "t_step"),
-    "output-filter": _shared("s", "tau"),
+    "output-filter": _shared("s^2", "b"),
     "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot") | _each("1/(K/s)", "dK1_dTdot"),
     "anisoinertia": _each("(m/s^2)/(rad/s)^2", "K_ip"),
     "time-offset": _shared("s", "delta_t"),
@@ -94,7 +94,11 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "gyro-delay": _shared("s", "delta_w", "delta_d"),
     "gyro-scale": _shared("1", "s_x", "s_y", "s_z"),
     "self-gradient": _shared("1/s^2/rad", *_TURNING),
-    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz"),
+    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz")
+    | _shared(
+        "1/(m^2 s^2)",
+        *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
+    ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),

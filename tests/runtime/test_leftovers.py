@@ -1,0 +1,123 @@
+"""Nothing is left in the temporary folder, little becomes much there, and a compiler that hangs is not waited for."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import clear_stale, temporary_name
+from ragg_runtime.flight import files, read_flight
+from ragg_runtime.model import native
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files without a name, scripts as compilers")
+
+UNITS = (
+    {"time": "s"} | {f"a_{k}": "g" for k in "xyz"} | {f"omega_{k}": "deg/h" for k in "xyz"} | {"G_out": "V"}
+)
+
+
+def bomb(path: Path, rows: int) -> Path:
+    """A flight in which nothing changes but the time, and that by a fixed step."""
+    schema = pa.schema([pa.field(n, pa.float64(), metadata={"units": u}) for n, u in UNITS.items()])
+    with pq.ParquetWriter(path, schema, compression="zstd", use_byte_stream_split=["time"]) as writer:
+        for start in range(0, rows, 1 << 18):
+            n = min(1 << 18, rows - start)
+            time_ = (start + np.arange(n)) / 16
+            columns = [pa.array(time_ if name == "time" else np.full(n, 0.5)) for name in UNITS]
+            writer.write_table(pa.Table.from_arrays(columns, schema=schema))
+    return path
+
+
+def test_a_file_that_unfolds_without_end_is_refused_before_it_fills_the_disc(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "empty"))
+    (tmp_path / "empty").mkdir()
+    path = bomb(tmp_path / "bomb.parquet", 1 << 21)
+    monkeypatch.setattr(files, "UNFOLDS", (1 << 27) / path.stat().st_size * 0.8)
+    monkeypatch.setattr(files, "spooled", lambda *a: pytest.fail("it was laid down"))
+    with pytest.raises(UserError, match="unfolds to more than a record can be compressed"):
+        read_flight(path, 9.8)
+    assert list((tmp_path / "empty").iterdir()) == []
+
+
+def test_the_limit_is_far_above_what_a_record_compresses_to(tmp_path: Path) -> None:
+    assert (1 << 24) * 8 * 8 / bomb(tmp_path / "bomb.parquet", 1 << 18).stat().st_size < files.UNFOLDS * 64
+    assert files.UNFOLDS >= 100
+
+
+def test_a_killed_command_leaves_nothing_of_a_long_flight(tmp_path: Path) -> None:
+    path = bomb(tmp_path / "long.parquet", 1 << 20)
+    place = tmp_path / "tmp"
+    place.mkdir()
+    script = (
+        "import sys, time\nfrom ragg_runtime.flight import files\nfiles.UNFOLDS = 10**9\n"
+        "f = files.read_flight(sys.argv[1], 9.8)\n"
+        "print(len(f), flush=True); time.sleep(60)"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, str(path)],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"TMPDIR": str(place)},
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == f"{1 << 20}\n"
+    assert list(place.iterdir()) == []
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    process.stdout.close()
+
+
+def test_what_another_user_left_is_not_cleared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "x.json"
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    left = Path(str(temporary_name(target)).replace(f"-{os.getpid()}-", f"-{dead.pid}-"))
+    left.write_text("")
+    monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 1)
+    clear_stale(target)
+    assert left.exists()
+    monkeypatch.undo()
+    clear_stale(target)
+    assert not left.exists()
+
+
+@pytest.mark.parametrize("when", ["version", "compiling"])
+def test_a_compiler_that_hangs_is_given_up(
+    when: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its children hold the pipes open; it was waited for 304 s."""
+    script = tmp_path / "cc"
+    hang = "sleep 300 & sleep 300"
+    body = hang if when == "version" else f'case "$1" in --version) echo 1;; *) {hang};; esac'
+    script.write_text(f"#!/bin/sh\n{body}\n")
+    script.chmod(0o755)
+    monkeypatch.setenv("CC", str(script))
+    monkeypatch.delenv("RAGG_NATIVE", raising=False)
+    monkeypatch.setattr("ragg_runtime.model.native.compiler.HANGING", 1.0)
+    monkeypatch.setattr("ragg_runtime.model.native.compiler.ANSWERING", 1.0)
+    start = time.monotonic()
+    with pytest.raises(native.BuildError, match="does not answer within 1 s"):
+        native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
+    assert time.monotonic() - start < 8
+    assert not list((tmp_path / "cache").glob(".*so"))
+
+
+@pytest.mark.parametrize("cc", ['"unclosed', "gcc --no-such-option", "/", "/dev/null", "false"])
+def test_an_odd_compiler_is_one_message(cc: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CC", cc)
+    monkeypatch.delenv("RAGG_NATIVE", raising=False)
+    with pytest.raises(native.BuildError):
+        native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
