@@ -249,7 +249,7 @@ def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
     found = []
     for path in paths:
-        flight = without_gradients(read_flight(path, m.instrument.g0))
+        flight = without_gradients(read_flight(path, m.instrument.g0, accelerometers=m.instrument.layout))
         found.append(settled(examined(m.model, m.instrument, flight)))
     return found
 
