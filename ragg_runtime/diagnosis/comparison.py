@@ -251,8 +251,8 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
 
 
 def disturbed(f: Fitted) -> str | None:
-    """Where the record is too loud to tell anything, in words."""
-    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) for x in f.flown]
+    """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
+    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.flown]
     said = [
         text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
         for x, text in zip(f.flown, found, strict=True)

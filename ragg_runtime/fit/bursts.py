@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import signal
 
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_spectrum import NoiseModel, estimate
@@ -66,17 +67,19 @@ def _estimated(
     rate: float,
     without: tuple[float, float] | None,
 ) -> NoiseModel:
-    left, kept, total = [], 0, 0
+    left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
         e = e.copy()
+        weight = (
+            signal.get_window("hann", len(e)) ** 2
+        )  # as the periodogram of the estimate weighs the samples
+        total += float(np.sum(weight))
         for b in own:
-            e[b.start : b.stop] = 0.0
-            kept -= b.stop - b.start
+            e[b.start : b.stop] = weight[b.start : b.stop] = 0.0
         left.append(e)
-        kept += len(e)
-        total += len(e)
+        heard += float(np.sum(weight))
     model = estimate(left, rate, without)
-    return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / kept), model.spread)
+    return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / heard), model.spread)
 
 
 def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:

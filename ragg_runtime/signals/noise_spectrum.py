@@ -235,9 +235,10 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 @dataclass(frozen=True)
 class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
-    sample of each and its power over the noise's.
+    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either.
     """
 
     models: tuple[NoiseModel, ...]
     filters: tuple[Array, ...]
     bursts: tuple[tuple[int, int, float], ...] = ()
+    disturbed: str | None = None
