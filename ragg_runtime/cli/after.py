@@ -74,10 +74,10 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.flight.formats import format_of
+    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
-    format_of(output)
+    format_for(output)
     if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
         raise UserError(
             "a result would be written over what the command reads", where=output, remedy="name another file"
