@@ -72,7 +72,7 @@ def _readme(c: Contents) -> str:
         online.h                                      calibration and compensation sample by sample, no allocation
 
         Columns that MOTION.csv must have, in SI units: time [s], {needed}.
-        omegadot is not derived here: `ragg convert` writes it beside omega, as Python derives it.
+        omegadot is not derived here; ragg_runtime.flight.write_flight(read_flight(FILE, g0), OUT) writes it as Python derives it.
         Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; spin_angle [rad] replaces 2 pi f t.
         """
     )
