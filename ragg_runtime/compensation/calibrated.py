@@ -72,13 +72,13 @@ def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> l
         places = [k for k, c in enumerate(columns) if c.name == name]
         four = [columns[k] for k in places]
         singly = bool(np.all(np.linalg.norm(root[places], axis=1) < SEEN))
-        if singly or any(c.accelerometer is None for c in four):
+        if singly or len(four) != model.layout.size:
             for k in places:
                 j = columns[k].accelerometer
                 label = own_name(columns[k])
                 add(label if j is None else f"{label}[{j}]", [k], np.ones(1))
         else:
-            for label, weights in patterns(four, gains(model, p, name)):
+            for label, weights in patterns(four, gains(model, p, name), model.layout):
                 add(label, places, weights)
     return found
 
