@@ -536,6 +536,9 @@ def history(model_dir: Path, json_file: str | None) -> None:
 )
 @click.option("--sheet-error", type=click.FloatRange(0.0), default=1.0, show_default=True,
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
+@click.option(
+    "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
+)
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any) -> None:
@@ -571,10 +574,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     hold_streams()
     try:
         from ragg_runtime.cli import after
+        from ragg_runtime.cli.next_motion_command import next_motion
         from ragg_runtime.experiments.command import experiment
         from ragg_runtime.studio.command import studio
 
-        for command in (experiment, studio, *after.COMMANDS):
+        for command in (experiment, studio, next_motion, *after.COMMANDS):
             cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)

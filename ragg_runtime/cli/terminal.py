@@ -172,6 +172,8 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
             ]
         if d.needs():
             lines.append(f"  and this into the flight: {'; '.join(d.needs())}")
+    if d.change is not None:
+        lines.append(f"\n  the model holds until {d.change.until:.6g} s of {d.change.flight}, not beyond")
     if d.next_motion:
         lines.append("\n  next motion:")
         lines += [f"  {p.in_words()}" for p in d.next_motion]

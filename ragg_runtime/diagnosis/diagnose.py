@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
+from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage
-from ragg_runtime.evidence import selection
+from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
@@ -114,6 +115,8 @@ def diagnose_fitted(
     if steps:
         later, _ = _ranking(f, field, choice, last.instants, ())
         ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+    credence = weighed(last.field, steps)
+    ranking = [with_probability(r, credence) for r in ranking]
     groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     return Diagnosis(
         verdict=verdict,
@@ -134,9 +137,26 @@ def diagnose_fitted(
         ),
         complaint=complaint,
         remark=comparison.disturbed(target),
+        credible_set=credence.credible,
+        holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),
         off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )
+
+
+def _followed(
+    target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
+) -> sequential.Evidence | None:
+    """From when on the model no longer holds; a step that is found is such an instant itself."""
+    if target.observations[0].kind == "channels":
+        return None  # neighbouring samples of a demodulated channel are not independent
+    followed = sequential.evidence(target)
+    for effect, instant in instants:
+        if effect in found and instant is not None:
+            name = target.observations[0].name
+            change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
+            return replace(followed, change=change)
+    return followed
 
 
 def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:

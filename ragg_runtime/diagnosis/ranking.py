@@ -33,6 +33,7 @@ class Ranked:
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
     indistinguishable_from: tuple[str, ...]
+    probability: float = 0.0
 
     @property
     def p_value(self) -> float:
@@ -47,6 +48,7 @@ class Ranked:
             "chi2": finite(self.chi2),
             "rank": self.rank,
             "delta_bic": finite(self.delta_bic),
+            "probability": self.probability,
             "error_before": self.before.as_json(),
             "error_after": self.after.as_json(),
             "error_after_holdout": self.after_holdout.as_json(),

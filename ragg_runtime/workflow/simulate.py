@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight
+from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
@@ -42,6 +43,7 @@ def simulated(
     sheet_error: float = 1.0,
     no_gradient: bool = False,
     voltages: bool = False,
+    motion: Path | str | None = None,
 ) -> Flight:
     """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
 
@@ -55,6 +57,8 @@ def simulated(
         s, Hz, Eo/sqrt(Hz) of the cross channel.
     sheet_error
         How far the true instrument lies from its test sheet; 1 is usual.
+    motion
+        A flight file whose motion is flown, as long and as densely sampled as it is; else one is drawn.
 
     Raises
     ------
@@ -66,9 +70,16 @@ def simulated(
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
+    if motion is None:
+        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+    else:
+        x = read_flight(motion, instrument.g0, need_output=False)
+        rate, duration = x.rate, float(x.time[-1] - x.time[0])
+        a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
+        flown = reference.recorded_motion(x.time - x.time[0], a, omega)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
-        draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape),
+        flown,
         duration,
         rate,
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
