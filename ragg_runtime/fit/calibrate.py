@@ -32,16 +32,11 @@ MISFIT = 1.1
 """Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
 nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
-LEAN = 4.0
-"""There a sample counts as exact to what is left over this: the sheet's word weighs so little that the rms is within 1 %
-of what it would be without it where parameters move by less than a hundred scales, and enough to keep the fit in the
-neighbourhood of the sheet, where the model holds."""
-
-ROUNDS = 4
-"""Most times that a fit of what is loud is made with what the one before has left."""
+ROUNDS = 3
+"""Most times that a fit of what is loud is made, each with the noise that is estimated where the one before ended."""
 
 FALLING = 0.9
-"""Factor below which what is left must have fallen for another one."""
+"""Factor below which the noise must have fallen for another one."""
 
 WHITE_SEGMENTS = 4
 """Most segments on which the first fit, with noise still taken as white, is made."""
@@ -69,6 +64,8 @@ class Calibration:
         loud, in what it counted as noise).
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
+    widening
+        By how much the sheet's sigmas had to be widened (``off_sheet.widened``): scales are so many sigmas.
     """
 
     p: Array
@@ -81,6 +78,7 @@ class Calibration:
     excess: float
     converged: bool
     reason: str
+    widening: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -226,7 +224,7 @@ def fit(
 
     First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
     estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
-    than noise (or ``plain`` is asked for), unwhitened still (:data:`LEAN`). In the end the null biases take the
+    than noise (or ``plain`` is asked for), unwhitened still. In the end the null biases take the
     residual's mean (``design.levelled``).
     """
     task = _Task.of(model, instrument, observations)
@@ -240,20 +238,19 @@ def fit(
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
-    found = _loud(_Plain(task), x)
-    return _calibration(task, found, noise if plain else task.noise(found.x))
+    return _loud(_Plain(task), x, noise, fixed=plain)
 
 
-def _loud(p: _Plain, x: Array) -> Minimum[_Fall]:
-    """The fit from x of what leaves more than noise: as exact as what it leaves says."""
-    left = p.left(x)
+def _loud(p: _Plain, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
+    """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
-        found = p.fit(x, left / LEAN)
-        before, left = left, p.left(found.x)
-        x = found.x
-        if left > FALLING * before:
+        found = p.fit(x, _size(noise))
+        if fixed:
             break
-    return found
+        x, before, noise = found.x, noise, p.task.noise(found.x)
+        if _size(noise) > FALLING * _size(before):
+            break
+    return _calibration(p.task, found, noise)
 
 
 def _size(noise: Sequence[Noise]) -> float:

@@ -245,13 +245,14 @@ def fit(
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
-    wider = widened(model, instrument, c)
+    widening = 1.0
     for _ in range(WIDENED):
+        wider = widened(model, instrument, c)
         if wider is None:
             break
-        instrument = wider
+        instrument, widening = wider[0], widening * wider[1]
         c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, plain=plain)
-        wider = widened(model, instrument, c)
+    c = replace(c, widening=widening)
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",

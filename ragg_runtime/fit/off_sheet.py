@@ -54,7 +54,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
         OffSheet(
             name=q.name,
             accelerometer=q.accelerometer,
-            sigmas=float((c.p[k] - sheet[k]) / instrument.sigma(q.name)[(q.accelerometer or 1) - 1]),
+            sigmas=float((c.p[k] - sheet[k]) / q.scale * c.widening),
             value=float(c.p[k] / q.unit_factor),
             sheet=float(sheet[k] / q.unit_factor),
             unit=q.unit,
@@ -73,15 +73,15 @@ QUIET = 2.0
 """Excess of chi-square up to which the record says so, not an effect that is missing."""
 
 
-def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
-    """The instrument with a sheet as sure as the record says it is, if that is far less than it says."""
+def widened(model: Model, instrument: Instrument, c: Calibration) -> tuple[Instrument, float] | None:
+    """The instrument with a sheet as sure as the record says it is, if that is far less than it says; and by what factor."""
     sheet = vector(model, instrument)
     off = [(c.p[k] - sheet[k]) / q.scale for q, k in zip(c.columns, c.index, strict=True) if q.effect is None]
     factor = float(np.sqrt(np.mean(np.square(off))))
     if factor < WIDE or c.excess > QUIET:
         return None
     sigmas = {q.name: factor * instrument.sigma(q.name) for q in c.columns if q.effect is None}
-    return replace(instrument, sigmas=MappingProxyType(sigmas))
+    return replace(instrument, sigmas=MappingProxyType(sigmas)), factor
 
 
 SAID = 3

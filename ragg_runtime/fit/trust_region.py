@@ -38,10 +38,16 @@ ACCEPTED = 1e-4
 POOR, GOOD = 0.25, 0.75
 """Shares below which the radius shrinks, and above which it may grow (Moré's)."""
 
+CORRECTION = 0.5
+"""Length of a step back to the floor of a valley over that of the step along it."""
+
+CORRECTIONS = 2
+"""Most of them after a step."""
+
 FAITHFUL = 0.01
 """Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
 
-MOST = 40
+MOST = 60
 """Most trials of a fit; usual are two or three."""
 
 
@@ -166,13 +172,14 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     at = linearise(x)
     if not np.isfinite(at.cost):
         return Minimum(x, at, False, "the model has no finite output where the fit begins", 1)
-    radius, faithful = np.inf, False
-    for trial in range(1, most):
+    radius, faithful, trials = np.inf, False, 1
+    while trials < most:
         if settled(at):
-            return Minimum(x, at, True, "nothing is left to gain", trial, faithful)
+            return Minimum(x, at, True, "nothing is left to gain", trials, faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
-        ahead = linearise(x + step)
+        end, ahead, tried = _followed(linearise, at, x, step)
+        trials += tried
         fallen = at.cost - ahead.cost
         ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
         if ratio < POOR:
@@ -180,13 +187,33 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
         elif ratio > GOOD:
             radius = max(radius, 2.0 * length)
         if ratio > ACCEPTED:
-            x, at = x + step, ahead
-            faithful = abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
+            x, at = end, ahead
+            faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
             if fallen < SETTLED and at.decrement < VALLEY:
-                return Minimum(x, at, True, "nothing worth having is left to gain", trial + 1)
+                return Minimum(x, at, True, "nothing worth having is left to gain", trials)
         elif radius < _smallest(x):
-            return Minimum(x, at, False, "no step, however small, lowers the misfit", trial + 1)
-    return Minimum(x, at, settled(at), f"it was stopped after {most} steps", most)
+            return Minimum(x, at, False, "no step, however small, lowers the misfit", trials)
+    return Minimum(x, at, settled(at), f"it was stopped after {most} trials", trials)
+
+
+def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:
+    """The end of a step from x, the problem about it, and how many points were tried.
+
+    A step along a curved valley ends on its slope. There a short step back to its floor is made (second-order correction;
+    Fletcher 1982), short enough not to leave along the valley again.
+    """
+    end = x + step
+    ahead = linearise(end)
+    room = CORRECTION * float(np.linalg.norm(step))
+    for tried in range(1, CORRECTIONS + 1):
+        if at.cost - ahead.cost >= POOR * at.promised(step) or not np.isfinite(ahead.cost):
+            return end, ahead, tried
+        back = ahead.within(room)
+        nearer = linearise(end + back)
+        if not nearer.cost < ahead.cost:
+            return end, ahead, tried + 1
+        end, ahead = end + back, nearer
+    return end, ahead, CORRECTIONS + 1
 
 
 def _shrunk(slope: float, fallen: float) -> float:

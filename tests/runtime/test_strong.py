@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -12,13 +13,14 @@ import numpy as np
 import pytest
 
 import ragg_runtime.workflow.loop as ragg
+from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
-from ragg_runtime.diagnosis import strong
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit import calibrate
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.files import write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive as extend
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -130,7 +132,9 @@ def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(calibrate, "minimise", stopped)
 
 
-def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, never_arrives: None) -> None:
+def test_what_has_not_converged_says_so_and_adds_nothing(
+    tmp_path: Path, never_arrives: None, capsys: pytest.CaptureFixture[str]
+) -> None:
     m = ragg.new(tmp_path / "m")
     s = scenario(5, duration=600.0)
     flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
@@ -144,8 +148,19 @@ def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, never_a
     added = ragg.add(m, "cubic-input", [flight])
     assert added.as_json()["converged"] is False
     assert "was NOT added" in added_text(added)
+    write_flight(flight, tmp_path / "f.parquet")
+    with pytest.raises(SystemExit) as end:
+        main(
+            [
+                "add",
+                str(tmp_path / "m"),
+                "cubic-input",
+                str(tmp_path / "f.parquet"),
+                "--json",
+                str(tmp_path / "a.json"),
+            ]
+        )
+    assert end.value.code == 2
+    assert "nothing was added" in capsys.readouterr().err
+    assert json.loads((tmp_path / "a.json").read_text())["converged"] is False
     assert {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()} == before
-
-
-def test_strong_is_beyond_what_a_linearisation_tells() -> None:
-    assert strong.STRONG >= 30**2
