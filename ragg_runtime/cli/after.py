@@ -11,13 +11,14 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli.main import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
+from ragg_runtime.cli.outputs import Command
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
     from ragg_runtime.workflow.loop import Loaded
 
 
-@click.command()
+@click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
@@ -37,7 +38,7 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
     _emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
 
 
-@click.command()
+@click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option(
@@ -73,10 +74,14 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.flight.formats import format_of
+    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
-    format_of(output)
+    format_for(output)
+    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
+        raise UserError(
+            "a result would be written over what the command reads", where=output, remedy="name another file"
+        )
     m = _load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     _progress(f"reading {len(flights)} flight(s)")
@@ -90,7 +95,7 @@ def compensate(
     )
 
 
-@click.command()
+@click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("folder", type=DIRECTORY, metavar="DIR")
 @click.option(

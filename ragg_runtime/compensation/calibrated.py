@@ -23,7 +23,7 @@ from ragg_runtime.diagnosis.parameters import (
 )
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.fit.square_root import join, with_prior
@@ -72,13 +72,13 @@ def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> l
         places = [k for k, c in enumerate(columns) if c.name == name]
         four = [columns[k] for k in places]
         singly = bool(np.all(np.linalg.norm(root[places], axis=1) < SEEN))
-        if singly or any(c.accelerometer is None for c in four):
+        if singly or len(four) != model.layout.size:
             for k in places:
                 j = columns[k].accelerometer
                 label = own_name(columns[k])
                 add(label if j is None else f"{label}[{j}]", [k], np.ones(1))
         else:
-            for label, weights in patterns(four, gains(model, p, name)):
+            for label, weights in patterns(four, gains(model, p, name), model.layout):
                 add(label, places, weights)
     return found
 
@@ -206,7 +206,7 @@ class Calibrated:
 
 def calibrated(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Calibrated:
     """Fit a model to flights and hold it against held-out time."""
-    f = fit(model, instrument, [observe(x, instrument) for x in flights])
+    f = fit(model, instrument, observations_of(flights, instrument))
     half, _ = f.coefficients((), held_out=True)
     whole, held_out, nominal = comparison.errors(f, [np.zeros(f.n_base), half])
     return Calibrated(fitted=f, nominal=nominal.whole, error=whole.whole, holdout=held_out.held_out)

@@ -74,6 +74,13 @@ def prepared(
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     papers_only(instrument)
+    if not instrument.layout.like_paper:
+        raise UserError(
+            "only the paper's layout is compensated so far: one disc of four accelerometers, one output",
+            where=instrument.path,
+            found=f"{len(instrument.layout.outputs)} outputs",
+            remedy="calibrate and compare work with any layout",
+        )
     flights = tuple(without_gradients(x) for x in flights)
     observations = tuple(observe(x, instrument) for x in flights)
     model = model.for_fits(sum(len(o.record.time) for o in observations))

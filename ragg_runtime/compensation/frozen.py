@@ -21,7 +21,7 @@ from ragg_runtime.fit.columns import base_columns
 from ragg_runtime.fit.fitted import Fitted, about
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.noise import estimate_noise
-from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.square_root import join
 from ragg_runtime.flight import Flight
@@ -259,7 +259,7 @@ class Held:
 
 def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
     """Hold a saved calibration against flights."""
-    observations = [observe(x, instrument) for x in flights]
+    observations = observations_of(flights, instrument)
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     f = about(model, instrument, observations, calibration(saved, model, instrument, observations))
     free, _ = f.coefficients(())

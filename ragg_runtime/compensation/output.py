@@ -15,8 +15,8 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import replacing
-from ragg_runtime.flight.formats import format_of
 
 UNITS: Mapping[str, str] = MappingProxyType(
     {
@@ -31,6 +31,18 @@ UNITS: Mapping[str, str] = MappingProxyType(
 )
 """The columns and their units; ``flight`` (1, 2, ...) only where there are several."""
 
+ENDINGS: Mapping[str, str] = MappingProxyType(
+    {
+        ".csv": "csv",
+        ".csv.gz": "csv",
+        ".parquet": "parquet",
+        ".pq": "parquet",
+        ".nc": "netcdf",
+        ".nc4": "netcdf",
+    }
+)
+"""Endings of file names, and the formats that they stand for."""
+
 Rows = Mapping[str, NDArray[Any]]
 Write = Callable[[Rows], None]
 
@@ -41,7 +53,7 @@ def writing(path: Path, samples: int, *, several: bool) -> Iterator[Write]:
 
     ``samples`` is the number of all rows.
     """
-    kind = format_of(path).NAME
+    kind = format_for(path)
     names = [n for n in UNITS if several or n != "flight"]
     schema = pa.schema([pa.field(n, _type(n), metadata={"units": UNITS[n]}) for n in names])
     with replacing(path) as temporary:
@@ -58,6 +70,20 @@ def writing(path: Path, samples: int, *, several: bool) -> Iterator[Write]:
         else:
             with _netcdf(temporary, names, samples) as write:
                 yield write
+
+
+def format_for(path: Path) -> str:
+    """``csv``, ``parquet`` or ``netcdf`` by the ending of the name; UserError for any other."""
+    found = next((kind for ending, kind in ENDINGS.items() if path.name.lower().endswith(ending)), None)
+    if found is None:
+        raise UserError(
+            "a compensated series is not written in this format",
+            where=path,
+            found=path.suffix or "no ending",
+            expected=", ".join(ENDINGS),
+            remedy="choose one of these; `ragg convert` writes others",
+        )
+    return found
 
 
 def _type(name: str) -> pa.DataType:

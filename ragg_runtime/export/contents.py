@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
+from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
@@ -122,11 +122,7 @@ class Contents:
 
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, beside ``time`` and ``spin_angle``."""
-        found = dict.fromkeys(x.column for x in self.inputs())
-        for change, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
-            if change in found:  # where it is not recorded it is derived
-                found.setdefault(rate)
-        return list(found)
+        return list(dict.fromkeys(x.column for x in self.inputs()))
 
     def example(self) -> tuple[dict[str, Array], Array]:
         """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and G_out (N,), V, that the model makes of it."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.export.contents import Contents, is_gradient, unit_of
 from ragg_runtime.export.online import online_values, table
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
+from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.signals.derivative import WINDOW, weights
 
 Array = NDArray[np.float64]
@@ -26,9 +26,6 @@ SPELLINGS: Mapping[str, str] = {
     "s^-2": "s^-2|1/s^2|1/s2|1/s**2|s**-2",
 }
 """How people write an SI unit; other units are taken as they are written in the flight's documentation."""
-
-NOTHING, ZERO = -1, -2
-"""What stands for a column that is not there: it is needed; zero. Else the number of the column that it derives from."""
 
 
 def c_program(c: Contents) -> dict[str, str]:
@@ -75,7 +72,7 @@ def _readme(c: Contents) -> str:
         online.h                                      calibration and compensation sample by sample, no allocation
 
         Columns that MOTION.csv must have, in SI units: time [s], {needed}.
-        omegadot_x, omegadot_y, omegadot_z are derived from omega where they are missing (runs of {WINDOW} rows or more).
+        omegadot is not derived here; ragg_runtime.flight.write_flight(read_flight(FILE, g0), OUT) writes it as Python derives it.
         Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; spin_angle [rad] replaces 2 pi f t.
         """
     )
@@ -84,7 +81,6 @@ def _readme(c: Contents) -> str:
 def _values(c: Contents, name: str) -> str:
     """values.h: the model's columns, inputs and parameters as tables."""
     columns = ["time", "spin_angle", *c.columns()]
-    absent = [_absent(n, columns) for n in columns]
     inputs = [f"{{{columns.index(x.column)}, {x.derivative}}}, /* {x.name} */" for x in c.inputs()]
     rows, names, si = [], [], []
     for v in c.values():
@@ -93,7 +89,7 @@ def _values(c: Contents, name: str) -> str:
             rows.append(f"{float(x):.17g}, /* {_comment(f'{label}, {v.unit}: {v.meaning}')} */")
             names.append(f'"{_text(label)}",')
             si.append(f'"{_text(v.unit)}",')
-    table = [f'{{"{_text(n)}", "{_text(_accepted(n))}", {a}}},' for n, a in zip(columns, absent, strict=True)]
+    given = [f'{{"{_text(n)}", "{_text(_accepted(n))}", {int(_needed(n))}}},' for n in columns]
     half = WINDOW // 2
     slopes = [", ".join(f"{x:.17g}" for x in weights(WINDOW, k)) for k in range(half + 1)]
     return "\n".join(
@@ -108,11 +104,10 @@ def _values(c: Contents, name: str) -> str:
             "",
             f"enum {{ COLUMNS = {len(columns)}, INPUTS = {len(inputs)}, PARAMETERS = {len(rows)}, WINDOW = {WINDOW} }};",
             "enum { TIME = 0, SPIN_ANGLE = 1 };",
-            f"enum {{ NEEDED = {NOTHING}, ZERO = {ZERO} }};",
             "",
-            "/* Name, accepted spellings of the unit, and what stands for a column that is not there. */",
-            "static const struct { const char *name, *units; int absent; } COLUMN[COLUMNS] = {",
-            *_indented(table),
+            "/* Name, accepted spellings of the unit, and whether it must be there (else it is zero). */",
+            "static const struct { const char *name, *units; int needed; } COLUMN[COLUMNS] = {",
+            *_indented(given),
             "};",
             "",
             "/* Which column each input of the model is, and how often it is differentiated by time. */",
@@ -141,12 +136,8 @@ def _values(c: Contents, name: str) -> str:
     )
 
 
-def _absent(column: str, columns: Sequence[str]) -> int:
-    if column == "spin_angle" or is_gradient(column):
-        return ZERO
-    if column in ANGULAR_ACCELERATION:
-        return columns.index(ANGULAR_RATE[ANGULAR_ACCELERATION.index(column)])
-    return NOTHING
+def _needed(column: str) -> bool:
+    return column != "spin_angle" and not is_gradient(column)
 
 
 def _accepted(column: str) -> str:

@@ -190,6 +190,12 @@ def compensate(
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
     papers_only(m.instrument)
+    if not m.instrument.layout.like_paper:
+        raise UserError(
+            "only the paper's layout is exported so far: one disc of four accelerometers, one output",
+            where=m.directory.path,
+            found=f"{len(m.instrument.layout.outputs)} outputs",
+        )
     saved, origin = None, "values of model.toml, not calibrated"
     if m.directory.calibration is not None:
         try:
@@ -249,7 +255,7 @@ def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
     found = []
     for path in paths:
-        flight = without_gradients(read_flight(path, m.instrument.g0))
+        flight = without_gradients(read_flight(path, m.instrument.g0, accelerometers=m.instrument.layout))
         found.append(settled(examined(m.model, m.instrument, flight)))
     return found
 

@@ -242,8 +242,12 @@ def rms(x: Array) -> float:
     return float(np.sqrt(np.mean(x**2)))
 
 
-FARTHEST = {("gyro-bias", "b_z"): 5e-3}
-"""What hardly shows by itself would have to be so large that its square does: rad/s."""
+FARTHEST = {
+    ("gyro-bias", "b_z"): 5e-3,
+    ("gyro-delay", "delta_w"): 1e-4,
+    ("gyro-delay", "delta_d"): 1e-4,
+}
+"""What hardly shows by itself would have to be so large that its square does: rad/s, s."""
 
 
 def reach(effect: Effect, q: EffectParameter, share: float) -> float:

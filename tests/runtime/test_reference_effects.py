@@ -94,7 +94,8 @@ SIZES = {
     "s^2": 1e-4,
 }
 RECORD_ONLY = {
-    "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-bias",
+    "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
+    "gyro-bias",
     "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
 }  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation"}
@@ -449,6 +450,15 @@ def test_gyro_scale() -> None:
     ):
         name = f"{quantity}_{axis}"
         np.testing.assert_allclose(flight.channels[name], (1 + s) * PLAIN.channels[name], rtol=1e-15)
+
+
+def test_gyro_delay_leaves_the_specific_force_where_it_is() -> None:
+    flight = run({"gyro-delay": {"delta_w": 0.02, "delta_d": -0.01}})
+    for axis in "xyz":
+        assert np.array_equal(flight.channels[f"a_{axis}"], PLAIN.channels[f"a_{axis}"])
+        late = flight.channels[f"omega_{axis}"] - PLAIN.channels[f"omega_{axis}"]
+        rate = PLAIN.channels[f"omegadot_{axis}"]
+        np.testing.assert_allclose(late, -0.02 * rate, rtol=0, atol=0.1 * 0.02 * np.std(rate))
 
 
 def test_recorded_acceleration_stays_the_derivative_of_the_recorded_rate() -> None:

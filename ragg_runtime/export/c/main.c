@@ -1,7 +1,7 @@
 /* ragg_model < MOTION.csv > OUT.csv: the output of the gradiometer, G_out in V, from a record of its motion.
  *
  * MOTION.csv has a header, one `name [unit]` a column, in SI units; the columns that are needed stand in values.h, others
- * are passed over. Where omegadot is not there it is the derivative of omega; gradients that are not there are zero.
+ * are passed over. Gradients that are not there are zero; what the model needs of derivatives by time it derives.
  * Without spin_angle the disc angle is 2 pi spin_frequency t from the first row on. OUT.csv: time,G_out with 17 digits;
  * nan where a value that is needed is missing. Exit status: 0 done, 2 bad input (one message on stderr). */
 #include <ctype.h>
@@ -163,7 +163,7 @@ static void places_of(char *fields[], size_t count, int place[COLUMNS]) {
         }
     }
     for (size_t k = 0; k < COLUMNS; ++k) {
-        if (place[k] < 0 && COLUMN[k].absent == NEEDED) {
+        if (place[k] < 0 && COLUMN[k].needed) {
             fail("the column is missing", COLUMN[k].name, COLUMN[k].units);
         }
     }
@@ -332,18 +332,10 @@ int main(int count, char **arguments) {
         seconds[i] = time[i] - time[0];
     }
     int needed = 0;
-    for (size_t k = 0; k < COLUMNS; ++k) {
-        needed |= place[k] < 0 && COLUMN[k].absent >= 0;
-    }
     for (size_t k = 0; k < INPUTS; ++k) {
         needed |= INPUT[k].derivative > 0;
     }
     const double step = needed ? interval(n, time) : 1.0;
-    for (size_t k = 0; k < COLUMNS; ++k) {
-        if (place[k] < 0 && COLUMN[k].absent >= 0) {
-            differentiate(n, step, time, table[COLUMN[k].absent], table[k]);
-        }
-    }
     size_t derived = 0;
     for (size_t k = 0; k < INPUTS; ++k) {
         series[k] = table[INPUT[k].column];

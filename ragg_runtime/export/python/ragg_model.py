@@ -1,8 +1,7 @@
 """The output of a gradiometer from its motion, with NumPy alone: python ragg_model.py < MOTION.csv > OUT.csv
 
-MOTION.csv has a header, one `name [unit]` a column, in the SI units of model.json. Where omegadot is not there it is the
-derivative of omega; gradients that are not there are zero; without spin_angle the disc angle is 2 pi spin_frequency t
-from the first row on.
+MOTION.csv has a header, one `name [unit]` a column, in the SI units of model.json. Gradients that are not there are zero;
+without spin_angle the disc angle is 2 pi spin_frequency t from the first row on.
 """
 
 import csv
@@ -22,12 +21,6 @@ def output(columns):
     """G_out (N,), V, of columns (name -> (N,)) in SI units, evenly spaced in time."""
     time = np.asarray(columns["time"], dtype=float)
     t = time - time[0]
-    columns = dict(columns)
-    for axis in "xyz":
-        if f"omegadot_{axis}" not in columns and any(
-            x["column"] == f"omegadot_{axis}" for x in MODEL["inputs"]
-        ):
-            columns[f"omegadot_{axis}"] = differentiate(columns[f"omega_{axis}"], t)
     series = []
     for x in MODEL["inputs"]:
         name = x["column"]

@@ -91,6 +91,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "time-offset": _shared("s", "delta_t"),
     "imu-lever-arm": _shared("m", "l_x", "l_y", "l_z"),
     "imu-misalignment": _shared("rad", "e_x", "e_y", "e_z"),
+    "gyro-delay": _shared("s", "delta_w", "delta_d"),
     "gyro-scale": _shared("1", "s_x", "s_y", "s_z"),
     "self-gradient": _shared("1/s^2/rad", *_TURNING),
     "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz")

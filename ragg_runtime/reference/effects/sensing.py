@@ -26,6 +26,9 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
     if lever := effects.get("imu-lever-arm"):
         arm = np.array([lever["l_x"], lever["l_y"], lever["l_z"]])[:, None]
         a = a + np.cross(omegadot, arm, axis=0) + np.cross(omega, np.cross(omega, arm, axis=0), axis=0)
+    if late := effects.get("gyro-delay"):
+        omega = motion.at(time, delay + float(late["delta_w"])).omega
+        omegadot = motion.at(time, delay + float(late["delta_d"])).omegadot
     if turned := effects.get("imu-misalignment"):
         # Components along axes turned by e: the inverse rotation of the vector.
         to_sensor = by_vector([turned["e_x"], turned["e_y"], turned["e_z"]]).T

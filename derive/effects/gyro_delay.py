@@ -1,0 +1,49 @@
+"""The gyroscopes earlier or later than the accelerometers beside them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    def rate(e: sp.Expr) -> sp.Expr:
+        # The recorded acceleration is the rate of the recorded one only where both are equally late.
+        change = c.rate(e)
+        return e + p.delta_w * change + (p.delta_w * p.delta_d - p.delta_w**2 / 2) * c.rate(change)
+
+    omega = m.omega.applyfunc(rate)
+    return m._replace(omega=omega, omegadot=m.omegadot.applyfunc(lambda e: c.shifted(e, p.delta_d)))
+
+
+EFFECT = Effect(
+    id="gyro-delay",
+    title="Delay of the gyroscopes against the accelerometers",
+    physics=(
+        "Gyroscopes and accelerometers of a motion sensor pass filters of different delay, or are read one after the "
+        "other: the rate that is true at t stands in the record at t + delta, beside the specific force of t."
+    ),
+    source="group delays of the digital filters of inertial sensors; found in a record of real ones (docs/real-measurements.md)",
+    equation=(
+        r"\bm\omega_{im}(t) = \bm\omega_{rec}(t + \delta_\omega),\;"
+        r" \dot{\bm\omega}_{im}(t) = \dot{\bm\omega}_{rec}(t + \delta_{\dot\omega})"
+    ),
+    limits=(
+        "To second order in the delays; specific force keeps its clock (time-offset moves both). The two delays are one "
+        "where the angular acceleration is derived from the rate, and two where it is measured."
+    ),
+    parameters=(
+        EffectParameter("delta_w", r"\delta_\omega", "s", "lateness of the angular rate", 1e-3, shared=True),
+        EffectParameter(
+            "delta_d", r"\delta_{\dot\omega}", "s", "lateness of the angular acceleration", 1e-3, shared=True
+        ),
+    ),
+    sensing=sensing,
+)

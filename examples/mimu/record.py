@@ -1,0 +1,152 @@
+"""From the raw packets of the array to two flights: its rests, and its motion.
+
+    python -m examples.mimu.record RAW.bin.gz FOLDER
+
+RAW is a recording of H. Carlsson, I. Skog and J. Jalden (see LICENSE.mimu-array here). The four sensors of the front, at
+the corners of a square, are the gradiometer: their axes along the tangents of the circle through them. Specific force is the
+mean of the four of the back, angular rate that of all eight. Angular acceleration is what the four of the back feel beside
+each other: no output of the gradiometer enters it, nor a derivative of what is sampled too slowly for one.
+"""
+
+from __future__ import annotations
+
+import gzip
+import sys
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
+
+from ragg_runtime.flight import Flight, write_flight
+
+Array = NDArray[np.float64]
+
+RATE = 62.5
+"""Hz."""
+
+G0, PER_G, PER_DEGREE = 9.81, 2048.0, 16.4
+"""m/s^2; counts per g and per deg/s, as the data sheet of the chip gives them for its ranges of 16 g and 2000 deg/s."""
+
+HALF = 0.00945
+"""Half the side of the square, m."""
+
+CORNERS = ((-1, 1), (-1, -1), (1, 1), (1, -1))
+"""Of sensors 1, 3, 5, 7 (front) and 2, 4, 6, 8 (back)."""
+
+PLACES = ((2, 45.0), (1, 225.0), (0, 135.0), (3, 315.0))
+"""Corner and angle, deg, of A1 ... A4."""
+
+FULL_SCALE = 32760
+"""Counts from which a sensor is saturated."""
+
+REST = 0.05
+"""rad/s below which the array rests."""
+
+BLOCK = 64
+"""Samples of a rest that are averaged to one."""
+
+MOTION_FROM = 30.0
+"""rad/s that the array must reach before it counts as thrown about."""
+
+LENGTH = 45.0
+"""Length of the second record, which begins there, s: as small as serves."""
+
+
+def packets(raw: bytes) -> NDArray[np.int16]:
+    """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis; broken packets are left out."""
+    found, at = [], 0
+    while at + 106 <= len(raw):
+        length = raw[at + 3]
+        body = raw[at : at + 4 + length]
+        whole = raw[at] == 0xAA and length == 100
+        if not whole or sum(body) & 0xFFFF != int.from_bytes(raw[at + 4 + length : at + 6 + length], "big"):
+            at += 1
+            continue
+        found.append(np.frombuffer(body[8:104], ">i2").reshape(8, 2, 3).astype(np.int16))
+        at += 6 + length
+    return np.array(found)
+
+
+def read(path: Path) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Specific force (N, 8, 3) m/s^2, angular rate (N, 8, 3) rad/s, by the axes of the board, and what is saturated."""
+    counts = packets(gzip.decompress(path.read_bytes()))
+    saturated = np.any(np.abs(counts.astype(int)) >= FULL_SCALE, axis=(1, 2, 3))
+    force = counts[:, :, 0] * (G0 / PER_G)
+    rate = counts[:, :, 1] * (np.pi / 180 / PER_DEGREE)
+    for x in (force, rate):
+        x[:, 1::2] = -x[:, 1::2][:, :, [1, 0, 2]]  # those of the back are turned over
+    return force, rate, saturated
+
+
+def angular_acceleration(force: Array, omega: Array) -> Array:
+    """(N, 3) rad/s^2 from the four sensors of the back: the gradient of what they feel, less that of omega x omega."""
+    x, y = HALF * np.array(CORNERS, dtype=float).T
+    back = force[:, 1::2]
+    along_x, along_y = (np.einsum("k,nki->ni", p / (p @ p), back) for p in (x, y))
+    w = omega
+    return np.stack(
+        [
+            along_y[:, 2] - w[:, 1] * w[:, 2],
+            w[:, 0] * w[:, 2] - along_x[:, 2],
+            (along_x[:, 1] - along_y[:, 0]) / 2,
+        ],
+        axis=1,
+    )
+
+
+def columns(force: Array, rate: Array) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Channels and outputs of a flight."""
+    a, omega = force[:, 1::2].mean(axis=1), rate.mean(axis=1)
+    channels = {f"a_{k}": a[:, i] for i, k in enumerate("xyz")}
+    channels |= {f"omega_{k}": omega[:, i] for i, k in enumerate("xyz")}
+    alpha = angular_acceleration(force, omega)
+    channels |= {f"omegadot_{k}": alpha[:, i] for i, k in enumerate("xyz")}
+    # The gradient of the Earth's field, 3e-6 s^-2, is nothing beside (2000 deg/s)^2 = 1e3 s^-2: known to be none.
+    channels |= {f"Gamma_{k}": np.zeros(len(a)) for k in ("xx", "xy", "xz", "yy", "yz", "zz")}
+    outputs = {}
+    for j, (corner, degrees) in enumerate(PLACES):
+        angle = np.deg2rad(degrees)
+        tangent = np.array([-np.sin(angle), np.cos(angle), 0.0])
+        outputs[f"V_{j + 1}"] = force[:, 2 * corner] @ tangent / G0  # 1 V per g
+    return channels, outputs
+
+
+def rests(force: Array, rate: Array, quiet: NDArray[np.bool_]) -> Flight:
+    """What the array felt while it lay still, averaged over :data:`BLOCK` samples."""
+    n = len(force) // BLOCK
+    whole = quiet[: n * BLOCK].reshape(n, BLOCK).all(axis=1)
+    blocks = [x[: n * BLOCK].reshape(n, BLOCK, 8, 3) for x in (force, rate)]
+    channels, outputs = columns(*(x.mean(axis=1) for x in blocks))
+    # The mean angular acceleration of a block is the change of the rate over it.
+    omega, quarter = blocks[1].mean(axis=2), BLOCK // 4
+    change = omega[:, -quarter:].mean(axis=1) - omega[:, :quarter].mean(axis=1)
+    slope = change / ((BLOCK - quarter) / RATE)
+    channels |= {f"omegadot_{k}": slope[:, i] for i, k in enumerate("xyz")}
+    time = np.arange(n) * (BLOCK / RATE)
+    return Flight(time=time, channels=channels, outputs=outputs, name="rests", valid=whole)
+
+
+def motion(force: Array, rate: Array, saturated: NDArray[np.bool_]) -> Flight:
+    """The array thrown about, sample by sample; without what is saturated."""
+    channels, outputs = columns(force, rate)
+    for name, x in (channels | outputs).items():
+        if not name.startswith("Gamma"):
+            x[saturated] = np.nan
+    return Flight(time=np.arange(len(force)) / RATE, channels=channels, outputs=outputs, name="motion")
+
+
+def main(raw: str, folder: str) -> None:
+    force, rate, saturated = read(Path(raw))
+    size = np.linalg.norm(rate.mean(axis=1), axis=1)
+    quiet = ~binary_dilation(size > REST, np.ones(BLOCK))
+    start = int(np.argmax(size > MOTION_FROM))
+    end = start + round(LENGTH * RATE)
+    there = Path(folder)
+    write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")
+    moving = [x[start:end] for x in (force, rate, saturated)]
+    write_flight(motion(*moving), there / "motion.parquet")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
