@@ -22,6 +22,7 @@ from derive.stages import EXACT, PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, DISC, MOTION
 from derive.tape import simplify
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
 from ragg_runtime.reference import CATALOGUE, Motion, Sinusoids, disc_angle, simulate
 from ragg_runtime.reference.geometry import mount
@@ -156,7 +157,7 @@ def _magnetic(value: Mapping[str, float]) -> Record:
         B = np.stack([c["B_x"], c["B_y"], c["B_z"]])
         phi = np.arctan2(c["sin_phi"], c["cos_phi"])
         k = INSTRUMENT.accelerometers
-        mounts = [mount(j, k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
+        mounts = [mount(FOUR.places[j], k["beta_x"][j], k["beta_z"][j], "first-order") for j in range(4)]
         axes = [frame_rotation(*(k[f"vartheta_{a}"][j] for a in "xyz"), "first-order")[0] for j in range(4)]
         inputs = [axis @ m.triad for axis, m in zip(axes, mounts, strict=True)]
         return value["dK0_dB"] * np.stack([np.sum(B * spin(axis, phi), axis=0) for axis in inputs])

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -111,7 +112,11 @@ def test_every_command_that_gives_json_goes_through_one_door() -> None:
     for name, command in sorted(cli.commands.items()):
         if any(p.name == "json_file" for p in command.params) and name != "experiment":
             assert command.callback is not None
-            assert "_emit" in command.callback.__code__.co_names, name
+            code = command.callback.__code__
+            inner = [
+                c for c in code.co_consts if isinstance(c, CodeType)
+            ]  # what is called last stands in a function
+            assert any("_emit" in c.co_names for c in (code, *inner)), name
 
 
 def test_the_same_result_on_any_number_of_threads(place: Path) -> None:

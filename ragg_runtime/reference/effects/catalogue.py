@@ -96,7 +96,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "self-gradient": _shared("1/s^2/rad", *_TURNING),
     "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz")
     | _shared(
-        "1/(m^2 s^2)",
+        "1/m^2/s^2",
         *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
     ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
