@@ -161,7 +161,7 @@ def optimum(f: Fitted, noise_Eo: float, rng: np.random.Generator) -> float:
     found = design.base_columns(model, f.instrument)
     index = np.array([i for _, i in found])
     scale = np.array([c.scale for c, _ in found])
-    sigma = noise_Eo * scale_factor(model.chain, nominal)
+    sigma = noise_Eo * scale_factor(model, nominal)
     x_in, valid = r.inputs(model.chain), r.valid
     rows = {(name, shared): n for n, (name, shared) in enumerate(model.chain.ROWS)}
 

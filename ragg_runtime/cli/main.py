@@ -399,6 +399,7 @@ def add(
     with progress.shown("add", sum(map(len, read))):
         result = loop.add(m, effect, read, tell)
     if not result.converged:
+        asked().place()  # report and JSON say why; they are the result
         raise UserError(
             "nothing was added: the model is as it was",
             where=", ".join(x.name for x in read),

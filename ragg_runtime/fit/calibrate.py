@@ -32,11 +32,17 @@ MISFIT = 1.1
 """Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
 nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
+LEAN = 10.0
+"""There the noise counts as no less than what is left over this. The sheet's word then weighs so little that the rms is
+within 1 % of what it would be without it where parameters move by less than 250 scales, and enough to keep the fit out of
+long valleys far from the sheet, where the model does not hold.
+"""
+
 ROUNDS = 3
-"""Most times that a fit of what is loud is made, each with the noise that is estimated where the one before ended."""
+"""Most times that a fit of what is loud is made, each with what the one before has left and the noise estimated there."""
 
 FALLING = 0.9
-"""Factor below which the noise must have fallen for another one."""
+"""Factor below which one of both must have fallen for another one."""
 
 WHITE_SEGMENTS = 4
 """Most segments on which the first fit, with noise still taken as white, is made."""
@@ -244,11 +250,12 @@ def fit(
 def _loud(p: _Plain, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
     """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
-        found = p.fit(x, _size(noise))
+        left = p.left(x)
+        found = p.fit(x, max(_size(noise), left / LEAN))
         if fixed:
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
-        if _size(noise) > FALLING * _size(before):
+        if _size(noise) > FALLING * _size(before) and p.left(x) > FALLING * left:
             break
     return _calibration(p.task, found, noise)
 

@@ -48,14 +48,18 @@ class Disturbance:
         return np.stack([np.cos(phase), np.sin(phase), slow * np.cos(phase), slow * np.sin(phase)])
 
 
-def disturbances(rest: Array, valid: NDArray[np.bool_], rate: float) -> list[Disturbance]:
-    """Those in a residual (N,), zero where it is not valid."""
-    return [*_lines(rest, rate), *_jumps(rest, valid, rate)]
+def disturbances(
+    rest: Array, valid: NDArray[np.bool_], rate: float, without: tuple[float, float] | None = None
+) -> list[Disturbance]:
+    """Those in a residual (N,), zero where it is not valid; no lines in a band (from, to, Hz) that has lost its noise."""
+    return [*_lines(rest, rate, without), *_jumps(rest, valid, rate)]
 
 
-def _lines(rest: Array, rate: float) -> list[Disturbance]:
-    f, p = signal.periodogram(rest, rate, window="hann", detrend="constant")
-    p = p[LOWEST:-1]
+def _lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
+    f, p = (x[LOWEST:-1] for x in signal.periodogram(rest, rate, window="hann", detrend="constant"))
+    if without is not None:
+        kept = (f < without[0]) | (f > without[1])
+        f, p = f[kept], p[kept]
     quiet = without_lines(p)
     high = np.flatnonzero(p > quiet)
     noise = float(np.sqrt(np.sum(quiet) * (f[1] - f[0])))
@@ -70,7 +74,7 @@ def _lines(rest: Array, rate: float) -> list[Disturbance]:
         shift = 0.5 * (a - c) / (a - 2 * b + c) if a + c < 2 * b else 0.0
         power = float(np.sum(p[max(0, k - 2) : k + 3])) * (f[1] - f[0])
         found.append(
-            Disturbance("line", float(f[LOWEST + k] + shift * f[1]), float(np.sqrt(2 * power)) / noise)
+            Disturbance("line", float(f[k] + shift * (f[1] - f[0])), float(np.sqrt(2 * power)) / noise)
         )
     return found
 

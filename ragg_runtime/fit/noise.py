@@ -51,6 +51,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     share, begun = [], []
 
     disturbed: list[Disturbance] = []
+    band = unknown_gradient.band(o)
 
     def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]], int] | None:
         valid = piece.observation.record.valid
@@ -59,7 +60,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
         taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
         outputs = []
         for flat in np.split(piece.white, len(o.series), axis=1):
-            rest, rank, seen = _left(flat, valid, r.rate if o.kind != "channels" else None)
+            rest, rank, seen = _left(flat, valid, r.rate if o.kind != "channels" else None, band)
             y = flat[-1]
             # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
             e = np.zeros(len(valid))
@@ -90,7 +91,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise, loud = quiet_estimate(e_m, r.rate, unknown_gradient.band(o))
+        noise, loud = quiet_estimate(e_m, r.rate, band)
         bursts += [
             (first + b.start, first + b.stop, b.factor)
             for first, x in zip(begun, loud, strict=True)
@@ -106,11 +107,11 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
 
 
 def _left(
-    flat: Array, valid: NDArray[np.bool_], rate: float | None
+    flat: Array, valid: NDArray[np.bool_], rate: float | None, band: tuple[float, float] | None
 ) -> tuple[Array, float, list[Disturbance]]:
     """What columns leave of the last of flat (n + 1, rows), and lines and jumps in it; how many these count as; and these.
 
-    Without ``rate`` lines and jumps are not looked for.
+    No line is looked for in ``band``. Without ``rate`` lines and jumps are not looked for.
     """
     solution, rank = _least_squares(flat)
     rest = flat[-1] - solution @ flat[:-1]
@@ -119,7 +120,7 @@ def _left(
     for _ in range(ROUNDS if rate else 0):
         e = np.zeros(len(valid))
         e[valid] = rest
-        more = disturbances(e, valid, rate or 1.0)
+        more = disturbances(e, valid, rate or 1.0, band)
         if not more:
             break
         found += more

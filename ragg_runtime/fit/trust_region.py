@@ -25,7 +25,7 @@ SETTLED = 0.01
 """Chi-square that the linearised problem may still promise at an optimum: a tenth of a standard deviation in one
 direction, well below what noise does to any estimate."""
 
-RELATIVE = 1e-6
+RELATIVE = 1e-5
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
 VALLEY = 0.5
