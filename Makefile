@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo derive check test lint bench bench-diagnosis docs pages clean faults fuzz package test-oldest
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz package test-oldest
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -19,6 +19,10 @@ $(STAMP): requirements.lock pyproject.toml
 
 demo: $(STAMP)  ## find a hidden effect in a recorded flight, add it, watch the error fall
 	$(BIN)/python -m examples.demo
+
+studio: $(STAMP)  ## open the demonstration in a browser: look, tick, derive, watch the error fall
+	@test -d demo-studio || $(BIN)/ragg new demo-studio > /dev/null
+	$(BIN)/ragg studio demo-studio examples/demo-flight.parquet
 
 derive: $(STAMP)  ## derive every model and generate all code and pages anew
 	$(BIN)/ragg derive

@@ -14,6 +14,8 @@ import sympy as sp
 from derive import stages
 from derive.context import OMEGA, Context
 from derive.effect import Effect
+from derive.layout import AXES, HEIGHT, TURN, Layout
+from derive.layout import PAPER as FOUR
 from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
@@ -52,8 +54,12 @@ def accelerometer(
     order: Order = PAPER,
     tape: Tape | None = None,
     kinematics: Kinematics = "platform",
+    layout: Layout = FOUR,
 ) -> Accelerometer:
-    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape."""
+    """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
+
+    From the end of the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    """
     tape = Tape() if tape is None else tape
     let = tape.let
     hooked = [(e, e.values) for e in effects]
@@ -63,6 +69,9 @@ def accelerometer(
     for e, p in hooked:
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
+    if layout.has(AXES[0, 0]):
+        c.axes = AXES
+        c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
 
     # 2 geometry
     increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
@@ -81,13 +90,17 @@ def accelerometer(
     cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
     sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
     k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
-    rigid = symbol("dR")
+    height = HEIGHT if layout.has(HEIGHT) else sp.Integer(0)
+    turn = TURN if layout.has(TURN[0, 0]) else None
+    rigid, lifted = symbol("dR"), (0, 0, height)
 
     def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
         angles = {n: k[n] for n in ("beta_x", "beta_z")}
         if label == "q":  # second-order terms, whose angles the order counting drops
             angles = {n: sp.Integer(0) for n in angles}
-        g = stages.mounting(symbol("radius") + k["dR"], order=order, **angles)
+        g = stages.mounting(
+            symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles
+        )
         g = _named_geometry(let, f"{label}_disc", g)
         g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
         for e, p in hooked:
@@ -100,7 +113,10 @@ def accelerometer(
                 f = f + e.field(g.r, p, c)
         if k["dR"] != rigid:
             arm = sp.Matrix(
-                [let(f"{label}_arm_{'xyz'[n]}", g.r[n] / (symbol("radius") + k["dR"])) for n in range(3)]
+                [
+                    let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / (symbol("radius") + k["dR"]))
+                    for n in range(3)
+                ]
             )
             growth = c.rate(k["dR"])
             f = f + stages.of_growing_arm(c.case, arm, growth, c.rate(growth))

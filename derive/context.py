@@ -51,6 +51,22 @@ class Context:
     time: sp.Symbol = TIME
     Omega: sp.Expr = OMEGA
     spin: Spin = RECORDED_SPIN
+    axes: sp.Matrix | None = None
+
+    def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
+
+        These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
+        """
+        if self.axes is None:
+            return v
+        return self.axes.T * v if v.shape[1] == 1 else self.axes.T * v * self.axes
+
+    def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
+        """The other way round."""
+        if self.axes is None:
+            return v
+        return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
 
     @property
     def case(self) -> Motion:

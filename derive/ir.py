@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
@@ -17,6 +17,8 @@ from sympy.polys.rings import PolyElement
 from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
+from derive.layout import PAPER as FOUR
+from derive.layout import Layout
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
@@ -89,6 +91,7 @@ class Chain:
     inputs: tuple[Channel, ...]
     parameters: tuple[Parameter, ...]
     effects: tuple[Effect, ...]
+    layout: Layout = FOUR
 
 
 def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
@@ -149,10 +152,17 @@ def _readable(p: PolyElement) -> sp.Expr:
     return sp.Mul(common, divided.as_expr(), evaluate=len(divided) == 1)
 
 
-def effect_parameters(effects: Sequence[Effect]) -> tuple[Parameter, ...]:
+def instrument_parameters(layout: Layout) -> tuple[Parameter, ...]:
+    """Those of the paper's instrument; of another layout each accelerometer has its own radius and spin frequency."""
+    if layout.is_paper:
+        return INSTRUMENT
+    return tuple(replace(q, shared=False, count=layout.size) for q in INSTRUMENT)
+
+
+def effect_parameters(effects: Sequence[Effect], count: int = FOUR.size) -> tuple[Parameter, ...]:
     """The parameters that effects bring, under the names they have in a parameter vector."""
     return tuple(
-        Parameter(e.symbol(q).name, q.latex, q.unit, f"{e.title}: {q.meaning}", q.shared)
+        Parameter(e.symbol(q).name, q.latex, q.unit, f"{e.title}: {q.meaning}", q.shared, count)
         for e in effects
         for q in e.parameters
     )
@@ -165,14 +175,15 @@ def chain(
     order: Order = PAPER,
     candidates: Sequence[Effect] = (),
     kinematics: Kinematics = "platform",
+    layout: Layout = FOUR,
 ) -> Chain:
     """V_j of the instrument with ``effects``, and its derivatives.
 
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
     their neutral values, that is, the signature that each would leave in this instrument.
     """
-    a = accelerometer([*effects, *candidates], order, kinematics=kinematics)
-    neutral = {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
+    a = accelerometer([*effects, *candidates], order, kinematics=kinematics, layout=layout)
+    neutral = dict(layout.common) | {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)
     if candidates:
@@ -186,8 +197,9 @@ def chain(
         ]
     outputs = [(n, by(s)) for s, n, _ in named]
     derivatives = simplify(a.tape.assignments, outputs, neutral)
-    known = {p.name for p in (*INSTRUMENT, *effect_parameters(effects))}
-    reserved = known | {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"} | {c.name for c in MOTION}
+    parameters = (*instrument_parameters(layout), *effect_parameters(effects, layout.size))
+    known = {p.name for p in parameters}
+    reserved = known | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}
     read = {s.name for program in (value, derivatives) for s in program.inputs()}
     extra = sorted(read - reserved)
     return Chain(
@@ -197,8 +209,9 @@ def chain(
         derivatives,
         tuple(Row(n, shared) for _, n, shared in named),
         (*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
-        (*INSTRUMENT, *effect_parameters(effects)),
+        parameters,
         tuple(candidates) or tuple(effects),
+        layout.without_common(),
     )
 
 

@@ -19,6 +19,8 @@ from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import render
 from derive.folded import Folded, folded
+from derive.layout import PAPER as FOUR
+from derive.layout import Layout
 from derive.propagation import collect, ideal
 from derive.stages import PAPER, Kinematics, Order
 from derive.transduction import starred
@@ -38,6 +40,7 @@ class Form:
 
     order: Order = PAPER
     kinematics: Kinematics = "platform"
+    layout: Layout = FOUR
 
 
 PAPERS = Form()
@@ -64,6 +67,13 @@ def derive_base() -> Files:
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
     return _derive(form, effects, candidates)
+
+
+def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
+    """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
+    (chain, *_) = _chains(form, effects, ())
+    header, source = render.plain_c(chain)
+    return {"plain.h": header, "plain.c": source}
 
 
 def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
@@ -110,13 +120,21 @@ def _folded(form: Form) -> Folded:
 def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.Chain]:
     active = [e for e in effects if e.kind in ("deterministic", "step")]
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
-    chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics)]
+    chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
     known = {e.id for e in effects}
     open_ = [e for e in candidates if e.id not in known and e.kind != "output"]
     if open_:
         title = "Signatures: what each candidate effect would add to V_j."
         chains.append(
-            ir.chain(active, "signatures", title, form.order, candidates=open_, kinematics=form.kinematics)
+            ir.chain(
+                active,
+                "signatures",
+                title,
+                form.order,
+                candidates=open_,
+                kinematics=form.kinematics,
+                layout=form.layout,
+            )
         )
     return chains
 
@@ -136,7 +154,7 @@ def _complete(
         "format": FORMAT,
         "sympy": sympy.__version__,
         "digest": hashlib.sha256(text.encode()).hexdigest(),
-        **({} if form == PAPERS else {"form": dataclasses.asdict(form)}),
+        **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],
         "files": sorted([*files, *below, "manifest.json"]),
         "models": {m.name: ir.manifest_of_model(m) for m in models},
@@ -144,6 +162,14 @@ def _complete(
     }
     files["manifest.json"] = manifest_text(manifest)
     return dict(sorted(files.items()))
+
+
+def _told(form: Form) -> Mapping[str, object]:
+    """A form in the manifest; the paper's layout is not worth a word."""
+    told = dataclasses.asdict(form)
+    if form.layout.is_paper:
+        del told["layout"]
+    return told
 
 
 def manifest_text(manifest: Mapping[str, object]) -> str:

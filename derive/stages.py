@@ -117,12 +117,30 @@ _RADIAL, _TANGENTIAL, _AXIAL = sp.Matrix([1, 0, 0]), sp.Matrix([0, 1, 0]), sp.Ma
 _NOMINAL_TRIAD = sp.Matrix([[0, 1, 0], [1, 0, 0], [0, 0, -1]])
 
 
-def mounting(R: sp.Expr, beta_x: sp.Expr, beta_z: sp.Expr, order: Order = PAPER) -> Geometry:
-    """Position and triad in the disc frame (radial, tangential, axial) of the nominal position."""
+def mounting(
+    R: sp.Expr,
+    beta_x: sp.Expr,
+    beta_z: sp.Expr,
+    order: Order = PAPER,
+    height: sp.Expr | int = 0,
+    turn_of_triad: sp.Matrix | None = None,
+) -> Geometry:
+    """Position and triad in the disc frame (radial, tangential, axial) of the nominal position.
+
+    ``height`` is along the axis; ``turn_of_triad`` turns the nominal triad of the paper (``None``: not at all).
+    """
     about_axis = turn(_AXIAL, beta_z, order.rotation)
     lift = turn(_TANGENTIAL, -beta_x, order.rotation)
     dip = turn(_TANGENTIAL, beta_x, order.rotation)
-    return Geometry(R * about_axis * lift * _RADIAL, (about_axis * dip * _NOMINAL_TRIAD.T).T)
+    nominal = _NOMINAL_TRIAD.T if turn_of_triad is None else turn_of_triad * _NOMINAL_TRIAD.T
+    position = R * about_axis * lift * _RADIAL
+    return Geometry(position if height == 0 else position + height * _AXIAL, (about_axis * dip * nominal).T)
+
+
+def in_frame(m: Motion, axes: sp.Matrix) -> Motion:
+    """The motion by other axes: the columns of ``axes`` (3 x 3)."""
+    to = axes.T
+    return Motion(to * m.a, to * m.omega, to * m.omegadot, to * m.Gamma * axes)
 
 
 def to_measurement_frame(g: Geometry, cosine: sp.Expr, sine: sp.Expr) -> Geometry:

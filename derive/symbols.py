@@ -32,13 +32,14 @@ class Channel:
 
 @dataclass(frozen=True)
 class Parameter:
-    """A constant of the instrument: one value, or one for each accelerometer (A1, A2, A3, A4)."""
+    """A constant of the instrument: one value, or one for each of its ``count`` accelerometers (A1, A2, A3, A4)."""
 
     name: str
     latex: str
     unit: str
     meaning: str
     shared: bool = False
+    count: int = 4
 
     @property
     def symbol(self) -> sp.Symbol:
@@ -46,8 +47,8 @@ class Parameter:
 
     @property
     def size(self) -> int:
-        """Number of values: 1 if shared, else 4."""
-        return 1 if self.shared else 4
+        """Number of values: 1 if shared, else one for each accelerometer."""
+        return 1 if self.shared else self.count
 
 
 def symbol(name: str) -> sp.Symbol:

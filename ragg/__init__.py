@@ -19,6 +19,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ragg_runtime.base.errors import UserError as UserError
     from ragg_runtime.model.catalogue import effects as effects
+    from ragg_runtime.workflow.after import calibrate as calibrate
+    from ragg_runtime.workflow.after import compensate as compensate
+    from ragg_runtime.workflow.after import export as export
     from ragg_runtime.workflow.loop import add as add
     from ragg_runtime.workflow.loop import compare as compare
     from ragg_runtime.workflow.loop import diagnose as diagnose
@@ -32,9 +35,12 @@ if TYPE_CHECKING:
 _FROM = {
     "UserError": "ragg_runtime.base.errors",
     "add": "ragg_runtime.workflow.loop",
+    "calibrate": "ragg_runtime.workflow.after",
     "compare": "ragg_runtime.workflow.loop",
+    "compensate": "ragg_runtime.workflow.after",
     "diagnose": "ragg_runtime.workflow.loop",
     "effects": "ragg_runtime.model.catalogue",
+    "export": "ragg_runtime.workflow.after",
     "load": "ragg_runtime.workflow.loop",
     "new": "ragg_runtime.workflow.loop",
     "read_flights": "ragg_runtime.workflow.loop",

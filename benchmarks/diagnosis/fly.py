@@ -94,7 +94,9 @@ def _flown(spec: Spec) -> dict[str, object]:
     p = prepared(spec)
     model, sheet = load.packaged(), p.scenario.sheet
     begin = time.perf_counter()
-    d = diagnose.diagnose(model, sheet, [p.flight], lambda m, ids: derive.with_effects(sheet, m, ids))
+    d = diagnose.diagnose(
+        model, sheet, [p.flight], lambda m, ids, **k: derive.with_effects(sheet, m, ids, **k)
+    )
     seconds = time.perf_counter() - begin
     c = peers.columns(d.fitted)
     return {

@@ -18,8 +18,9 @@ FIELD = ("B_x", "B_y", "B_z")
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
     assert c.geometry is not None
     k = c.parameters
+    field = sp.Matrix([c.channel(name) for name in FIELD])
     input_axis = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])[0, :] * c.geometry.tau
-    return i + p.dK0_dB * input_axis.dot(sp.Matrix([c.channel(name) for name in FIELD]))
+    return i + p.dK0_dB * input_axis.dot(c.in_disc_frame(field))
 
 
 EFFECT = Effect(

@@ -12,21 +12,27 @@ if TYPE_CHECKING:
     from derive.context import Context
 
 INDEPENDENT = ("xxx", "xxy", "xxz", "xyy", "xyz", "yyy", "yyz")
+FOURTH = ("xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz")
 
 
 def component(p: Values, *axes: str) -> sp.Expr:
-    """T_abc, symmetric in its indices and without trace: T_xxc + T_yyc + T_zzc = 0."""
+    """T_abc or T_abcd, symmetric in its indices and without trace: T_xxc + T_yyc + T_zzc = 0."""
     name = "".join(sorted(axes))
-    if name in INDEPENDENT:
-        return p[f"T_{name}"]
-    other = name[0]  # sorted, so that the pair is z z
-    return -(component(p, "x", "x", other) + component(p, "y", "y", other))
+    if name.endswith("zz"):
+        others = name[:-2]
+        return -(component(p, "x", "x", *others) + component(p, "y", "y", *others))
+    return p[f"T_{name}"]
 
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
     # Gravity that grows with r is felt as specific force of the other sign.
-    second = [sp.Matrix(3, 3, [component(p, k, a, b) for a in "xyz" for b in "xyz"]) for k in "xyz"]
-    return sp.Matrix([-r.dot(T * r) / 2 for T in second])
+    def tensor(*axes: str) -> sp.Matrix:
+        return sp.Matrix(3, 3, [component(p, *axes, a, b) for a in "xyz" for b in "xyz"])
+
+    r = c.in_measurement_frame(r)
+    second = {k: r.dot(tensor(k) * r) / 2 for k in "xyz"}
+    third = {k: sp.Add(*(r["xyz".index(j)] * r.dot(tensor(k, j) * r) for j in "xyz")) / 6 for k in "xyz"}
+    return c.in_disc_frame(sp.Matrix([-second[k] - third[k] for k in "xyz"]))
 
 
 EFFECT = Effect(
@@ -36,16 +42,25 @@ EFFECT = Effect(
         "The gradient of a mass close to the instrument changes across the disc; Eq. 10 takes it for uniform."
     ),
     source="Taylor series of the gravity field, continued from paper, Eq. 10",
-    equation=r"\bm f_j \mathrel{-}= \tfrac12\, T_{abc}\, r_b r_c",
+    equation=r"\bm f_j \mathrel{-}= \tfrac12\, T_{abc}\, r_b r_c + \tfrac16\, T_{abcd}\, r_b r_c r_d",
     limits=(
-        "Constant tensor, fixed in the measurement frame, one order beyond the gradient: the mass is farther "
-        "than a few radii of the disc. Even in r: opposite accelerometers cancel it up to their mismatch."
+        "Constant tensors, fixed in the measurement frame, two orders beyond the gradient: the mass is farther than a "
+        "few radii of the disc. The first is even in r, so that opposite accelerometers cancel it up to their mismatch; "
+        "the second adds up, at twice the spin rate, where it looks like a constant gradient, and at four times it."
     ),
-    parameters=tuple(
-        EffectParameter(
-            f"T_{k}", f"T_{{{k}}}", "Eo/m", f"third derivative {k} of the potential", 10.0, shared=True
-        )
-        for k in INDEPENDENT
+    parameters=(
+        *(
+            EffectParameter(
+                f"T_{k}", f"T_{{{k}}}", "Eo/m", f"third derivative {k} of the potential", 10.0, shared=True
+            )
+            for k in INDEPENDENT
+        ),
+        *(
+            EffectParameter(
+                f"T_{k}", f"T_{{{k}}}", "Eo/m^2", f"fourth derivative {k} of the potential", 30.0, shared=True
+            )
+            for k in FOURTH
+        ),
     ),
     field=field,
 )

@@ -1,4 +1,4 @@
-"""Delay of the filter that the output passes before it is recorded."""
+"""Droop of the filter that the output passes before it is recorded."""
 
 from __future__ import annotations
 
@@ -14,25 +14,29 @@ if TYPE_CHECKING:
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    first = c.rate(i)
-    return i - p.tau * first + p.tau**2 * c.rate(first)
+    return i + p.b * c.rate(c.rate(i))
 
 
 EFFECT = Effect(
     id="output-filter",
     title="Filter of the output",
     physics=(
-        "An anti-alias filter, common to the four accelerometers, delays and smooths G_out against the motion record "
-        "and the disc angle."
+        "Before it is recorded, G_out is averaged or low-passed. Of a filter whose delay has been allowed for, what is "
+        "left is its droop: it passes the harmonics of the spin less well than what is slow."
     ),
-    source="first-order low-pass, 1/(1 + tau s), before the output's converter",
-    equation=r"G_{out} \leftarrow G_{out}/(1 + \tau s)",
+    source=(
+        "Taylor series of a low-pass of linear phase: b is a 24th of the square of the averaging interval (1.6e-4 s^2 "
+        "for a sixteenth of a second), or half the square of a first-order filter's time constant"
+    ),
+    equation=r"G_{out} \leftarrow G_{out} + b\,\ddot G_{out}",
     limits=(
-        "Expanded to second order in tau: tau must be far below the time scale of the output (0.1 s). The lag of four "
-        "equal accelerometers is the same; filters of higher order differ in the second order alone."
+        "First order in b, for what is slow against the filter; b is positive. The delay itself is time-offset, but "
+        "for the disc angle's part of it, which beta_z absorbs."
     ),
     parameters=(
-        EffectParameter("tau", r"\tau", "s", "time constant of the output's filter", 1e-6, shared=True),
+        EffectParameter(
+            "b", "b", "s^2", "curvature of the filter's response at low frequencies", 1e-6, shared=True
+        ),
     ),
     transducer=transducer,
 )

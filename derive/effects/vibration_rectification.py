@@ -21,7 +21,7 @@ def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
     axes = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"]) * c.geometry.tau
     axes = sp.Matrix(3, 3, lambda m, n: c.tape.let(f"vibration_axis_{'iop'[m]}{'xyz'[n]}", axes[m, n]))
     P = sp.Matrix(3, 3, lambda m, n: p[f"P_{''.join(sorted('xyz'[m] + 'xyz'[n]))}"])
-    seen = axes * P * axes.T
+    seen = axes * c.in_disc_frame(P) * axes.T
     # Mean of Eq. 1 over force with the covariance ``seen`` along i, o, p: only second powers survive.
     return (
         i

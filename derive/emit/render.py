@@ -103,6 +103,11 @@ def chain_c(m: Chain) -> tuple[str, str]:
     return render("chain.h.j2", m=m), render("chain.c.j2", m=m)
 
 
+def plain_c(m: Chain) -> tuple[str, str]:
+    """Header and source of G_out alone, in the order of operations of the NumPy code."""
+    return render("plain.h.j2", m=m), render("plain.c.j2", m=m)
+
+
 def _trig(n: int, phase: str) -> str:
     return "1" if n == 0 else f"{phase}{n}"
 

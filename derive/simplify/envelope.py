@@ -12,7 +12,8 @@ from typing import Any
 import sympy as sp
 
 from derive.propagation import MOTION_NUMBERS, motion_numbers
-from derive.symbols import MOTION
+from derive.stages import Kinematics
+from derive.symbols import MOTION, SPIN_ACCELERATION, SPIN_RATE, symbol
 
 Vector = tuple[float, float, float]
 
@@ -44,6 +45,10 @@ class Envelope:
         Of the disc, Hz.
     allotted
         Error that one term may leave when it is dropped, Eo (Section II.B.1: 0.1 Eo).
+    kinematics
+        Whose rotation the accelerometers feel; in ``full`` kinematics the spin is part of the motion.
+    spin_acceleration
+        Of the disc angle, rad/s^2; 0: the spin is steady.
 
     Raises
     ------
@@ -73,10 +78,14 @@ class Envelope:
     imbalance: float
     spin_frequency: float
     allotted: float = 0.1
+    kinematics: Kinematics = "platform"
+    spin_acceleration: float = 0.0
 
     def __post_init__(self) -> None:
         for f in fields(self):
             value = getattr(self, f.name)
+            if isinstance(value, str):
+                continue
             for v in value if isinstance(value, tuple) else (value,):
                 if not (math.isfinite(v) and v >= 0):
                     raise ValueError(
@@ -116,13 +125,18 @@ class Envelope:
 
     def channel(self, name: str) -> Fraction:
         """Bound of a motion channel (a_x, omegadot_z, Gamma_xy ...)."""
+        if name == SPIN_RATE.name:
+            turn = 2 * math.pi * self.spin_frequency
+            return Fraction(turn) * (1 + Fraction(1, 2**50))  # above the exact product, whatever was rounded
+        if name == SPIN_ACCELERATION.name:
+            return Fraction(self.spin_acceleration)
         kind, _, axis = name.partition("_")
         value = getattr(self, kind)
         return Fraction(value if kind == "Gamma" else value["xyz".index(axis)])
 
     def motion(self) -> dict[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
-        return ranges(self.channel)
+        return ranges(self.channel, self.kinematics)
 
     def scaled(self, names: Sequence[str], factor: float) -> Envelope:
         """The envelope with these bounds multiplied by a factor."""
@@ -133,14 +147,16 @@ class Envelope:
         return replace(self, **changed)
 
 
-def ranges(bound: Callable[[str], Fraction | int]) -> dict[str, Fraction]:
+def ranges(
+    bound: Callable[[str], Fraction | int], kinematics: Kinematics = "platform"
+) -> dict[str, Fraction]:
     """Bounds of a, T and S by those of the motion channels (Eq. 16), which are independent.
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
     """
-    channels = [Fraction(bound(c.name)) for c in MOTION]
+    channels = [Fraction(bound(name)) for name in _channels(kinematics)]
     bounds = {}
-    for name, terms in _polynomials().items():
+    for name, terms in _polynomials(kinematics).items():
         low = high = Fraction(0)
         for powers, c in terms:
             size = abs(c) * product(channels, powers)
@@ -151,16 +167,20 @@ def ranges(bound: Callable[[str], Fraction | int]) -> dict[str, Fraction]:
     return bounds
 
 
+def _channels(kinematics: Kinematics) -> tuple[str, ...]:
+    spin = () if kinematics == "platform" else (SPIN_RATE.name, SPIN_ACCELERATION.name)
+    return (*(c.name for c in MOTION), *spin)
+
+
 @cache
-def _polynomials() -> dict[str, tuple[tuple[tuple[int, ...], Fraction], ...]]:
+def _polynomials(kinematics: Kinematics) -> dict[str, tuple[tuple[tuple[int, ...], Fraction], ...]]:
     """a, T and S as polynomials in the motion channels: powers and coefficient of each term."""
-    numbers = motion_numbers()
+    numbers = motion_numbers(kinematics)
+    channels = [symbol(n) for n in _channels(kinematics)]
     return {
         name: tuple(
             (powers, Fraction(int(c.p), int(c.q)))
-            for powers, c in sp.Poly(
-                numbers.get(name, sp.Symbol(name, real=True)), *(c.symbol for c in MOTION)
-            ).terms()
+            for powers, c in sp.Poly(numbers.get(name, symbol(name)), *channels).terms()
         )
         for name in MOTION_NUMBERS
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -96,6 +97,27 @@ def _context() -> dict[str, Any]:
             )
         ],
         "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
+        "full": [
+            (title, *_bound(e, m))
+            for title, e, m in (
+                ("paper's, Eq. 42 to 47", _in_full(PAPER_ENVELOPE), simplified()),
+                ("paper's, its own model", _in_full(PAPER_ENVELOPE), simplified(_in_full(PAPER_ENVELOPE))),
+                (
+                    "dynamic experiment, its own model",
+                    _in_full(DYNAMIC_EXPERIMENT),
+                    simplified(_in_full(DYNAMIC_EXPERIMENT)),
+                ),
+            )
+        ],
+        "order": [
+            (title, *_bound(e, collect(), collect(second)))
+            for title, e in (
+                ("paper's", PAPER_ENVELOPE),
+                ("paper's, full kinematics", _in_full(PAPER_ENVELOPE)),
+                ("dynamic experiment", DYNAMIC_EXPERIMENT),
+                ("dynamic experiment, full kinematics", _in_full(DYNAMIC_EXPERIMENT)),
+            )
+        ],
         "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
     }
 
@@ -246,8 +268,13 @@ def _extents() -> list[Row]:
     return result
 
 
-def _bound(envelope: Envelope, model: Collected) -> Row:
-    certificate = certified_bound(envelope, model)
+def _in_full(envelope: Envelope) -> Envelope:
+    """The envelope of an instrument that feels its disc turn, at a steady rate."""
+    return replace(envelope, kinematics="full")
+
+
+def _bound(envelope: Envelope, model: Collected, full: Collected | None = None) -> Row:
+    certificate = certified_bound(envelope, model, full)
     return (*(number(certificate.harmonics.get(n, Fraction(0))) for n in range(5)), number(certificate.exact))
 
 

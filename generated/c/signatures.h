@@ -33,7 +33,7 @@ extern "C" {
 
 #define RAGG_SIGNATURES_INPUTS 37
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 115
+#define RAGG_SIGNATURES_ROWS 124
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -125,8 +125,17 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   near-mass.T_xyz
  *   near-mass.T_yyy
  *   near-mass.T_yyz
+ *   near-mass.T_xxxx
+ *   near-mass.T_xxxy
+ *   near-mass.T_xxxz
+ *   near-mass.T_xxyy
+ *   near-mass.T_xxyz
+ *   near-mass.T_xyyy
+ *   near-mass.T_xyyz
+ *   near-mass.T_yyyy
+ *   near-mass.T_yyyz
  *   odd-quadratic.K_oq
- *   output-filter.tau
+ *   output-filter.b
  *   output-gain-step.g
  *   pendulum-angular.K_pa
  *   pressure-bias.dK0_dp

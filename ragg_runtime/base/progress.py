@@ -35,6 +35,16 @@ def step(amount: float) -> None:
 
 
 @contextlib.contextmanager
+def heard(tell: Callable[[float], None]) -> Iterator[None]:
+    """Let ``tell`` hear of every step that is done meanwhile; what it raises ends the work."""
+    token = _listener.set(tell)
+    try:
+        yield
+    finally:
+        _listener.reset(token)
+
+
+@contextlib.contextmanager
 def shown(command: str, samples: int) -> Iterator[None]:
     """Show how far ``command`` is with flights of so many ``samples``: a bar on a terminal, else a line now and then."""
     total = PASSES[command] * max(samples, 1)
@@ -48,11 +58,8 @@ def shown(command: str, samples: int) -> Iterator[None]:
             if time.monotonic() - start > QUIET:
                 show(min(done / total, 0.99))
 
-        token = _listener.set(tell)
-        try:
+        with heard(tell):
             yield
-        finally:
-            _listener.reset(token)
 
 
 @contextlib.contextmanager

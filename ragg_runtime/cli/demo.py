@@ -84,4 +84,5 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
     fell = f"{result.before.calibrated.rms_Eo:.3g} Eo to {result.after.calibrated.rms_Eo:.3g} Eo"
     print(f"\nThe error fell from {fell}; the noise is {result.after.noise_floor:.3g} Eo.")
     print(f"Reports: {output / 'diagnosis.html'}  {report}")
+    print(f"To see and touch all this: ragg studio {model} {flight}   (from a clone: make studio)")
     return report

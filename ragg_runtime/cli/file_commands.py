@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.outputs import Command, OutputFile, asked
 
 FILE = click.Path(path_type=Path)
 mapping_option = click.option(
@@ -14,7 +15,7 @@ mapping_option = click.option(
 )
 
 
-@click.command()
+@click.command(cls=Command)
 @click.argument("source", metavar="IN", type=FILE)
 @click.argument("target", metavar="OUT", type=FILE)
 @mapping_option
@@ -26,6 +27,8 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     from ragg_runtime.flight.convert import convert as _convert
     from ragg_runtime.flight.mapping import read_mapping
 
+    if mapping is not None and mapping.resolve() == target.resolve():
+        raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
     told = _convert(source, target, None if mapping is None else read_mapping(mapping))
     for note in told.notes:
         click.echo(printable(f"note: {note}"), err=True)
@@ -33,26 +36,27 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
     click.echo(printable(f"{target}: {lines}{told.rows} rows of {len(told.columns)} columns"))
 
 
-@click.command(name="map")
+@click.command(name="map", cls=Command)
 @click.argument("flight", type=FILE)
-@click.option("-o", "--output", type=FILE, metavar="mapping.toml", help="File to write (default: stdout).")
-def map_command(flight: Path, output: Path | None) -> None:
+@click.option(
+    "-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout)."
+)
+def map_command(flight: Path, output: str | None) -> None:
     """Write a first mapping for a foreign file: which column is what, in which unit, and how time is written.
 
     What the file does not say is marked with "?" and asked for: units are never guessed.
     """
-    from ragg_runtime.base.files import write_text
     from ragg_runtime.flight.guess import draft
 
     made = draft(flight)
     if output is None:
         click.echo(printable(made.text), nl=False)
     else:
-        if output.exists():
+        if Path(output).exists():
             raise UserError(
                 "the mapping exists already", where=output, remedy="choose another name or remove it first"
             )
-        write_text(output, made.text)
+        asked().write(output, made.text)
         click.echo(printable(f"{output}: written; look it over, then: --map {output}"), err=True)
     if made.questions:
         count = len(made.questions)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import json
 import math
-import os
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -20,6 +19,7 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.cli.boundary import hold_streams, refusal
 from ragg_runtime.cli.file_commands import convert, map_command, mapping_option
 from ragg_runtime.cli.outputs import STDOUT, Command, OutputFile, asked
 from ragg_runtime.cli.quality_command import qc
@@ -80,7 +80,7 @@ def _load(model_dir: Path) -> Loaded:
 
 def _notes(model_dir: Path, notes: Sequence[str]) -> None:
     for note in notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
 
 
 def _emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
@@ -101,7 +101,7 @@ def _write_report(file: str | None, make: Callable[[], str]) -> None:
     if file is not None:
         _progress("writing the report")
         asked().write(file, make())
-        click.echo(f"report: {file}", err=True)
+        click.echo(one_line(f"report: {file}"), err=True)
 
 
 @contextlib.contextmanager
@@ -154,7 +154,7 @@ def derive(out: Path | None, check: bool) -> None:
         return
     changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
     for name in changed:
-        click.echo(f"written: {root / name}")
+        click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
 
 
@@ -168,9 +168,10 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 
     m = loop.new(model_dir, source, mapping)
     for note in m.notes:
-        click.echo(printable(f"note: {model_dir}: {note}"), err=True)
-    click.echo(f"{m.directory.path}: made, effects: {', '.join(e.id for e in m.model.effects) or 'none'}")
-    click.echo(f"Edit {m.directory.path / 'model.toml'}, then: ragg compare {m.directory.path} FLIGHT")
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+    place, effects = one_line(str(m.directory.path)), ", ".join(e.id for e in m.model.effects)
+    click.echo(f"{place}: made, effects: {effects or 'none'}")
+    click.echo(f"Edit {place}/model.toml, then: ragg compare {place} FLIGHT")
 
 
 @cli.command()
@@ -193,6 +194,10 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @mapping_option
 @click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
+@click.option(
+    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
+)
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
 @_json
 @_report
 def compare(
@@ -200,6 +205,8 @@ def compare(
     flights: Sequence[Path],
     mapping: Path | None,
     ladder: bool,
+    frozen: bool,
+    calibration: str,
     json_file: str | None,
     report_file: str | None,
 ) -> None:
@@ -208,6 +215,11 @@ def compare(
     from ragg_runtime.workflow import loop
 
     m = _load(model_dir)
+    if frozen or calibration == "frozen":
+        from ragg_runtime.cli.after import compare_frozen
+
+        compare_frozen(m, flights, json_file, report_file)
+        return
     _progress(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights, mapping)
     _progress("calibrating and comparing")
@@ -396,7 +408,14 @@ def add(
             _emit(result.as_json() | origin, json_file, terminal.added(result, read))
 
     with progress.shown("add", sum(map(len, read))):
-        loop.add(m, effect, read, tell)
+        result = loop.add(m, effect, read, tell)
+    if not result.converged:
+        raise UserError(
+            "nothing was added: the model is as it was",
+            where=", ".join(x.name for x in read),
+            found=result.after.complaint if result.after else None,
+            remedy="see what else is missing: ragg diagnose; or what is wrong with the record",
+        )
 
 
 @cli.command()
@@ -528,6 +547,9 @@ def history(model_dir: Path, json_file: str | None) -> None:
 )
 @click.option("--sheet-error", type=_Finite(0.0), default=1.0, show_default=True,
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
+@click.option(
+    "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
+)
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any) -> None:
@@ -539,7 +561,7 @@ def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any
     _progress("flying")
     flight = simulated(m.instrument, hidden, **options)
     write_flight(flight, output)
-    click.echo(f"{output}: {len(flight.time)} samples at {flight.rate:g} Hz")
+    click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
 
 
 @cli.command()
@@ -558,24 +580,17 @@ cli.add_command(map_command)
 cli.add_command(qc)
 
 
-def _with_standard_streams() -> None:
-    """Descriptors that were closed are taken by what leads nowhere, lest a file that is opened become stderr."""
-    for handle in range(3):
-        try:
-            os.fstat(handle)
-        except OSError:
-            os.open(os.devnull, os.O_RDWR)  # takes the lowest that is free
-    if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w")  # noqa: SIM115 - as long as the process lives
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
-    _with_standard_streams()
+    hold_streams()
     try:
+        from ragg_runtime.cli import after
+        from ragg_runtime.cli.next_motion_command import next_motion
         from ragg_runtime.experiments.command import experiment
+        from ragg_runtime.studio.command import studio
 
-        cli.add_command(experiment)
+        for command in (experiment, studio, next_motion, *after.COMMANDS):
+            cli.add_command(command)
         reuse_memory()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
@@ -597,20 +612,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except KeyboardInterrupt:
         click.echo("ragg: interrupted; nothing was changed", err=True)
         sys.exit(130)
-    except Exception as error:
-        if isinstance(error, OSError) and error.errno is not None:
-            click.echo(printable(f"ragg: {_place_of(error)}{error.strerror}"), err=True)
-            sys.exit(2)
+    except OSError as error:
+        click.echo(f"ragg: {refusal(error)}", err=True)
+        sys.exit(2)
+    except Exception:
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)
-
-
-def _place_of(error: OSError) -> str:
-    if error.filename:
-        return f"{os.fsdecode(error.filename) if isinstance(error.filename, bytes) else error.filename}: "
-    try:
-        os.getcwd()
-    except OSError:
-        return "the working folder is gone: "
-    return ""

@@ -8,9 +8,10 @@ from pathlib import Path
 import click
 
 from ragg_runtime.cli.file_commands import FILE, mapping_option
+from ragg_runtime.cli.outputs import Command, OutputFile
 
 
-@click.command()
+@click.command(cls=Command)
 @click.argument("flights", type=FILE, nargs=-1, required=True)
 @mapping_option
 @click.option(
@@ -21,8 +22,12 @@ from ragg_runtime.cli.file_commands import FILE, mapping_option
 @click.option(
     "--limit", "limits", multiple=True, metavar="NAME=NUMBER", help="Another limit: in-line-sum=12."
 )
-@click.option("--json", "json_file", metavar="FILE", help="Write the result as JSON (- is stdout).")
-@click.option("--report", "report_file", metavar="FILE.html", help="Write a self-contained report.")
+@click.option(
+    "--json", "json_file", type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+@click.option(
+    "--report", "report_file", type=OutputFile(), metavar="FILE.html", help="Write a self-contained report."
+)
 def qc(
     flights: Sequence[Path],
     mapping: Path | None,

@@ -8,46 +8,22 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base.errors import one_line
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit import off_sheet
+from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.form import Form
-from ragg_runtime.model_dir.provenance import provenance
+from ragg_runtime.model_dir.history import calibrated_rms
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
-from ragg_runtime.workflow.loop import Added, Loaded
-
-
-def origin(
-    m: Loaded,
-    flights: Sequence[Flight],
-    command: str,
-    *,
-    files: Sequence[tuple[str, str | None]] = (),
-    before: Loaded | None = None,
-) -> dict[str, object]:
-    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
-
-    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
-    has changed.
-    """
-    made = provenance(
-        command,
-        m.directory,
-        flights,
-        m.model.digest,
-        files=files,
-        before=None if before is None else before.directory,
-    )
-    return {"notes": notes(m, flights), "provenance": made}
-
-
-def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
-    """What was done to model directory and flights, or looks odd in them."""
-    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]
+from ragg_runtime.workflow.loop import Added
+from ragg_runtime.workflow.origin import notes as notes
+from ragg_runtime.workflow.origin import origin as origin
 
 
 def _error(e: Error) -> str:
@@ -72,7 +48,26 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
     ]
 
 
+def _not_converged(complaint: str | None) -> list[str]:
+    return [] if complaint is None else [f"NOT CONVERGED: {complaint}"]
+
+
+def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
+    said = off_sheet.note(found)
+    return [] if said is None else [f"note: {said}"]
+
+
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
+
+
+def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+    """Errors, the first before anything was done, above the noise floor; why some have no value."""
+    return [
+        _HEAD,
+        *(f"{label:12} {_error(e)}" for label, e in rows),
+        f"{'noise floor':12} {noise:12.5g}",
+        *_missing([e for _, e in rows[1:]], flights),
+    ]
 
 
 def ladder(c: Comparison) -> list[str]:
@@ -108,15 +103,17 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
     lines = [
         f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
         f"{', '.join(e.id for e in f.model.effects) or 'none'}",
-        _HEAD,
-        f"{'nominal':12} {_error(c.nominal)}",
-        f"{'calibrated':12} {_error(c.calibrated)}",
-        f"{'held out':12} {_error(c.holdout)}",
-        f"{'noise floor':12} {c.noise_floor:12.5g}",
-        *_missing((c.calibrated, c.holdout), flights),
+        *errors_table(
+            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            c.noise_floor,
+            flights,
+        ),
         "",
+        *_not_converged(c.complaint),
+        *([] if c.remark is None else [f"note: {c.remark}"]),
         notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
         *ladder(c),
+        *_off_sheet(c.off_sheet),
     ]
     where: Any = c.as_json()["where"]
     if where["motion"]:
@@ -147,6 +144,8 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
     """The result of ``diagnose``."""
     lines = [
         notebook.verdict(d.verdict, d.found),
+        *_not_converged(d.complaint),
+        *([] if d.remark is None else [f"note: {d.remark}"]),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
         "",
         f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
@@ -173,6 +172,8 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
             ]
         if d.needs():
             lines.append(f"  and this into the flight: {'; '.join(d.needs())}")
+    if d.change is not None:
+        lines.append(f"\n  the model holds until {d.change.until:.6g} s of {d.change.flight}, not beyond")
     if d.next_motion:
         lines.append("\n  next motion:")
         lines += [f"  {p.in_words()}" for p in d.next_motion]
@@ -180,24 +181,24 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
-        lines += ["", f"next: ragg add {model_dir} {d.found[0]} FLIGHT"]
+        lines += ["", f"next: ragg add {one_line(str(model_dir))} {d.found[0]} FLIGHT"]
+    lines += _off_sheet(d.off_sheet)
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
 def added(a: Added, flights: Sequence[Flight] = ()) -> str:
     """The result of ``add``."""
-    lines = [f"added {a.effect}; effects: {', '.join(e.id for e in a.loaded.model.effects)}"]
+    done = f"added {a.effect}" if a.converged else f"{a.effect} was NOT added"
+    lines = [f"{done}; effects: {', '.join(e.id for e in a.loaded.model.effects) or 'none'}"]
     if a.before is not None and a.after is not None:
+        rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            _HEAD,
-            f"{'before':12} {_error(a.before.calibrated)}",
-            f"{'after':12} {_error(a.after.calibrated)}",
-            f"{'held out':12} {_error(a.after.holdout)}",
-            f"{'noise floor':12} {a.after.noise_floor:12.5g}",
-            *_missing((a.after.calibrated, a.after.holdout), flights),
+            *errors_table(rows, a.after.noise_floor, flights),
             "",
+            *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
+            *_off_sheet(a.after.off_sheet),
         ]
         lines += _parameters(a.parameters, a.combinations)
     lines += [f"note: {note}" for x in flights for note in x.notes]
@@ -210,8 +211,7 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
     for s in steps:
         values = []
         for key in ("before", "after"):
-            e = s[key]
-            calibrated = e.get("calibrated", e) if e else None
-            values.append(f"{calibrated['rms_Eo']:10.4g}" if calibrated else f"{'-':>10}")
+            rms = calibrated_rms(s[key])
+            values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
         lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
     return "\n".join(lines)

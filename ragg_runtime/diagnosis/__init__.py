@@ -1,3 +1,1 @@
-"""Comparison and diagnosis: the error of a model, what it lacks, and which flight would tell. May import
-evidence, lack_of_fit and below.
-"""
+"""Which physical effect a model lacks: the steps of the diagnosis."""

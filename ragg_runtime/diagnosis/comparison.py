@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
+from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns
+from ragg_runtime.fit import bursts, columns, convergence
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
-from ragg_runtime.fit.observation import as_output, observe
+from ragg_runtime.fit.observation import as_output, observations_of
+from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
 from ragg_runtime.flight import Flight
@@ -29,6 +31,10 @@ from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
+
+
+LOUD = 1.15
+"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,6 +50,14 @@ class Comparison:
     remainder: Remainder
     nominal_values: Array
     ladder: tuple[Rung, ...] = ()
+    complaint: str | None = None
+    remark: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration has arrived at an optimum; if not, ``complaint`` says why."""
+        return self.complaint is None
 
     @property
     def calibrated(self) -> Error:
@@ -86,8 +100,8 @@ class Comparison:
         records = [o.record for o in f.observations]
         return {
             "effects": [e.id for e in f.model.effects],
-            "samples": int(sum(len(r.time) for r in records)),
-            "duration_s": float(sum(r.time[-1] + 1 / r.rate for r in records)),
+            "samples": int(sum(len(o.record.time) for o in f.flights)),
+            "duration_s": float(sum(o.record.time[-1] + 1 / o.record.rate for o in f.flights)),
             "rate_Hz": float(records[0].rate),
             "error": {
                 "nominal": self.nominal.as_json(),
@@ -95,6 +109,9 @@ class Comparison:
                 "holdout": self.holdout.as_json(),
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "converged": self.converged,
+            "reason": self.complaint or self.remark,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "adequate": self.adequate,
             "where": {
                 "harmonics": self.harmonics,
@@ -102,6 +119,16 @@ class Comparison:
                 "motion": self.terms(),
             },
             **({"ladder": [r.as_json() for r in self.ladder]} if self.ladder else {}),
+            **self._of_outputs(),
+        }
+
+    def _of_outputs(self) -> dict[str, object]:
+        """Of an instrument with several outputs each of them, and what they say together."""
+        if len(self.fitted.instrument.layout.outputs) == 1:
+            return {}
+        return {
+            "outputs": several_outputs.errors(self.fitted, self.residual),
+            "together": [t.as_json() for t in several_outputs.together(self.fitted)],
         }
 
     @cached_property
@@ -116,11 +143,11 @@ class Comparison:
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
         rows: list[dict[str, object]] = []
-        for x, blocks in zip(self.fitted.flown, self.scored.blocks, strict=True):
+        for x, blocks, k_ggi in zip(self.fitted.flown, self.scored.blocks, self.fitted.scales, strict=True):
             time = x.observation.record.time
             for b, volts in enumerate(blocks):
                 if np.isfinite(volts):
-                    rms = float(volts) / self.fitted.k_ggi
+                    rms = float(volts) / k_ggi
                     rows.append(
                         {
                             "flight": x.observation.name,
@@ -135,9 +162,10 @@ class Comparison:
 
 def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
-    total = dict.fromkeys(harmonics(), 0.0)
+    turning = any(x.observation.record.turning for x in f.flown)
+    total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
     counted = 0
-    for x in f.flown:
+    for x, k_ggi in zip(f.flown, f.scales, strict=True):
         rate = x.observation.record.rate
         taps = low_pass(rate)
         if len(x.observation.record.time) < 2 * len(taps):
@@ -147,9 +175,9 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
         lean, v = x.for_residuals(coefficients[None], f.n_base)
         tail = np.empty((len(total), 0))
 
-        def mix(piece: Piece, v: Array = v) -> Array:
+        def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:
             r = piece.observation.record
-            e = np.where(r.valid, piece.left(v)[0], 0.0) / f.k_ggi
+            e = np.where(r.valid, piece.left(v)[0], 0.0) / k_ggi
             return np.stack([e * carrier(r, h) * (1 if h == "const" else 2) for h in total])
 
         for mixed in lean.each(mix, whitened=False):
@@ -175,29 +203,77 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
 @one_thread
 def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
     """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
-    f = fit(model, instrument, [observe(x, instrument) for x in flights])
-    p = vector(model, instrument)
+    observations = observations_of(flights, instrument)
+    f = fit(model, instrument, observations)
+    calibrated, half, nominal = _three_scores(f)
+    if calibrated.whole.rms_V > nominal.whole.rms_V:
+        # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
+        f = fit(model, instrument, observations, f.calibration.noise, plain=True)
+        calibrated, half, nominal = _three_scores(f)
+    return concluded(f, nominal.whole, calibrated, half.held_out)
+
+
+def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
+    """As calibrated, as fitted to half of the record, and with model.toml's values as they are."""
     half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out, nominal = f.score(
-        [f.vector(np.zeros(f.n_base)), f.vector(half)], lambda x: nominal_residual(f, p, x)[None], 1
-    )
+    calibrated, held_out, nominal = errors(f, [np.zeros(f.n_base), half])
+    return calibrated, held_out, nominal
+
+
+def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
+    """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
+    p = vector(f.model, f.instrument)
+    return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
+
+
+def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
+    """Search what is left, and say whether the model is adequate."""
     rem = remainder(f)
     available = testable_effects(f)
     choice = selection.choose(field_of(f, available)) if available else None
-    adequate = not rem.significant and not (choice and choice.chosen)
-    return Comparison(f, nominal.whole, calibrated, held_out.held_out, noise_floor(f), adequate, rem, p)
+    complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
+    noise = noise_floor(f)
+    quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
+    adequate = quiet and not rem.significant and not (choice and choice.chosen)
+    return Comparison(
+        fitted=f,
+        nominal=nominal,
+        scored=calibrated,
+        holdout=holdout,
+        noise_floor=noise,
+        adequate=adequate,
+        remainder=rem,
+        nominal_values=vector(f.model, f.instrument),
+        complaint=complaint,
+        remark=disturbed(f),
+        off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
+    )
+
+
+def disturbed(f: Fitted) -> str | None:
+    """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
+    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.flown]
+    said = [
+        text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
+        for x, text in zip(f.flown, found, strict=True)
+        if text is not None
+    ]
+    return "; ".join(said) or None
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values."""
     o = piece.observation
-    predicted = columns.observed(o, voltages(f.model.chain, o.record, p), None)
+    predicted = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
     return as_output(o, np.where(o.record.valid, o.data - predicted, 0.0))
 
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
     """(time, inline, cross) of every flight's residual, s and Eo."""
-    return [
-        channels(e, x.observation.record, f.k_ggi, x.observation.record.valid)
-        for x, e in zip(f.flown, residuals, strict=True)
-    ]
+    return [demodulated_one(f, n, e) for n, e in enumerate(residuals)]
+
+
+def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
+    """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
+    r = f.flown[flight].observation.record
+    return channels(x, r, f.scales[flight], r.valid)

@@ -2,6 +2,7 @@
 
 1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
 2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
+   Strong ones are derived into the model one after the other, and everything is done anew (``diagnosis.strong``).
 3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
    nonlinear again; search the remainder for anything else. Several effects must do as well as
    any one generic term.
@@ -11,26 +12,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis import next_motion
-from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes
+from ragg_runtime.diagnosis import comparison, next_motion, strong
+from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.diagnosis.step_scan import _with_steps
-from ragg_runtime.evidence import selection
+from ragg_runtime.diagnosis.strong import Extend, Stage
+from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import columns as design
+from ragg_runtime.fit import convergence, prepared
 from ragg_runtime.fit import fitted as fitted_
-from ragg_runtime.fit import prepared
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_values import quantisation, saturation
@@ -42,9 +45,6 @@ from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
-
-Extend = Callable[[Model, Sequence[str]], Model]
-"""Derives a model with further effects (given by the caller: this module cannot derive)."""
 
 
 @one_thread
@@ -67,7 +67,7 @@ def diagnose(
     limits
         Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = [observe(x, instrument) for x in flights]
+    observations = observations_of(flights, instrument)
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 
@@ -81,11 +81,11 @@ def diagnose_fitted(
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
     output = _output_effects(f, flights)
-    field, f, instants = _with_steps(f)
-    choice = selection.choose(field)
+    first = Stage.of(f)
+    steps, last = strong.taken(first, extend)
+    f, field, choice = last.fitted, last.field, last.choice
     chosen = list(choice.chosen)
     given = [n for e in chosen for n, _ in field.candidates[e]]
-    ranking, before = _ranking(f, field, choice, instants, output)
     final = _confirmed(f, chosen, extend)
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
@@ -96,36 +96,67 @@ def diagnose_fitted(
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     target = f if final is None else final
     v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
-    (after,) = target.score([v])
-    noise = fitted_.noise_floor(f)
-    if rem.significant or after.whole.rms_Eo > LOUD * noise:
+    extra = given if final is None else ()
+    half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
+    after, held_out = target.score([v, half])
+    noise = fitted_.noise_floor(target)
+    complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
+    # noise that follows the motion is louder where the motion is: a random effect says so itself
+    loud = after.whole.rms_Eo > comparison.LOUD * noise and not random_found
+    if complaint is not None or rem.significant or loud:
         verdict, found = "unexplained", []
     else:
-        found = [*chosen, *(e for _, e in random_found[:1]), *output]
+        found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
-
     explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
     whitened = sum(s.square for s in rem.searches)
+    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
+    ranking += _ranked_random(f, random, before)
+    if steps:
+        later, _ = _ranking(f, field, choice, last.instants, ())
+        ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+    credence = weighed(last.field, steps)
+    ranking = [with_probability(r, credence) for r in ranking]
+    groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     return Diagnosis(
-        verdict,
-        f,
-        tuple(sorted([*ranking, *_ranked_random(f, random, before)], key=_place(choice))),
-        tuple(found),
-        tuple(_not_testable(f, field)),
-        rem if rem.significant else _without_terms(rem),
-        explained / whitened if whitened else 0.0,
-        before,
-        after,
-        noise,
-        tuple(_sizes(f, field)),
-        target,
-        v,
-        tuple(next_motion.proposals(f, field, next_motion.pairs_of(selection.rivals(field, choice)), limits)),
+        verdict=verdict,
+        fitted=first.fitted,
+        ranking=tuple(sorted(ranking, key=_place([*(t.effect for t in steps), *chosen]))),
+        found=tuple(found),
+        not_testable=tuple(_not_testable(first.fitted, first.field)),
+        remainder=rem if rem.significant else _without_terms(rem),
+        remainder_share=explained / whitened if whitened else 0.0,
+        before=before,
+        scored=after,
+        noise_floor=noise,
+        sizes=tuple(_sizes(first.fitted, first.field)),
+        target=target,
+        coefficients=v,
+        next_motion=tuple(
+            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
+        ),
+        complaint=complaint,
+        remark=comparison.disturbed(target),
+        credible_set=credence.credible,
+        holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
+        staged=bool(steps),
+        off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )
 
 
-LOUD = 1.15
-"""Error over the noise from which the residual is not down to noise, whatever the tests of what is left say."""
+def _followed(
+    target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
+) -> sequential.Evidence | None:
+    """From when on the model no longer holds; a step that is found is such an instant itself."""
+    if target.observations[0].kind == "channels":
+        return None  # neighbouring samples of a demodulated channel are not independent
+    followed = sequential.evidence(target)
+    for effect, instant in instants:
+        if effect in found and instant is not None:
+            name = target.observations[0].name
+            change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
+            return replace(followed, change=change)
+    return followed
 
 
 def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
@@ -216,9 +247,10 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Saturation and quantisation of a recorded output, recognised in its values."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
-    for x, w in zip(flights, f.flown, strict=True):
+    first = (w for w in f.flown if w.observation.place == f.flown[0].observation.place)
+    for x, w in zip(flights, first, strict=True):
         for name, series in x.outputs.items():
-            if name not in ("G_out", "V_1", "V_2", "V_3", "V_4"):
+            if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
             if "saturation" in known and saturation(series, valid):

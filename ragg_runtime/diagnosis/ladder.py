@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import as_output, observe
+from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
@@ -72,7 +72,7 @@ def climb(
     instrument: Instrument, flights: Sequence[Flight], model_in: Callable[[Form], Model]
 ) -> tuple[Rung, ...]:
     """Hold the flights against the model in every form; ``model_in`` derives it."""
-    observations = [observe(x, instrument) for x in flights]
+    observations = observations_of(flights, instrument)
     rungs: list[Rung] = []
     below: tuple[Model, Array] | None = None
     for form in forms(instrument.form):
@@ -87,10 +87,12 @@ def climb(
 def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
     def further(piece: Piece) -> Array:
         o = piece.observation
-        here = columns.observed(o, voltages(f.model.chain, o.record, p), None)
+        here = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
         found = [o.data - here]
         if below is not None:
-            found.append(here - columns.observed(o, voltages(below[0].chain, o.record, below[1]), None))
+            found.append(
+                here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
+            )
         return np.stack([as_output(o, np.where(o.record.valid, x, 0.0)) for x in found])
 
     count = 1 if below is None else 2

@@ -9,7 +9,7 @@ recorded beside the present flights.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,7 @@ from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
-from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import triangle, with_prior
-from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
@@ -40,6 +38,9 @@ SIMULATED = 96.0
 
 DURATION = 600.0
 """Length of the motion that is proposed, s; information grows with it."""
+
+AT_REST = 0.25
+"""What counts as the spin frequency of a disc that stands still, Hz: the paper's."""
 
 RIVALS = 3
 """Most rivals of an effect for which a motion is sought."""
@@ -115,7 +116,8 @@ def proposals(
         rows = np.vstack([f.whole, _rows(f, motion, places)])
         return [_separation(rows, f.n_base, field, signals[e], r) for e, r in known]
 
-    spin, rate = f.instrument.spin_frequency, f.flown[0].observation.record.rate
+    first = f.flown[0].observation.record
+    spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
     motions = [
         (axis, ratio, limits["a" if axis.startswith("a_") else "omega"])
         for axis in AXES
@@ -164,7 +166,7 @@ def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
     channels = {
         name: np.full(n, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         for name, x in first.channels.items()
-        if name != "spin_angle"
+        if not name.startswith("spin_angle")
     }
     if motion is not None:
         axis, frequency, amplitude = motion
@@ -173,8 +175,8 @@ def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
         if axis.startswith("omega_"):
             rate = f"omegadot_{axis[-1]}"
             channels[rate] = channels[rate] + 2 * np.pi * frequency * amplitude * np.cos(phase)
-    r = Record(time, channels, o.record.rate, np.ones(n, dtype=np.bool_), f.instrument.spin_frequency)
-    made = Observation(o.kind, r, (np.zeros(n),) * len(o.series), "motion")
+    r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
+    made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
     columns = linearised(flown.at, made)
     white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
     T = np.zeros((len(places), len(columns)))

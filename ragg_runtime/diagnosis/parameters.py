@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.fit.columns import Column
+from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
 from ragg_runtime.model.model import Model
 
@@ -36,9 +37,9 @@ PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
 
 @dataclass(frozen=True)
 class ParameterValue:
-    """A fitted parameter, or a combination of the four, in its display unit.
+    """A fitted parameter, or a combination of accelerometers', in its display unit.
 
-    ``weights`` (4,) say what a combination is: the sum of weight times value over the accelerometers; empty for a
+    ``weights`` (n,) say what a combination is: the sum of weight times value over the accelerometers; empty for a
     parameter by itself.
     """
 
@@ -61,7 +62,7 @@ class ParameterValue:
 
 
 def gains(model: Model, p: Array, name: str) -> Array:
-    """(4,) weight of each accelerometer in G_out for a parameter of this name, over their mean.
+    """(n,) weight of each accelerometer in G_out for a parameter of this name, over their mean.
 
     Bias and coefficients act through k_VI K1 of their accelerometer (Eq. 1). The paper's D^12_{K1 K0} holds K1 for that
     reason, and so must a combination here: scale factors differ, by 1e-4 or by a tenth, where a difference is seen a
@@ -94,19 +95,28 @@ def own_name(c: Column) -> str:
     return c.name.split(".", 1)[1] if c.effect else c.name
 
 
-def patterns(columns: Sequence[Column], weight: Array) -> Iterator[tuple[str, Array]]:
-    """Name and (4,) weights of the combinations of a parameter's four columns, in its display unit.
+def patterns(columns: Sequence[Column], weight: Array, layout: Layout = PAPER) -> Iterator[tuple[str, Array]]:
+    """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit.
 
-    ``weight`` are its :func:`gains`.
+    ``weight`` are its :func:`gains`. Of another layout than the paper's they are what its outputs' harmonics make of
+    Eq. 18-19: sums of signs times cos and sin of n times the angle on the disc, named by their harmonic.
     """
-    for pattern, signs in PATTERNS:
+    for pattern, signs in PATTERNS if layout.like_paper else _harmonics(layout):
         yield f"{pattern} {own_name(columns[0])}", np.array(signs) * weight
+
+
+def _harmonics(layout: Layout) -> Iterator[tuple[str, tuple[float, ...]]]:
+    for o in layout.outputs:
+        for harmonic, weights in o.patterns:
+            w = np.zeros(layout.size)
+            w[list(o.members)] = weights
+            yield f"{o.name} {harmonic}", tuple(float(x) for x in w)
 
 
 def visible_combinations(
     model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
 ) -> list[ParameterValue]:
-    """The combinations of four values (in scales) that the record sees, where it does not see each of them by itself.
+    """The combinations of accelerometers' values (in scales) that the record sees, where it does not see each of them by itself.
 
     ``p`` is the model's parameter vector, for the accelerometers' :func:`gains`.
     """
@@ -114,11 +124,11 @@ def visible_combinations(
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
         block = covariance[np.ix_(at, at)]
-        if len(at) != 4 or np.all(np.diag(block) < SEEN**2):
+        if len(at) != model.layout.size or np.all(np.diag(block) < SEEN**2):
             continue
-        four = [columns[k] for k in at]
-        factor = np.array([c.scale / c.unit_factor for c in four])
-        for label, weights in patterns(four, gains(model, p, name)):
+        each = [columns[k] for k in at]
+        factor = np.array([c.scale / c.unit_factor for c in each])
+        for label, weights in patterns(each, gains(model, p, name), model.layout):
             w = weights * factor  # of values in scales
             std = float(np.sqrt(max(0.0, float(w @ block @ w))))
             if std < SEEN * float(np.linalg.norm(w)):
@@ -128,7 +138,7 @@ def visible_combinations(
                         accelerometer=None,
                         value=float(w @ values[at]),
                         std=std,
-                        unit=four[0].unit,
+                        unit=each[0].unit,
                         weights=tuple(float(x) for x in weights),
                     )
                 )

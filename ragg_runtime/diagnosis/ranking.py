@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.strong import Taken
 from ragg_runtime.evidence import likelihood_ratio, selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
@@ -32,6 +33,7 @@ class Ranked:
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
     indistinguishable_from: tuple[str, ...]
+    probability: float = 0.0
 
     @property
     def p_value(self) -> float:
@@ -46,6 +48,7 @@ class Ranked:
             "chi2": finite(self.chi2),
             "rank": self.rank,
             "delta_bic": finite(self.delta_bic),
+            "probability": self.probability,
             "error_before": self.before.as_json(),
             "error_after": self.after.as_json(),
             "error_after_holdout": self.after_holdout.as_json(),
@@ -64,7 +67,7 @@ class NotTestable:
 
 
 def _ranking(
-    f: Fitted, field: Field, choice: Choice, instants: dict[str, float], output: Sequence[str]
+    f: Fitted, field: Field, choice: Choice, instants: Mapping[str, float], output: Sequence[str]
 ) -> tuple[list[Ranked], Error]:
     """Every testable effect with the evidence for it alone, and the error without any."""
     rivals = selection.rivals(field, choice)
@@ -116,9 +119,47 @@ def _ranked_random(f: Fitted, random: dict[str, Test], before: Error) -> list[Ra
     ]
 
 
-def _place(choice: Choice) -> Callable[[Ranked], tuple[int, float, str]]:
+def staged(
+    steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
+) -> list[Ranked]:
+    """The ranking where effects were derived into the model one after the other: each of them with what the model, with
+    those before it in, leaves without and with it; the rest as they stand against the model as it was.
+    """
+    found = [_ranked_taken(t, target) for t in steps] + list(chosen)
+    names = {r.effect for r in found}
+    return [*found, *(r for r in others if r.effect not in names)]
+
+
+def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
+    (before,) = t.before.score([np.zeros(t.before.size)])
+    half = t.after.vector(t.after.coefficients((), held_out=True)[0])
+    after, held_out = t.after.score([np.zeros(t.after.size), half])
+    c = target.calibration
+    own = [n for n, q in enumerate(c.columns) if q.effect == t.effect]
+    columns = [c.columns[n] for n in own]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
+    covariance = c.covariance[np.ix_(own, own)]
+    parameters = parameter_values(columns, values, covariance)
+    if t.instant is not None:
+        parameters.append(ParameterValue("t_step", None, t.instant, 0.0, "s"))
+    return Ranked(
+        effect=t.effect,
+        log_p=t.test.log_p,
+        chi2=t.test.chi2,
+        rank=t.test.rank,
+        delta_bic=float(t.test.chi2 - t.test.rank * np.log(c.rows)),
+        before=before.whole,
+        after=after.whole,
+        after_holdout=held_out.held_out,
+        parameters=tuple(parameters),
+        combinations=tuple(visible_combinations(target.model, c.p, columns, values, covariance)),
+        indistinguishable_from=t.rivals,
+    )
+
+
+def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
     """Order of the ranking: chosen effects as they were chosen, then by significance."""
-    order = {e: n for n, e in enumerate(choice.chosen)}
+    order = {e: n for n, e in enumerate(chosen)}
     return lambda r: (order.get(r.effect, len(order)), r.log_p, r.effect)
 
 

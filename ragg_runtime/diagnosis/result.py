@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.next_motion import Proposal
 from ragg_runtime.diagnosis.ranking import NotTestable, Ranked
+from ragg_runtime.evidence.sequential import Change, Evidence
 from ragg_runtime.fit.fitted import Fitted, Scored
+from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.lack_of_fit import as_effect
 from ragg_runtime.lack_of_fit.features import channel_unit
@@ -39,6 +41,23 @@ class Diagnosis:
     target: Fitted
     coefficients: Array
     next_motion: tuple[Proposal, ...]
+    complaint: str | None = None
+    remark: str | None = None
+    off_sheet: tuple[OffSheet, ...] = ()
+    credible_set: tuple[tuple[str, ...], ...] = ((),)
+    holds: Evidence | None = None
+    staged: bool = False
+    """Whether what was found was derived into the model one after the other."""
+
+    @property
+    def converged(self) -> bool:
+        """Whether the calibration with what was chosen in the model has arrived; if not, ``complaint`` says why."""
+        return self.complaint is None
+
+    @property
+    def change(self) -> Change | None:
+        """Where the model ceased to hold, if it held in the beginning."""
+        return None if self.holds is None else self.holds.change
 
     @property
     def after(self) -> Error:
@@ -98,6 +117,9 @@ class Diagnosis:
     def as_json(self) -> dict[str, object]:
         return {
             "verdict": self.verdict,
+            "converged": self.converged,
+            "reason": self.complaint or self.remark,
+            "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
@@ -110,6 +132,9 @@ class Diagnosis:
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "credible_set": [list(s) for s in self.credible_set],
+            "holds_until_s": None if self.change is None else self.change.until,
+            "holds_until_flight": None if self.change is None else self.change.flight,
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
         }

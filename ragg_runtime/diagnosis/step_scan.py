@@ -1,4 +1,4 @@
-"""Steps at unknown instants among the candidates."""
+"""Steps at an unknown instant: the most likely instant of each, and their columns from there on."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ragg_runtime.fit.segments import BLOCKS
 Array = NDArray[np.float64]
 
 
-def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
+def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
     """The field of all deterministic candidates, steps at their most likely instant among them.
 
     Returns the field, the flights with the steps' columns put in, and the instants by effect, s. A step that no column
@@ -61,7 +61,7 @@ def _with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[
     if exact and not quiet:
         noise = estimate_noise(replace(x.at, instants=exact), x.observation)
         calmer = fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
-        return _with_steps(calmer, quiet=True)
+        return with_steps(calmer, quiet=True)
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
         triangles, sums = prepared.blocks(x)

@@ -90,7 +90,7 @@ def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
         sets = list(combinations(best, size))
         for s, value in zip(sets, _evidence(sets), strict=True):
             found[tuple(sorted(b.effect for b in s))] = [float(value) + size * odds]
-    return _summed({s: float(logsumexp(v)) for s, v in found.items()}, effects)
+    return summed({s: float(logsumexp(v)) for s, v in found.items()}, effects)
 
 
 def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:
@@ -141,7 +141,8 @@ def _evidence(sets: Sequence[tuple[_Block, ...]]) -> Array:
     return averaged
 
 
-def _summed(logs: Mapping[tuple[str, ...], float], effects: Sequence[str]) -> Probabilities:
+def summed(logs: Mapping[tuple[str, ...], float], effects: Sequence[str]) -> Probabilities:
+    """What logarithms of weights of sets say of each effect."""
     top = max(logs.values())
     kept = {s: v for s, v in logs.items() if v > top - KEPT}
     total = float(logsumexp(list(kept.values())))

@@ -1,3 +1,1 @@
-"""Fits: the columns of a model, whitened, as triangles; calibration and its score. May import model, flight,
-signals and below.
-"""
+"""Fitting a model to flights: nonlinear least squares on the triangles of whitened columns."""

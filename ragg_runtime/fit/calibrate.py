@@ -7,8 +7,8 @@ sheet puts them, because each parameter has a prior as wide as its plausible siz
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,8 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.noise import estimate_noise, spread
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.square_root import Linear, join, triangle, with_prior
+from ragg_runtime.fit.square_root import join, triangle, with_prior
+from ragg_runtime.fit.trust_region import Linear, Minimum, minimise
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -27,12 +28,20 @@ from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
 
 Array = NDArray[np.float64]
 
-REACH = 5.0
-"""Farthest that a parameter is fitted from its nominal value, in scales."""
+MISFIT = 1.1
+"""Power of what is left, over that of the noise, from which it is more than noise: then how the noise is coloured says
+nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
-SETTLED = 0.01, 2e-3
-"""The step of a fit is its last if it gains less chi-square than this, or moves no parameter by this many scales: what
-is quadratic in so small a step is below the noise of any record."""
+LEAN = 4.0
+"""There a sample counts as exact to what is left over this: the sheet's word weighs so little that the rms is within 1 %
+of what it would be without it where parameters move by less than a hundred scales, and enough to keep the fit in the
+neighbourhood of the sheet, where the model holds."""
+
+ROUNDS = 4
+"""Most times that a fit of what is loud is made with what the one before has left."""
+
+FALLING = 0.9
+"""Factor below which what is left must have fallen for another one."""
 
 WHITE_SEGMENTS = 4
 """Most segments on which the first fit, with noise still taken as white, is made."""
@@ -49,11 +58,17 @@ class Calibration:
     columns, index
         The fitted parameters and their places in ``p``.
     covariance
-        (n, n) of the fitted parameters in units of their scales, prior included.
+        (n, n) of the fitted parameters in units of their scales, prior included; where more than noise is left, what
+        is left counts as noise.
     noise
         Noise of every flight.
     rows
         Whitened samples in the fit.
+    chi2, excess
+        Chi-square where the fit ended, prior included; and that of the data alone over their number (of a fit of what is
+        loud, in what it counted as noise).
+    converged, reason
+        Whether the fit ended at an optimum, and in words why it ended.
     """
 
     p: Array
@@ -62,6 +77,140 @@ class Calibration:
     covariance: Array
     noise: tuple[Noise, ...]
     rows: int
+    chi2: float
+    excess: float
+    converged: bool
+    reason: str
+
+
+@dataclass(frozen=True)
+class _Fall(Linear):
+    """A fit linearised about a point, and sums over all samples.
+
+    Attributes
+    ----------
+    data
+        (n + 1, n + 1): triangle [base | residual], without the prior.
+    to_nominal
+        (n,): the prior's centre as seen from the point, in scales.
+    sums
+        Place of an output among the layout's -> (n + 1,), V: of the columns of G_out and of its residual.
+    square
+        Sum of squares of the residual of G_out, V^2.
+    rows
+        Whitened samples.
+    """
+
+    data: Array
+    to_nominal: Array
+    sums: Mapping[int, Array]
+    square: float
+    rows: int
+
+    @property
+    def excess(self) -> float:
+        """Chi-square of the data over their number."""
+        return float(self.data[:, -1] @ self.data[:, -1]) / max(self.rows, 1)
+
+    def over(self, size: float) -> _Fall:
+        """The same with a noise so many times as large."""
+        fall = _linear(self.data / size, self.to_nominal)
+        rest = fall.rest if np.isfinite(self.rest) else np.inf
+        return replace(self, R=fall.R, y=fall.y, rest=rest, data=self.data / size)
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What is fitted: chi-square as a function of the parameters' distance x (n,) from the sheet, in scales."""
+
+    model: Model
+    instrument: Instrument
+    observations: Sequence[Observation]
+    nominal: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
+
+    @staticmethod
+    def of(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> _Task:
+        found = design.base_columns(model, instrument)
+        columns = tuple(c for c, _ in found)
+        index = np.array([i for _, i in found])
+        return _Task(model, instrument, observations, vector(model, instrument), columns, index)
+
+    @property
+    def scale(self) -> Array:
+        return np.array([c.scale for c in self.columns])
+
+    def vector(self, x: Array) -> Array:
+        """Parameter vector, SI."""
+        p = self.nominal.copy()
+        p[self.index] += x * self.scale
+        return p
+
+    def at(self, x: Array, noise: Sequence[Noise], most: int | None = None) -> _Fall:
+        """Linearised about x; of at most ``most`` segments of every flight."""
+        p = self.vector(x)
+        places = {o.place for o in self.observations}
+        if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
+            return self._nowhere(x)
+        point = Point(self.model, self.instrument, p, with_candidates=False)
+        triangles, rows, square = [], 0, 0.0
+        sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
+        for o, n in zip(self.observations, noise, strict=True):
+            chosen = None if most is None else spread(flight_segments(o), most)
+            for T, count, part, left in passed(point, o, n, _triangle, chosen=chosen):
+                triangles.append(T)
+                rows += count
+                sums[o.place] += part
+                square += left
+        data = join(triangles)
+        if not np.isfinite(data).all():
+            return self._nowhere(x)
+        fall = _linear(data, -x)
+        return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, square, rows)
+
+    def noise(self, x: Array) -> list[Noise]:
+        """Noise of every flight from what nothing explains about x."""
+        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        return [estimate_noise(everything, o) for o in self.observations]
+
+    def _nowhere(self, x: Array) -> _Fall:
+        """A point at which the model is no instrument: infinitely far from any record."""
+        n = len(x)
+        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, {}, np.inf, 1)
+
+
+@dataclass(frozen=True)
+class _Plain:
+    """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
+
+    task: _Task
+    most: int | None = None
+    _tried: dict[bytes, _Fall] = field(default_factory=dict)
+
+    def volts(self, x: Array) -> _Fall:
+        """Linearised about x, a noise of 1 V."""
+        key = x.tobytes()
+        if key not in self._tried:
+            while len(self._tried) > 1:
+                self._tried.pop(next(iter(self._tried)))
+            unit = [_white(o, 1.0) for o in self.task.observations]
+            self._tried[key] = self.task.at(x, unit, self.most)
+        return self._tried[key]
+
+    def fit(self, x: Array, size: float) -> Minimum[_Fall]:
+        """From x with noise of this size, V."""
+        return minimise(lambda at: self.volts(at).over(size), x)
+
+    def left(self, x: Array) -> float:
+        """rms of the outputs' residual at x, V."""
+        at = self.volts(x)
+        return float(np.sqrt(at.excess))
+
+    def promised(self, x: Array) -> float:
+        """rms that a linear fit from x would leave, V."""
+        at = self.volts(x)
+        return float(abs(at.data[-1, -1])) / float(np.sqrt(at.rows))
 
 
 def fit(
@@ -71,61 +220,82 @@ def fit(
     *,
     start: Array | None = None,
     noise: Sequence[Noise] | None = None,
-    iterations: int = 6,
+    plain: bool = False,
 ) -> Calibration:
-    """Gauss-Newton on all flights at once, from the nominal values or from ``start``.
+    """Least squares on all flights at once, from the nominal values or from ``start``.
 
-    The model is so nearly linear in its parameters that two or three steps suffice. The noise is first
-    taken as white; once the fit has settled it is estimated from what nothing explains, and the fit is
-    repeated with every column whitened. In the end the null biases take the residual's mean (``design.levelled``).
+    First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
+    estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
+    than noise (or ``plain`` is asked for), unwhitened still (:data:`LEAN`). In the end the null biases take the
+    residual's mean (``design.levelled``).
     """
-    nominal = vector(model, instrument)
-    p = nominal.copy()
-    found = design.base_columns(model, instrument)
-    columns = tuple(c for c, _ in found)
-    index = np.array([i for _, i in found])
-    scale = np.array([c.scale for c in columns])
-    begun = nominal if start is None else start
-    away = np.clip((begun[index] - nominal[index]) / scale, -REACH, REACH)
-    p[index] = nominal[index] + away * scale
-    known = list(noise) if noise is not None else None
-    eotvos = scale_factor(model.chain, nominal)
-    white = [_white(o, eotvos) for o in observations]
-    for iteration in range(iterations):
-        at = Point(model, instrument, p.copy(), with_candidates=False)
-        triangles, rows, sums = [], 0, np.zeros(len(columns) + 1)
-        for k, o in enumerate(observations):
-            noise_k, chosen = (
-                (white[k], spread(flight_segments(o), WHITE_SEGMENTS)) if known is None else (known[k], None)
-            )
-            for T, count, part in passed(at, o, noise_k, _triangle, chosen=chosen):
-                rows += count
-                sums += part
-                triangles.append(T)
-        T = with_prior(join(triangles), range(len(away)), -away)
-        normal = Linear(T[:-1, :-1], T[:-1, -1])
-        # A strong effect that the model lacks must not drag the parameters out of all proportion:
-        # they are where the signatures are evaluated.
-        step = np.clip(away + normal.step, -REACH, REACH) - away
-        settled = normal.gain(step) < SETTLED[0] or bool(np.max(np.abs(step)) < SETTLED[1])
-        away = away + step
-        p[index] = nominal[index] + away * scale
-        if known is None and (settled or iteration == 2):
-            everything = Point(model, instrument, p.copy(), with_candidates=True)
-            known = [estimate_noise(everything, o) for o in observations]
-        elif known is not None and settled:
+    task = _Task.of(model, instrument, observations)
+    x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
+    loud = plain
+    if noise is None:
+        some = _Plain(task, WHITE_SEGMENTS)
+        x = some.fit(x, some.promised(x)).x
+        noise = task.noise(x)
+        loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
+    if not loud:
+        found = minimise(lambda at: task.at(at, noise), x)
+        return _calibration(task, found, noise)
+    found = _loud(_Plain(task), x)
+    return _calibration(task, found, noise if plain else task.noise(found.x))
+
+
+def _loud(p: _Plain, x: Array) -> Minimum[_Fall]:
+    """The fit from x of what leaves more than noise: as exact as what it leaves says."""
+    left = p.left(x)
+    for _ in range(ROUNDS):
+        found = p.fit(x, left / LEAN)
+        before, left = left, p.left(found.x)
+        x = found.x
+        if left > FALLING * before:
             break
-    assert known is not None
-    p[index] += (design.levelled(step, sums, design.null_biases(columns)) - step) * scale
-    return Calibration(p, columns, index, normal.covariance, tuple(known), rows)
+    return found
 
 
-def _triangle(piece: Piece) -> tuple[Array, int, Array]:
-    return triangle(piece.white), piece.white.shape[1], piece.sums()
+def _size(noise: Sequence[Noise]) -> float:
+    """Root of the mean power of the outputs' noise over all flights, V."""
+    return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
 
 
-def _white(o: Observation, eotvos: float) -> Noise:
+def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> Calibration:
+    """The end of a fit as parameters, levelled."""
+    at = found.at
+    step = found.last
+    for sums in at.sums.values():
+        step = design.levelled(step, sums, design.null_biases(task.columns))
+    covariance = _linear(at.data / np.sqrt(max(1.0, at.excess)), at.to_nominal).covariance
+    return Calibration(
+        p=task.vector(found.x + step),
+        columns=task.columns,
+        index=task.index,
+        covariance=covariance,
+        noise=tuple(noise),
+        rows=at.rows,
+        chi2=at.cost,
+        excess=at.excess,
+        converged=found.converged,
+        reason=found.reason,
+    )
+
+
+def _triangle(piece: Piece) -> tuple[Array, int, Array, float]:
+    left = piece.left(np.zeros((1, len(piece.columns) - 1)))
+    return triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(left**2))
+
+
+def _linear(T: Array, to_nominal: Array) -> Linear:
+    """The fit of a triangle [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
+    R = with_prior(T, range(len(to_nominal)), to_nominal)
+    return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
+
+
+def _white(o: Observation, size: float) -> Noise:
+    """White noise of this size, V, in every output."""
     flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
-    taps = np.array([1.0 / eotvos])
+    taps = np.array([1.0 / size])
     m = len(o.series)
     return Noise((flat,) * m, (taps,) * m)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.fit.observation import Observation, combined, narrow
+from ragg_runtime.fit.observation import Observation, narrow
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
@@ -38,7 +38,7 @@ class Column:
     name
         As shown: ``K2``, ``cubic-input.K_iii``.
     accelerometer
-        1 ... 4, or ``None`` if shared.
+        1 ... n, or ``None`` if shared.
     scale
         Width of the prior, SI: columns are derivatives times it.
     unit, unit_factor
@@ -72,43 +72,53 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
         if q.name in UNOBSERVABLE:
             continue
         factor = unit_factor(q.display_unit, known)
-        scales = q.plausible_si(instrument.accelerometers[q.name], instrument.g0)
-        for j in range(4):
+        scales = instrument.sigma(q.name)
+        for j in range(instrument.layout.size):
             column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known)]
+            found += [
+                (c, start[s] + (c.accelerometer or 1) - 1)
+                for c, s in _of_effect(e, known, instrument.layout.size)
+            ]
     return found
 
 
 def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
-    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known)]
+    return [
+        c
+        for e in model.candidates
+        if e.kind != "output"
+        for c, _ in _of_effect(e, known, instrument.layout.size)
+    ]
 
 
-def _of_effect(e: Effect, known: Units) -> list[tuple[Column, str]]:
+def _of_effect(e: Effect, known: Units, count: int) -> list[tuple[Column, str]]:
     columns = []
     for q in e.parameters:
         if not q.fitted:
             continue
         factor = unit_factor(q.unit, known)
-        for j in (None,) if q.shared else (1, 2, 3, 4):
+        for j in (None,) if q.shared else range(1, count + 1):
             column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
             columns.append((column, q.symbol))
     return columns
 
 
 def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
-    """What an observation sees of voltages: (4, N), or (N,) of one accelerometer -> (m, N)."""
+    """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
+    members, signs = o.output.members, np.array(o.output.signs, dtype=np.float64)
+    at = None if accelerometer is None else members.index(accelerometer - 1)
     if o.kind == "voltages":
-        if accelerometer is None:
+        if at is None:
             return v
-        full = np.zeros((4, v.shape[-1]))
-        full[accelerometer - 1] = v
+        full = np.zeros((len(members), v.shape[-1]))
+        full[at] = v
         return full
-    G = combined(v, accelerometer)
+    G = np.asarray(signs @ v if at is None else signs[at] * v)
     return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
 
 

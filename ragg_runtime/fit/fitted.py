@@ -14,6 +14,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
@@ -28,6 +29,10 @@ Array = NDArray[np.float64]
 
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
+
+
+WIDENED = 3
+"""Most times that a sheet is taken to be less sure than it says."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +82,11 @@ def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -
         squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
         samples[b] = np.sum(v)
     selected = np.stack([np.ones(len(scored), dtype=np.bool_), scored])
-    return _Counted(Tally.of(Stretch(e, r.phi, selected, r.valid), r.rate), squares, samples)
+    return _Counted(
+        Tally.of(Stretch(e, r.demodulation_angle, selected, r.valid), r.rate, turning=r.turning),
+        squares,
+        samples,
+    )
 
 
 @dataclass(frozen=True)
@@ -96,7 +105,18 @@ class Fitted:
     triangles: tuple[tuple[Array, ...], ...]
     sums: tuple[Array, ...]
     to_nominal: Array
-    k_ggi: float
+    scales: tuple[float, ...]
+    """k_ggi of every observation's output, V/Eo."""
+
+    @property
+    def k_ggi(self) -> float:
+        """That of the first."""
+        return self.scales[0]
+
+    @property
+    def flights(self) -> list[Observation]:
+        """One observation of each flight, of however many outputs."""
+        return [o for o in self.observations if o.place == 0]
 
     @property
     def n_base(self) -> int:
@@ -133,9 +153,13 @@ class Fitted:
         R = with_prior(T[:, [*picked, T.shape[1] - 1]], range(n, k))
         inverse = np.linalg.inv(R[:k, :k])
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
-        sums = np.sum([x[blocks] for x in self.sums], axis=(0, 1))[[*picked, -1]]
         biases = columns.null_biases(self.calibration.columns)
-        return columns.levelled(inverse @ R[:k, k], sums, biases), inverse @ inverse.T
+        coefficients = inverse @ R[:k, k]
+        for place in dict.fromkeys(o.place for o in self.observations):
+            own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
+            sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
+            coefficients = columns.levelled(coefficients, sums, biases)
+        return coefficients, inverse @ inverse.T
 
     def vector(self, coefficients: Array, extra: Sequence[int] = ()) -> Array:
         """(size,): coefficients of base and ``extra`` candidates among those of all columns."""
@@ -168,7 +192,8 @@ class Fitted:
         k = len(V) + count
         tallies, blocks = [], np.full((len(self.flown), BLOCKS, k), np.nan)
         for n, x in enumerate(self.flown):
-            tally = Tally(k, 2, x.observation.record.rate)
+            r = x.observation.record
+            tally = Tally(k, 2, r.rate, turning=r.turning)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
             lean, W = x.for_residuals(V, self.n_base)
 
@@ -193,7 +218,7 @@ class Fitted:
         ]
 
     def _pooled(self, tallies: Sequence[Tally], series: int, group: int) -> Error:
-        errors = [t.error(series, self.k_ggi, group) for t in tallies]
+        errors = [t.error(series, k, group) for t, k in zip(tallies, self.scales, strict=True)]
         if len(errors) == 1:
             return errors[0]
         return pooled(errors, [float(t.samples[group]) for t in tallies])
@@ -210,14 +235,24 @@ def fit(
     observations: Sequence[Observation],
     noise: Sequence[Noise] | None = None,
     start: Array | None = None,
+    *,
+    plain: bool = False,
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
-    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given.
+    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
+    ``plain``: all samples weigh the same in it.
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start)
-    if not scale_factor(model.chain, c.p) > 0.0:
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
+    wider = widened(model, instrument, c)
+    for _ in range(WIDENED):
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, plain=plain)
+        wider = widened(model, instrument, c)
+    if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",
             where=", ".join(o.name for o in observations),
@@ -225,6 +260,14 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
+    return about(model, instrument, observations, c)
+
+
+@one_thread
+def about(
+    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+) -> Fitted:
+    """The evidence about a calibration, however it was found."""
     flown = prepared.prepare(model, instrument, observations, c)
     triangles, sums = zip(*(prepared.blocks(x) for x in flown), strict=True)
     return Fitted(
@@ -236,14 +279,14 @@ def fit(
         triangles,
         sums,
         prepared.to_nominal(model, instrument, c),
-        scale_factor(model.chain, c.p),
+        tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 
 
 def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
-    for x in f.flown:
+    for x, k_ggi in zip(f.flown, f.scales, strict=True):
         share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
-        variances.append(share * sum(m.rms**2 for m in x.noise.models))
+        variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

@@ -65,19 +65,27 @@ class _Rows:
             np.array([c.scale for _, c in found]),
         )
 
-    def put(self, target: Array, at: slice, rows: Sequence[Array], shared: bool, signs: Array | None) -> None:
-        """Put derivatives, of each accelerometer (rows, n), into columns (columns, m, N) at some samples.
+    def put(
+        self,
+        target: Array,
+        at: slice,
+        rows: Sequence[Array],
+        shared: bool,
+        members: Sequence[int],
+        signs: Array | None,
+    ) -> None:
+        """Put derivatives, of each accelerometer of an output (rows, n), into columns (columns, m, N) at some samples.
 
         ``signs`` combine them.
         """
-        for j in range(4):
-            sign = 1.0 if signs is None else signs[j]
-            output = j if signs is None else 0
+        for k, j in enumerate(members):
+            sign = 1.0 if signs is None else signs[k]
+            output = k if signs is None else 0
             if shared:
-                target[self.column, output, at] += rows[j][self.row] * (sign * self.scale[:, None])
+                target[self.column, output, at] += rows[k][self.row] * (sign * self.scale[:, None])
             else:
                 own = self.accelerometer == j
-                target[self.column[own], output, at] = rows[j][self.row[own]] * (sign * self.scale[own, None])
+                target[self.column[own], output, at] = rows[k][self.row[own]] * (sign * self.scale[own, None])
 
 
 def linearised(at: Point, o: Observation) -> Array:
@@ -91,7 +99,8 @@ def linearised(at: Point, o: Observation) -> Array:
         modules.append((at.model.signatures, evaluators["signatures"], candidates, len(base), q))
     r, m = o.record, len(o.series)
     n = len(r.time)
-    signs = None if o.kind == "voltages" else np.array([1.0, 1.0, -1.0, -1.0])
+    signs = None if o.kind == "voltages" else np.array(o.output.signs, dtype=np.float64)
+    members = o.output.members
     columns = np.zeros((len(base) + len(candidates) + 1, m, n))
     for chain, evaluator, wanted, first, p in modules:
         x = r.inputs(chain)
@@ -99,11 +108,11 @@ def linearised(at: Point, o: Observation) -> Array:
         for start in range(0, n, CACHED):
             some = slice(start, min(start + CACHED, n))
             case = (r.time[some], x[:, some], p, r.phi[some], 1)
-            rows = [evaluator.derivatives(j, *case) for j in range(4)]
-            own.put(columns, some, rows, False, signs)
-            shared.put(columns, some, rows, True, signs)
+            rows = [evaluator.derivatives(j, *case) for j in members]
+            own.put(columns, some, rows, False, members, signs)
+            shared.put(columns, some, rows, True, members, signs)
             if first == 0:
-                V = evaluator.voltages(*case)
+                V = evaluator.voltages(*case, members=members)
                 columns[-1, :, some] = V if signs is None else signs @ V
     if o.kind == "channels":
         for k in range(len(columns)):

@@ -1,4 +1,4 @@
-"""The noise of a flight, estimated from what no column explains."""
+"""The noise of a flight: what neither the model nor any candidate effect explains of it."""
 
 from __future__ import annotations
 
@@ -9,12 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.bursts import quiet_estimate
+from ragg_runtime.fit.disturbances import Disturbance, disturbances, in_words
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.fit.square_root import triangle
-from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, estimate
+from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
 
 Array = NDArray[np.float64]
 
@@ -23,6 +26,9 @@ TAPS = 24576
 
 NOISE_SEGMENTS = 8
 """Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
+
+ROUNDS = 3
+"""Most times that lines and jumps are looked for in what is left beside those before."""
 
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
@@ -42,35 +48,40 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     plain = Noise((), (np.ones(1),) * len(o.series))
     found: list[list[Array]] = [[] for _ in o.series]
     squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
-    share = []
+    share, begun = [], []
 
-    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]]] | None:
+    disturbed: list[Disturbance] = []
+
+    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]], int] | None:
         valid = piece.observation.record.valid
         if np.sum(valid) < SHORTEST:
             return None
         taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
         outputs = []
         for flat in np.split(piece.white, len(o.series), axis=1):
-            solution, rank = _least_squares(flat)
+            rest, rank, seen = _left(flat, valid, r.rate if o.kind != "channels" else None)
             y = flat[-1]
-            rest = y - solution @ flat[:-1]
-            # The fit takes as many degrees of freedom as it has columns.
+            # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
             e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank - taken))
+            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank))
             gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
             free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
             outputs.append((e, float(np.sum(rest**2)) / gain, free))
-        return float(np.mean(valid)), outputs
+            first = piece.segment.rows.start / r.rate
+            disturbed.extend(replace(d, at=d.at + first) if d.kind == "jump" else d for d in seen)
+        return float(np.mean(valid)), outputs, piece.segment.rows.start
 
     for part in passed(at, o, plain, left, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
         if part is None:
             continue
         share.append(part[0])
+        begun.append(part[2])
         for m, (e, square, free) in enumerate(part[1]):
             found[m].append(e)
             squares[m] += square
             freedom[m] += free
     models, filters = [], []
+    bursts: list[tuple[int, int, float]] = []
     for m, e_m in enumerate(found):
         if o.kind == "channels":
             # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
@@ -79,12 +90,43 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
             filters.append(np.array([1.0 / sigma]))
             continue
-        noise = estimate(e_m, r.rate)
+        noise, loud = quiet_estimate(e_m, r.rate, unknown_gradient.band(o))
+        bursts += [
+            (first + b.start, first + b.stop, b.factor)
+            for first, x in zip(begun, loud, strict=True)
+            for b in x
+        ]
         # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
         noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
         models.append(noise)
         filters.append(noise.whitening_filter(int(min(TAPS, len(r.time)))))
-    return Noise(tuple(models), tuple(filters))
+    return Noise(
+        tuple(models), tuple(filters), tuple(sorted(bursts)), in_words(sorted(disturbed, key=lambda d: d.at))
+    )
+
+
+def _left(
+    flat: Array, valid: NDArray[np.bool_], rate: float | None
+) -> tuple[Array, float, list[Disturbance]]:
+    """What columns leave of the last of flat (n + 1, rows), and lines and jumps in it; how many these count as; and these.
+
+    Without ``rate`` lines and jumps are not looked for.
+    """
+    solution, rank = _least_squares(flat)
+    rest = flat[-1] - solution @ flat[:-1]
+    found: list[Disturbance] = []
+    time = np.flatnonzero(valid) / (rate or 1.0)
+    for _ in range(ROUNDS if rate else 0):
+        e = np.zeros(len(valid))
+        e[valid] = rest
+        more = disturbances(e, valid, rate or 1.0)
+        if not more:
+            break
+        found += more
+        wide = np.vstack([*(d.columns(time) for d in found), flat])
+        solution, rank = _least_squares(wide)
+        rest = flat[-1] - solution @ wide[:-1]
+    return rest, rank, found
 
 
 def spread(found: Sequence[Segment], most: int) -> list[Segment]:

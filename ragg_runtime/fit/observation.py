@@ -11,30 +11,44 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_values import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.record import Record, record
+from ragg_runtime.instrument.layout import PAPER, Output, scale
+from ragg_runtime.model.record import Record, record, recorded
 from ragg_runtime.signals.demodulate import low_pass
 
 Array = NDArray[np.float64]
 
 
-def observe(flight: Flight, instrument: Instrument) -> Observation:
-    """The most telling output of a flight: the four voltages if recorded, else G_out, else the channels."""
-    r = record(flight, instrument)
-    volts = [f"V_{j}" for j in (1, 2, 3, 4)]
-    if all(v in flight.outputs for v in volts):
-        series, kind = tuple(flight.outputs[v] for v in volts), "voltages"
-    elif "G_out" in flight.outputs:
-        series, kind = (flight.outputs["G_out"],), "G_out"
+def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
+    """Every output of every flight: several where the layout has several, those that were recorded."""
+    found = []
+    for x in flights:
+        kinds = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        found += [observe(x, instrument, k) for k, kind in enumerate(kinds) if kind]
+    return found
+
+
+def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observation:
+    """The most telling form of an output of a flight: its voltages if recorded, else G_out, else the channels."""
+    layout = instrument.layout
+    o = layout.outputs[place]
+    r = record(flight, instrument, place)
+    kind = recorded(flight, layout, place)
+    if kind is None:
+        raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
+    if kind == "voltages":
+        series = tuple(flight.outputs[v] for v in layout.voltages(o, flight.outputs) or ())
+    elif kind == "G_out":
+        series = (flight.outputs[o.name],)
     else:
         a = instrument.accelerometers
-        k_ggi = float(np.sum(a["k_VI"] * a["K1"] * (instrument.radius + a["dR"])))
+        k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
         series = (carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
-        kind = "channels"
         edge = len(low_pass(r.rate)) // 2  # there our demodulator has not seen enough
         inside = np.zeros(len(r.time), dtype=bool)
         inside[edge : len(r.time) - edge] = True
@@ -42,29 +56,35 @@ def observe(flight: Flight, instrument: Instrument) -> Observation:
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    clipped = saturation(flight.outputs["G_out"], valid) if "G_out" in flight.outputs else None
+    clipped = saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
     if clipped is not None:
         valid &= ~clipped[1]
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
-    return Observation(kind, replace(r, valid=valid, wide=wide), series, flight.name)
+    name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
+    return Observation(kind, replace(r, valid=valid, wide=wide), series, name, o, place)
 
 
 @dataclass(frozen=True)
 class Observation:
     """What of a flight, or of a part of one, is fitted: m output series over N samples.
 
-    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4) or ``channels``: inline and cross are all that was
-    recorded; then the data are the channels put back on their carriers (m = 1, see :func:`narrow`), and
-    every column passes through the same demodulator. All in V.
+    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4 in the paper's instrument, those of the output's accelerometers)
+    or ``channels``: inline and cross are all that was recorded; then the data are the channels put back on their
+    carriers (m = 1, see :func:`narrow`), and every column passes through the same demodulator. All in V.
+
+    ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
+    ``place`` counts them.
     """
 
     kind: str
     record: Record
     series: tuple[Array, ...]
     name: str
+    output: Output = PAPER.outputs[0]
+    place: int = 0
     memo: list[tuple[Sequence[Array], list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some filters."""
 
@@ -76,7 +96,8 @@ class Observation:
     @property
     def weights(self) -> Array:
         """(m,): how much of a common term of G_out each output sees (for voltages each is searched as one)."""
-        return np.array([0.25, 0.25, -0.25, -0.25]) if self.kind == "voltages" else np.ones(1)
+        signs = np.array(self.output.signs, dtype=np.float64)
+        return signs / len(signs) if self.kind == "voltages" else np.ones(1)
 
     def part(self, rows: slice) -> Observation:
         """Some of the samples."""
@@ -84,15 +105,7 @@ class Observation:
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        return Observation(self.kind, self.record.part(rows), series, self.name)
-
-
-_COMBINATION = np.array([1.0, 1.0, -1.0, -1.0])
-
-
-def combined(v: Array, accelerometer: int | None = None) -> Array:
-    """G_out (N,) of voltages (4, N), or of one accelerometer's (N,) (Eq. 15)."""
-    return np.asarray(_COMBINATION @ v if accelerometer is None else _COMBINATION[accelerometer - 1] * v)
+        return Observation(self.kind, self.record.part(rows), series, self.name, self.output, self.place)
 
 
 def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
@@ -101,6 +114,9 @@ def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
     ``k_ggi`` in V per unit of the channels.
     """
     cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+    if r.phase != 0.0:
+        c, s = float(np.cos(r.phase)), float(np.sin(r.phase))
+        cosine, sine = c * cosine - s * sine, c * sine + s * cosine
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
 
 
@@ -119,10 +135,10 @@ def noise_gain(rate: float) -> float:
 
 
 def as_output(o: Observation, e: Array) -> Array:
-    """G_out (..., N) of what an observation holds (..., m, N): itself, or V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
+    """G_out (..., N) of what an observation holds (..., m, N): itself, or the sum of the voltages with their signs (Eq. 15)."""
     return np.asarray(np.einsum("m,...mn->...n", output_weights(o), e))
 
 
 def output_weights(o: Observation) -> Array:
     """(m,): how much each output of an observation counts in G_out."""
-    return 4 * o.weights if o.kind == "voltages" else o.weights
+    return len(o.weights) * o.weights if o.kind == "voltages" else o.weights

@@ -50,10 +50,10 @@ def channels(
     residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
 ) -> tuple[Array, Array, Array]:
     """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass has :func:`heard` the selection."""
-    if len(residual) < shortest_demodulated(r.rate):
+    if len(residual) < shortest_demodulated(r.rate) or not r.turning:
         return np.empty(0), np.empty(0), np.empty(0)
     e = np.where(selected & r.valid, residual, 0.0)
-    d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi), r.rate, k_ggi / EOTVOS)
+    d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi) + r.phase / 2, r.rate, k_ggi / EOTVOS)
     kept = heard(selected[None], r.valid, len(low_pass(r.rate)))[0]
     return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
 
@@ -147,7 +147,8 @@ class Tally:
     joined.
     """
 
-    def __init__(self, k: int, groups: int, rate: float) -> None:
+    def __init__(self, k: int, groups: int, rate: float, *, turning: bool = True) -> None:
+        self._turning = turning  # of a disc that stands still there is nothing to demodulate
         self._taps = low_pass(rate)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
@@ -158,9 +159,9 @@ class Tally:
         """What the low-pass of the neighbours will hear besides their own."""
 
     @staticmethod
-    def of(s: Stretch, rate: float) -> Tally:
+    def of(s: Stretch, rate: float, *, turning: bool = True) -> Tally:
         """The tally of one segment."""
-        tally = Tally(len(s.e), len(s.selected), rate)
+        tally = Tally(len(s.e), len(s.selected), rate, turning=turning)
         counted = s.selected & s.valid
         tally.samples += np.sum(counted, axis=1)
         tally.squares += np.where(counted, 1.0, 0.0) @ (s.e**2).T
@@ -182,7 +183,7 @@ class Tally:
 
     def _demodulate(self, s: Stretch) -> None:
         n = len(self._taps)
-        if len(s.phi) < n:
+        if len(s.phi) < n or not self._turning:
             return
         whole = np.where(heard(s.selected, s.valid, n), 1.0, 0.0)
         self.demodulated += np.sum(whole, axis=1)

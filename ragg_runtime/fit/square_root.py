@@ -3,36 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Linear:
-    """Linear least squares in scales, prior included: the triangle R (n, n) and the rotated data y (n,)."""
-
-    R: Array
-    y: Array
-
-    @property
-    def step(self) -> Array:
-        """(n,): the solution."""
-        return np.asarray(linalg.solve_triangular(self.R, self.y))
-
-    @property
-    def covariance(self) -> Array:
-        """(n, n)."""
-        inverse = np.linalg.inv(self.R)
-        return np.asarray(inverse @ inverse.T)
-
-    def gain(self, step: Array) -> float:
-        """By how much a step lowers chi-square."""
-        return float(self.y @ self.y - np.sum((self.y - self.R @ step) ** 2))
 
 
 def with_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) -> Array:

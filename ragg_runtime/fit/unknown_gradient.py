@@ -34,6 +34,10 @@ LEAD_SECONDS = 100.0
 that oscillates at twice the spin rate."""
 
 
+TAKEN = 0.6 / KNOT_SECONDS
+"""Frequency, Hz, up to which the splines follow a signal, and so take noise away: half a period a knot, and a margin."""
+
+
 @dataclass(frozen=True)
 class Window:
     """What an unknown gradient spans in one window of a segment.
@@ -64,6 +68,23 @@ class Window:
 def unknown(o: Observation) -> bool:
     """Whether the gradient was not recorded."""
     return not all(g in o.record.wide for g in GRADIENTS)
+
+
+def band(o: Observation) -> tuple[float, float] | None:
+    """Frequencies of G_out, Hz, that an unknown gradient takes; ``None`` if it is known."""
+    if not unknown(o):
+        return None
+    carrier = 2 * spin_frequency(o)
+    return carrier - TAKEN, carrier + TAKEN
+
+
+def spin_frequency(o: Observation) -> float:
+    """Mean, Hz, by the encoder where there is one."""
+    r = o.record
+    if "spin_angle" not in r.wide:
+        return r.spin_frequency
+    step = np.angle(np.exp(1j * np.diff(np.asarray(r.wide["spin_angle"][: 1 << 16]))))
+    return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
 
 
 def splines(time: Array, phi: Array) -> Array:
@@ -107,15 +128,29 @@ def _windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Wind
             continue
         X = splines(*r.angle(slice(a - lead, b))) * here
         inside = here[lead:]
-        weights = o.weights
-        plain = np.concatenate([w * X[:, lead:][:, inside] for w in weights], axis=1)
-        parts = [
-            filtered(w * X, taps, lead=lead)[:, inside] for w, taps in zip(weights, filters, strict=True)
-        ]
+        shares = _shares(o, X)
+        plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
+        parts = [filtered(x, taps, lead=lead)[:, inside] for x, taps in zip(shares, filters, strict=True)]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
         samples = slice(int(a) - rows.start, int(b) - rows.start)
         found.append(Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1))))
+    return found
+
+
+def _shares(o: Observation, X: Array) -> list[Array]:
+    """What each output of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each."""
+    alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
+    if o.kind != "voltages" or (alike and len(set(o.output.radii)) == 1):
+        return [w * X for w in o.weights]
+    sine, cosine = X[0::2], X[1::2]
+    found = []
+    largest = max(o.output.radii) or 1.0
+    for c, radius in zip(o.output.carriers, o.output.radii, strict=True):
+        g = c * radius / largest
+        x = np.empty_like(X)
+        x[0::2], x[1::2] = g.real * sine + g.imag * cosine, g.real * cosine - g.imag * sine
+        found.append(x)
     return found
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage, signal
 
-from ragg_runtime.signals.derivative import WINDOW, _weights, differentiate, runs
+from ragg_runtime.signals.derivative import WINDOW, differentiate, runs, weights
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -114,7 +114,7 @@ def _unsure(x: Array, band: float, noise: float) -> int:
     if band < BANDS[-1]:
         limit = max(limit, NOISIER * noise * float(np.linalg.norm(_wide(band))))
     for at in range(WINDOW // 2, -1, -1):
-        short = ndimage.correlate1d(x, _weights(WINDOW, at), mode="nearest", origin=at - WINDOW // 2)[inner]
+        short = ndimage.correlate1d(x, weights(WINDOW, at), mode="nearest", origin=at - WINDOW // 2)[inner]
         if np.sqrt(np.mean((short - best) ** 2)) > limit:
             return REACH if at == WINDOW // 2 else at + 1
     return 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -18,17 +18,17 @@ from ragg_runtime.flight.record import (
     AUXILIARY,
     DEMODULATED,
     GRADIENT,
-    OUTPUTS,
     RATES,
     SI_UNITS,
     SPECIFIC_FORCE,
-    VOLTAGES,
     Array,
     Flight,
     Mask,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.signals.derivative import runs
 
@@ -80,6 +80,7 @@ class Layout:
     si_units: dict[str, str]
     known: Units
     need_output: bool
+    accelerometers: Accelerometers = PAPER
 
     def flight(
         self,
@@ -98,14 +99,15 @@ class Layout:
         if step is None:
             _drop_empty(si, notes, self.path)
             if self.need_output:
-                _check_output(self.path, list(si))
+                _check_output(self.path, list(si), self.accelerometers)
         placed = {
             c: whole.slow[c].at(grid.time) if c in whole.slow else _placed(v, grid) for c, v in si.items()
         }
         notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
-        outputs = {c: placed.pop(c) for c in OUTPUTS if c in placed}
-        valid = _valid(placed | outputs, grid, notes)
-        _derive_output(outputs, notes)
+        named = (*self.accelerometers.columns, *DEMODULATED)
+        outputs = {c: placed.pop(c) for c in named if c in placed}
+        valid = _valid(placed | outputs, outputs, grid, notes)
+        _derive_outputs(outputs, notes, self.accelerometers)
         channels = {c: _filled(v, c) for c, v in placed.items()}
         _derive_acceleration(channels, placed, grid, valid, notes, whole.derivative)
         _check_gradient(channels, notes)
@@ -194,10 +196,18 @@ class Layout:
             return np.where(np.abs(result) < _ENDLESS, result, np.nan)
 
 
-def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: bool = True) -> Layout:
+def layout(
+    path: Path,
+    columns: Sequence[Column],
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+) -> Layout:
     """Check names and units of a file's columns; UserError if one is missing or does not convert.
 
-    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass.
+    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers`` says
+    which columns are outputs.
     """
     known = units(g0)
     names = [c.name for c in columns]
@@ -205,13 +215,15 @@ def layout(path: Path, columns: Sequence[Column], g0: float, *, need_output: boo
     if any(n in names for n in ANGULAR_ACCELERATION):
         _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
     if need_output:
-        _check_output(path, names)
+        _check_output(path, names, accelerometers)
+    fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
+    fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
     si_units = {}
     for c in columns:
         where = at(path, f"column {c.name!r}")
-        si_units[c.name] = SI_UNITS[c.name] if c.name in SI_UNITS else known.base_unit(c.unit, where)
+        si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
         known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
-    return Layout(path, tuple(columns), si_units, known, need_output)
+    return Layout(path, tuple(columns), si_units, known, need_output, accelerometers)
 
 
 def enough(flight: Flight, rows: int) -> Flight:
@@ -228,15 +240,23 @@ def enough(flight: Flight, rows: int) -> Flight:
     )
 
 
-def _check_output(path: Path, names: Sequence[str]) -> None:
-    if any(all(n in names for n in group) for group in (("G_out",), VOLTAGES, DEMODULATED)):
+def _check_output(path: Path, names: Sequence[str], a: Accelerometers) -> None:
+    if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
+    if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
+        return
+    volts = " ".join(a.voltage_columns(j)[0] for j in a.outputs[0].members)
+    one = f"{a.output_names[0]}, or {volts}"
+    further = f"; likewise {', '.join(a.output_names[1:])}" if len(a.outputs) > 1 else ", or inline and cross"
     raise UserError(
         "the instrument's output is missing",
         where=path,
         found="the columns " + ", ".join(names),
-        expected="G_out, or V_1 V_2 V_3 V_4, or inline and cross",
-        remedy=next(filter(None, (did_you_mean(n, OUTPUTS) for n in names if n not in SI_UNITS)), None),
+        expected=one + further,
+        remedy=next(
+            filter(None, (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)),
+            None,
+        ),
     )
 
 
@@ -280,7 +300,7 @@ def _placed(values: Array, grid: Grid) -> Array:
     return whole
 
 
-def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
+def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes: list[str]) -> Mask:
     """Samples at which everything stands that has to; counts the others in ``notes``."""
     present = np.zeros(len(grid.time), dtype=np.bool_)
     present[grid.index] = True
@@ -291,7 +311,7 @@ def _valid(columns: dict[str, Array], grid: Grid, notes: list[str]) -> Mask:
             continue
         count = int(np.sum(missing & present))
         bridged = np.zeros_like(missing)
-        if name not in SI_UNITS or name in AUXILIARY:
+        if (name not in SI_UNITS or name in AUXILIARY) and name not in outputs:
             for run in runs(missing & present):
                 inside = run.start > 0 and run.stop < len(missing)
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
@@ -317,29 +337,31 @@ def _filled(values: Array, name: str) -> Array:
     if not len(places):  # only in a part of a longer record
         return np.zeros_like(values)
     there = values[places]
-    if name == "spin_angle":
+    if name.startswith("spin_angle"):
         there = np.unwrap(there)
     result[missing] = np.interp(np.flatnonzero(missing), places, there)
     return result
 
 
-def _derive_output(outputs: dict[str, Array], notes: list[str]) -> None:
-    if not all(v in outputs for v in VOLTAGES):
-        return
-    v1, v2, v3, v4 = (outputs[v] for v in VOLTAGES)
-    sum_ = (v1 + v2) - (v3 + v4)
-    if "G_out" not in outputs:
-        outputs["G_out"] = sum_
-        notes.append("G_out is derived: V_1 + V_2 - V_3 - V_4")
-        return
-    there = np.isfinite(sum_) & np.isfinite(outputs["G_out"])
-    difference = np.sqrt(np.mean((sum_ - outputs["G_out"])[there] ** 2)) if there.any() else 0.0
-    size = np.sqrt(np.mean(outputs["G_out"][there] ** 2)) if there.any() else 0.0
-    if difference > 1e-3 * size:
-        notes.append(
-            f"G_out differs from V_1 + V_2 - V_3 - V_4 by {difference:.3g} V rms, with {size:.3g} V rms "
-            "of its own: check the order and the signs of the voltages"
-        )
+def _derive_outputs(outputs: dict[str, Array], notes: list[str], a: Accelerometers) -> None:
+    """Outputs that are not recorded from their voltages; where both are, they must agree."""
+    for o in a.outputs:
+        columns = a.voltages(o, outputs)
+        if columns is None:
+            continue
+        sum_, formula = o.combined(np.stack([outputs[c] for c in columns])), a.formula(o, columns)
+        if o.name not in outputs:
+            outputs[o.name] = sum_
+            notes.append(f"{o.name} is derived: {formula}")
+            continue
+        there = np.isfinite(sum_) & np.isfinite(outputs[o.name])
+        difference = np.sqrt(np.mean((sum_ - outputs[o.name])[there] ** 2)) if there.any() else 0.0
+        size = np.sqrt(np.mean(outputs[o.name][there] ** 2)) if there.any() else 0.0
+        if difference > 1e-3 * size:
+            notes.append(
+                f"{o.name} differs from {formula} by {difference:.3g} V rms, with {size:.3g} V rms "
+                "of its own: check the order and the signs of the voltages"
+            )
 
 
 def _derive_acceleration(

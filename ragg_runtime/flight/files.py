@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import replacing
 from ragg_runtime.flight.angular_acceleration import REACH
 from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
@@ -22,6 +22,8 @@ from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import Batch, Column, Source, Written
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.flight.spool import spooled
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
 
 IN_MEMORY = 48 << 20
@@ -46,6 +48,7 @@ def read_flight(
     g0: float,
     *,
     need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
     mapping: Mapped | None = None,
     line: str | None = None,
 ) -> Flight:
@@ -63,6 +66,8 @@ def read_flight(
         The g of the file's units, m/s^2.
     need_output
         False lets a file of motion alone pass.
+    accelerometers
+        Those of the instrument: which columns are its outputs.
     mapping
         What the columns are, where the file has names and units of its own.
     line
@@ -77,19 +82,26 @@ def read_flight(
     sources = open_sources(path, mapping)
     if line is not None:
         sources = [s for s in sources if s.line == line] or sources
-    return _flight(_single(sources, path), g0, need_output, line is not None)
+    return _flight(_single(sources, path), g0, need_output, accelerometers, line is not None)
 
 
 def read_flights(
-    path: Path | str, g0: float, *, need_output: bool = True, mapping: Mapped | None = None
+    path: Path | str,
+    g0: float,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    mapping: Mapped | None = None,
 ) -> list[Flight]:
     """The flights in a file, one for each line; the arguments are those of :func:`read_flight`."""
     sources = open_sources(Path(path), mapping)
-    return [_flight(s, g0, need_output, len(sources) > 1) for s in sources]
+    return [_flight(s, g0, need_output, accelerometers, len(sources) > 1) for s in sources]
 
 
-def _flight(source: Source, g0: float, need_output: bool, several: bool) -> Flight:
-    plan = layout(source.path, source.columns, g0, need_output=need_output)
+def _flight(
+    source: Source, g0: float, need_output: bool, accelerometers: Accelerometers, several: bool
+) -> Flight:
+    plan = layout(source.path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
     batches: list[Batch] = []
     held = 0
     with _line_named(source, several):
@@ -162,7 +174,13 @@ def _single(sources: Sequence[Source], path: Path) -> Source:
 
 
 def iter_flight_chunks(
-    path: Path | str, g0: float, rows: int, *, need_output: bool = True, mapping: Mapped | None = None
+    path: Path | str,
+    g0: float,
+    rows: int,
+    *,
+    need_output: bool = True,
+    accelerometers: Accelerometers = PAPER,
+    mapping: Mapped | None = None,
 ) -> Iterator[Flight]:
     """The same flight in consecutive parts of ``rows`` (>= 2) file rows, in memory for a few parts only.
 
@@ -173,7 +191,7 @@ def iter_flight_chunks(
     if rows < 2:
         raise UserError("a part of a flight needs at least two rows", found=rows)
     source = _single(open_sources(path, mapping), path)
-    plan = layout(path, source.columns, g0, need_output=need_output)
+    plan = layout(path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
     yield from _chunks(source, plan, plan.whole(source.batches()), rows, False)
 
 
@@ -244,7 +262,8 @@ def flight_name(path: Path) -> str:
     ending = ending_of(path.name)
     stem = path.name[: -len(ending)] if ending is not None else path.name
     folder = path.resolve().parent.name
-    return f"{folder}/{stem}" if stem == "flight" and folder else stem
+    # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
+    return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
 def file_digest(path: Path) -> str:

@@ -32,7 +32,7 @@ MOST_NUMBERS = 1 << 33
 
 _BATCH = 1 << 18
 _UNITS = ("units", "Units", "UNITS", "unit", "Unit")
-_DIMENSION = b"This is a netCDF dimension but not a netCDF variable"
+_DIMENSION = "This is a netCDF dimension but not a netCDF variable"
 
 UnitOf = Callable[["h5py.Dataset"], str]
 
@@ -46,17 +46,19 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as float64 datasets with their units: at the root, or in a group for each line."""
     import h5py  # slow to import, and only files built on HDF5 need it
 
+    from ragg_runtime.flight.hdf5_attributes import write_text
+
     with h5py.File(path, "w", track_order=True) as file:
         for number, table in enumerate(tables):
             group = file
             if table.line is not None:
                 group = file.create_group(f"lines/{_plain(table.line, number)}", track_order=True)
-                group.attrs["line"] = table.line
+                write_text(group, "line", table.line)
             for column, values in table.columns:
                 data = group.create_dataset(_plain(column.name, 0), data=np.asarray(values))
-                data.attrs["name"] = column.name
+                write_text(data, "name", column.name)
                 if column.unit:
-                    data.attrs["units"] = column.unit
+                    write_text(data, "units", column.unit)
 
 
 def tables_of(path: Path, look: Look, unit: UnitOf) -> list[Table]:
@@ -85,7 +87,9 @@ class Group:
 
 def unit_of(data: h5py.Dataset) -> str:
     """The unit in a dataset's attributes; ``""`` if there is none."""
-    return next((t for t in (_text(data.attrs.get(n)) for n in _UNITS) if t), "")
+    from ragg_runtime.flight.hdf5_attributes import text_of
+
+    return next((t for t in (text_of(data, n) for n in _UNITS) if t), "")
 
 
 @contextlib.contextmanager
@@ -141,9 +145,11 @@ def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[G
 def _group(
     place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset], look: Look, unit: UnitOf, path: Path
 ) -> Group:
+    from ragg_runtime.flight.hdf5_attributes import text_of
+
     if look.only is not None:
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
-        arrays = {n: d for n, d in arrays.items() if n in wanted or _text(d.attrs.get("name")) in wanted}
+        arrays = {n: d for n, d in arrays.items() if n in wanted or text_of(d, "name") in wanted}
     for name, data in arrays.items():
         if math.prod(data.shape) > MOST_NUMBERS:
             raise UserError(
@@ -156,23 +162,25 @@ def _group(
     columns = []
     for number, p in enumerate(found, 1):
         data = arrays[p.array]
-        own = (_text(data.attrs.get("name")) if p.column == p.array else "") or p.column
+        own = (text_of(data, "name") if p.column == p.array else "") or p.column
         h = heading(own, path, number)
         text = data.dtype.kind in "SOU"
         if look.wants(h.name) and (not text or look.allows_text(h.name)):
             columns.append((Heading(h.name, unit(data).split(" since ")[0] or h.unit, text), p))
     distinct(path, [h for h, _ in columns])
-    name = _text(group.attrs.get("line")) or place.rsplit("/", 1)[-1]
+    name = text_of(group, "line") or place.rsplit("/", 1)[-1]
     return Group(place=place, line=name, length=length, columns=tuple(columns))
 
 
 def _is_column(data: h5py.Dataset, look: Look) -> bool:
     import h5py  # slow to import, and only files built on HDF5 need it
 
+    from ragg_runtime.flight.hdf5_attributes import text_of
+
     kind = data.dtype.kind
     if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    if _DIMENSION in str(data.attrs.get("NAME", "")).encode(errors="replace"):
+    if _DIMENSION in text_of(data, "NAME"):
         return False
     return data.shape is not None and (kind in "fiu" or (kind in "SO" and len(data.shape) == 1))
 
@@ -186,27 +194,21 @@ def _batches(path: Path, table: Group) -> Iterator[RawBatch]:
 
 
 def _values(data: h5py.Dataset, place: Place, column: Heading, start: int, stop: int) -> NDArray[Any]:
+    from ragg_runtime.flight.hdf5_attributes import number_of, plain
+
     if column.text:
-        return np.array([_text(t) for t in data[start:stop]], dtype=object)
+        return np.array([plain(t) for t in data[start:stop]], dtype=object)
     raw = place.rows(data, start, stop)
     values = raw.astype(np.float64)
     for name in ("_FillValue", "missing_value"):
-        if name in data.attrs:
-            values[raw == np.asarray(data.attrs[name]).ravel()[0]] = np.nan
+        nothing = number_of(data, name)
+        if nothing is not None:
+            values[raw == np.asarray(nothing).astype(raw.dtype)] = np.nan
     for name, apply in (("scale_factor", np.multiply), ("add_offset", np.add)):
-        factor = np.asarray(data.attrs.get(name, np.nan)).ravel()
-        if factor.dtype.kind in "fiu" and len(factor) == 1 and np.isfinite(factor[0]):
-            values = apply(values, float(factor[0]))
+        factor = number_of(data, name)
+        if factor is not None and np.isfinite(factor):
+            values = apply(values, factor)
     return values
-
-
-def _text(value: object) -> str:
-    """Text of an attribute or a cell; ``""`` where it is none."""
-    if isinstance(value, np.ndarray) and value.size == 1:
-        value = value.ravel()[0]
-    if isinstance(value, bytes):
-        value = value.decode("utf-8", "replace")
-    return value.strip("\0 \t\r\n") if isinstance(value, str) else ""
 
 
 def _plain(name: str, number: int) -> str:

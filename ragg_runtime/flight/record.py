@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -108,8 +108,13 @@ class Flight:
                     )
             set_field(self, group, MappingProxyType(columns))
         names = ("time", *self.channels, *self.outputs)
-        units = {name: self.units.get(name, SI_UNITS.get(name, "1")) for name in names}
+        units = {name: self.units.get(name) or self._unit(name) for name in names}
         set_field(self, "units", MappingProxyType(units))
+
+    def _unit(self, name: str) -> str:
+        """SI unit of a column: outputs and disc angles have names of the instrument's own."""
+        own = "V" if name in self.outputs else "rad" if name.startswith("spin_angle") else "1"
+        return SI_UNITS.get(name, own)
 
     def __repr__(self) -> str:
         columns = " ".join((*self.channels, *self.outputs))
@@ -127,6 +132,15 @@ class Flight:
     def duration(self) -> float:
         """Time that the samples stand for, s: N / rate."""
         return len(self.time) / self.rate
+
+    def without(self, stretches: Sequence[tuple[float, float]]) -> Flight:
+        """The flight with stretches of time (from, to, s since the first sample) marked as not to be used, and said so."""
+        valid, notes = np.array(self.valid), list(self.notes)
+        since = self.time - self.time[0]
+        for first, last in stretches:
+            valid[(since >= first) & (since <= last)] = False
+            notes.append(f"left out by hand: {first:g} s to {last:g} s")
+        return dataclasses.replace(self, valid=valid, notes=tuple(notes))
 
     def part(self, rows: slice) -> Flight:
         """A stretch of the flight, as views."""

@@ -11,7 +11,7 @@ from typing import Any, Protocol, TypeVar
 
 from numpy.typing import NDArray
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.flight.record import Array
 from ragg_runtime.instrument.units import units
 
@@ -181,8 +181,8 @@ def heading(text: str, path: Path, number: int = 1) -> Heading:
     if match["unit"] is None:
         paren = _PAREN.fullmatch(match["name"])
         if paren is not None and is_unit(paren["unit"]):
-            return Heading(paren["name"], paren["unit"].strip())
-    return Heading(match["name"], (match["unit"] or "").strip())
+            return Heading(one_line(paren["name"]), paren["unit"].strip())
+    return Heading(one_line(match["name"]), (match["unit"] or "").strip())
 
 
 def units_below(cells: Sequence[str], count: int) -> list[str] | None:

@@ -15,6 +15,7 @@ from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.files import write_text
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, units
 
@@ -80,7 +81,7 @@ def set_effects_folder(text: str, folder: Path) -> str:
 def model_text(instrument: Instrument) -> str:
     """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
     document = tomlkit.document()
-    document.add(tomlkit.comment("Four values: A1, A2, A3, A4."))
+    document.add(tomlkit.comment(_order(instrument.layout)))
     disc = tomlkit.table()
     for name, unit in DISC_UNITS.items():
         disc.add(name, f"{getattr(instrument, name)!r} {unit}")
@@ -88,20 +89,49 @@ def model_text(instrument: Instrument) -> str:
     known = instrument.units
     for p in PARAMETERS:
         shown = known.from_si(instrument.accelerometers[p.name], p.si_unit, p.display_unit)
-        accelerometers.add(
-            p.name, _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
-        )
+        entry = _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
+        if p.name in instrument.sigmas:
+            sigma = known.from_si(instrument.sigmas[p.name], p.si_unit, p.display_unit)
+            entry.add("sigma", [_plain(v) for v in sigma])
+        accelerometers.add(p.name, entry)
     document.add("effects", tomlkit.array())
     if instrument.effects_folder is not None:
         document.add("effects_folder", str(instrument.effects_folder))
+    if not instrument.layout.of_paper:
+        document.add("g0", f"{instrument.g0!r} m/s^2")
     if instrument.form != PAPER:
         document.add("model", _form(instrument.form))
-    document.add("disc", disc)
+    document.add("disc", disc if instrument.layout.of_paper else _discs(instrument.layout))
     document.add("accelerometers", accelerometers)
     text = tomlkit.dumps(document)
     for setting in instrument.effects:
         text = add_effect(text, setting)
     return text
+
+
+def _order(layout: Layout) -> str:
+    if layout.of_paper:
+        return "Four values: A1, A2, A3, A4."
+    return f"Values in the order of the accelerometers: {', '.join(layout.names)}."
+
+
+def _discs(layout: Layout) -> Any:
+    discs = tomlkit.aot()
+    for k, d in enumerate(layout.discs):
+        own = [p for p in layout.places if p.disc == k]
+        table = tomlkit.table()
+        table.update({"name": d.name, "spin_frequency": f"{d.spin_frequency!r} Hz"})
+        table.update({"axis": list(d.axis), "zero": list(d.zero)})
+        places = tomlkit.aot()
+        for p in own:
+            place = tomlkit.table()
+            place.update({"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"})
+            place.update({"height": f"{p.height!r} m", "direction": list(p.direction)})
+            place.update({"sign": p.sign, "output": layout.output_names[p.output]})
+            places.append(place)
+        table.add("accelerometer", places)
+        discs.append(table)
+    return discs
 
 
 def _form(form: Form) -> Any:
@@ -182,8 +212,11 @@ def _plain(value: float) -> int | float:
 
 
 def _put(table: Any, name: str, item: Any) -> None:
+    """Set a quantity; the sigma of the old one stays where the unit does."""
     if name in table:
         old = table[name]
+        if isinstance(old, dict) and "sigma" in old and old.get("unit") == item.get("unit"):
+            item.add("sigma", old["sigma"])
         trivia = getattr(old, "trivia", None)
         table[name] = item
         if trivia is not None:

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.instrument.form import PAPER, Form
+from ragg_runtime.instrument import form as forms
+from ragg_runtime.instrument.form import Form
+from ragg_runtime.instrument.layout import PAPER, Layout, paper, scale
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, units
 
@@ -33,9 +35,16 @@ class EffectSetting:
     expression: Mapping[str, Any] | None = None
 
     def si(
-        self, name: str, si_unit: str, g0: float, *, shared: bool = False, where: str | None = None
+        self,
+        name: str,
+        si_unit: str,
+        g0: float,
+        *,
+        shared: bool = False,
+        where: str | None = None,
+        count: int = PAPER.size,
     ) -> Vector | None:
-        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (4,); None if not given."""
+        """Value of parameter ``name`` in ``si_unit``: (1,) if ``shared``, else (count,); None if not given."""
         if name not in self.values:
             return None
         raw = self.values[name]
@@ -46,14 +55,16 @@ class EffectSetting:
             )
         value = np.atleast_1d(np.asarray(raw.value, dtype=np.float64))
         converted = np.asarray(units(g0).to_si(value, raw.unit, si_unit, place), dtype=np.float64)
-        return _finite(converted if shared else np.broadcast_to(converted, (4,)).copy(), place)
+        return _finite(converted if shared else np.broadcast_to(converted, (count,)).copy(), place)
 
 
 @dataclass(frozen=True, eq=False)
 class Instrument:
-    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (4,) for A1 ... A4, effects.
+    """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
 
-    Every name of :data:`PARAMETERS` is present. Build with :func:`read_instrument` or :meth:`build`.
+    Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
+    the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
+    ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
     """
 
     radius: float
@@ -63,7 +74,13 @@ class Instrument:
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
     effects_folder: Path | None = None
-    form: Form = PAPER
+    sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
+    form: Form = forms.PAPER
+    layout: Layout = PAPER
+
+    def __post_init__(self) -> None:
+        if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
+            object.__setattr__(self, "layout", paper(self.radius, self.spin_frequency))
 
     @classmethod
     def build(
@@ -75,9 +92,15 @@ class Instrument:
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
         effects_folder: Path | None = None,
-        form: Form = PAPER,
+        form: Form = forms.PAPER,
+        layout: Layout | None = None,
+        sigmas: Mapping[str, ArrayLike] | None = None,
     ) -> Instrument:
-        """An instrument from SI values: scalars stand for all four accelerometers, missing ones are 0."""
+        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
+
+        Without a ``layout`` it is the paper's.
+        """
+        layout = paper(radius, spin_frequency) if layout is None else layout
         _check_names(accelerometers, PARAMETER, "accelerometers")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
@@ -86,18 +109,35 @@ class Instrument:
                     where=at(path, "[accelerometers]"),
                     expected=f'{p.name} = {{ value = ..., unit = "{p.display_unit}" }}',
                 )
-        vectors = {name: _vector(accelerometers.get(name, 0.0)) for name in PARAMETER}
+        vectors = {name: _vector(accelerometers.get(name, 0.0), layout.size) for name in PARAMETER}
         made = cls(
-            radius, spin_frequency, g0, MappingProxyType(vectors), tuple(effects), path, effects_folder, form
+            radius=radius,
+            spin_frequency=spin_frequency,
+            g0=g0,
+            accelerometers=MappingProxyType(vectors),
+            effects=tuple(effects),
+            path=path,
+            effects_folder=effects_folder,
+            layout=layout,
+            form=form,
+            sigmas=MappingProxyType({name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}),
         )
         _check_physical(made)
         return made
 
     def replace(self, **changes: ArrayLike) -> Instrument:
-        """The same instrument with some accelerometer parameters changed (SI, scalar or (4,))."""
+        """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
         _check_names(changes, PARAMETER, "accelerometers")
-        vectors = dict(self.accelerometers) | {name: _vector(v) for name, v in changes.items()}
+        vectors = dict(self.accelerometers) | {
+            name: _vector(v, self.layout.size) for name, v in changes.items()
+        }
         return dataclasses.replace(self, accelerometers=MappingProxyType(vectors))
+
+    def sigma(self, name: str) -> Vector:
+        """How far a parameter of the accelerometers may be from its sheet, (n,) SI: as the sheet says, or plausible."""
+        if name in self.sigmas:
+            return self.sigmas[name]
+        return PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
 
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
         """The same instrument with another list of effects."""
@@ -109,9 +149,14 @@ class Instrument:
 
     @property
     def scale_factor(self) -> float:
-        """k_ggi = sum of k_VI K1 R_j, in V s^2: volts of G_out per s^-2 of gradient (Eq. 15)."""
+        """k_ggi of the first output, in V s^2: volts per s^-2 of gradient (Eq. 15 and 30)."""
         k = self.accelerometers
-        return float(np.sum(k["k_VI"] * k["K1"] * (self.radius + k["dR"])))
+        return scale(self.layout.outputs[0], k["k_VI"] * k["K1"], self.radii + k["dR"])
+
+    @property
+    def radii(self) -> Vector:
+        """(n,) m: nominal distance of each accelerometer from the axis of its disc."""
+        return np.array([p.radius for p in self.layout.places])
 
     @property
     def units(self) -> Units:
@@ -130,8 +175,8 @@ def _check_names(names: Any, known: Any, table: str | None, where: object = None
             )
 
 
-def _vector(value: ArrayLike) -> Vector:
-    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (4,)).copy()
+def _vector(value: ArrayLike, count: int) -> Vector:
+    vector = np.broadcast_to(np.asarray(value, dtype=np.float64), (count,)).copy()
     vector.flags.writeable = False
     return vector
 
@@ -144,7 +189,8 @@ def _finite(value: Vector, where: str) -> Vector:
 
 def _check_physical(instrument: Instrument) -> None:
     path, k = instrument.path, instrument.accelerometers
-    for name in DISC_UNITS:
+    own_discs = not instrument.layout.of_paper  # which may stand still, with accelerometers at their centres
+    for name in ("g0",) if own_discs else DISC_UNITS:
         value = getattr(instrument, name)
         if not (np.isfinite(value) and value > 0):
             raise UserError(
@@ -160,9 +206,10 @@ def _check_physical(instrument: Instrument) -> None:
             raise UserError(
                 f"{name} must not be zero", where=at(path, f"[accelerometers] {name}"), found=k[name].tolist()
             )
-    if np.any(instrument.radius + k["dR"] <= 0):
+    R = instrument.radii + k["dR"]
+    if np.any(R < 0) or (np.any(R == 0) and not own_discs):
         raise UserError(
             "the distance from the disc centre, radius + dR, must be positive",
             where=at(path, "[accelerometers] dR"),
-            found=f"{(instrument.radius + k['dR']).tolist()} m",
+            found=f"{R.tolist()} m",
         )

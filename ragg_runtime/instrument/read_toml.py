@@ -14,6 +14,8 @@ from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
 from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
+from ragg_runtime.instrument.layout import PAPER, Layout, paper
+from ragg_runtime.instrument.layout_toml import read_layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
 
@@ -33,18 +35,46 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    _check_names(table, ("disc", "accelerometers", "effects", "effects_folder", "model"), None, path)
-    disc = _disc(_table(table, "disc", path), path)
+    known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0")
+    _check_names(table, known, None, path)
+    layout, g0 = _discs(table, path)
+    accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
     return Instrument.build(
-        radius=disc["radius"],
-        spin_frequency=disc["spin_frequency"],
-        g0=disc["g0"],
-        accelerometers=_accelerometers(_table(table, "accelerometers", path), disc["g0"], path),
-        effects=_effects(table.get("effects", []), disc["g0"], path),
+        radius=layout.places[0].radius,
+        spin_frequency=layout.discs[layout.places[0].disc].spin_frequency,
+        g0=g0,
+        accelerometers=accelerometers,
+        sigmas=sigmas,
+        effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
         effects_folder=_folder(table.get("effects_folder"), path),
+        layout=layout,
         form=read_form(table.get("model"), path),
     )
+
+
+STANDARD_G0 = 9.8
+"""What g means in a model.toml with [[disc]] that does not say it, m/s^2: the paper's value."""
+
+
+def _discs(table: Mapping[str, Any], path: Path | None) -> tuple[Layout, float]:
+    """The layout of [disc] (the paper's) or of [[disc]] tables, and g0."""
+    if not isinstance(table.get("disc"), list):
+        if "g0" in table:
+            raise UserError("g0 belongs into the table [disc]", where=at(path, "g0"))
+        disc = _disc(_table(table, "disc", path), path)
+        return paper(disc["radius"], disc["spin_frequency"]), disc["g0"]
+    given = [("g0", table["g0"])] if "g0" in table else []
+    for number, entry in enumerate(table["disc"], 1):
+        if isinstance(entry, dict) and "g0" in entry:
+            given.append((f"[[disc]] {number}: g0", entry["g0"]))
+    found = {
+        float(_si(read_quantity(raw, at(path, key), count=1), DISC_UNITS["g0"], None, at(path, key))[0])
+        for key, raw in given
+    }
+    if len(found) > 1:
+        raise UserError("g0 is given twice", where=path, found=sorted(found), expected="one value")
+    return read_layout(table["disc"], path), found.pop() if found else STANDARD_G0
 
 
 def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[str, Any]:
@@ -77,13 +107,26 @@ def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
     }
 
 
-def _accelerometers(table: Mapping[str, Any], g0: float, path: Path | None) -> dict[str, Vector]:
+def _accelerometers(
+    table: Mapping[str, Any], g0: float, path: Path | None, count: int
+) -> tuple[dict[str, Vector], dict[str, Vector]]:
+    """Values, and how sure the sheet is of those for which it says so, in SI."""
     _check_names(table, PARAMETER, "accelerometers", path)
-    found = {}
+    found, sigmas = {}, {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
-        found[name] = _si(read_quantity(raw, place), PARAMETER[name].si_unit, g0, place)
-    return found
+        si_unit = PARAMETER[name].si_unit
+        own = {k: v for k, v in raw.items() if k != "sigma"} if isinstance(raw, dict) else raw
+        quantity = read_quantity(own, place, count=count)
+        found[name] = _si(quantity, si_unit, g0, place)
+        if isinstance(raw, dict) and "sigma" in raw:
+            where = f"{place}, sigma"
+            sigma = read_quantity({"value": raw["sigma"], "unit": quantity.unit}, where, count=count)
+            sigmas[name] = _si(sigma, si_unit, g0, where)
+            if np.any(sigmas[name] <= 0):
+                expected = f"one or {'four' if count == 4 else count} above 0, in {quantity.unit}; none if the sheet does not say"
+                raise UserError("sigma must be positive", where=where, found=raw["sigma"], expected=expected)
+    return found, sigmas
 
 
 def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Vector:
@@ -96,14 +139,16 @@ def _si(quantity: RawQuantity, si_unit: str, g0: float | None, where: str) -> Ve
     return _finite(np.asarray(known.to_si(value, quantity.unit, si_unit, where), dtype=np.float64), where)
 
 
-def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetting, ...]:
+def _effects(
+    entries: object, g0: float, path: Path | None, count: int = PAPER.size
+) -> tuple[EffectSetting, ...]:
     if not isinstance(entries, list):
         raise UserError(
             "effects must be a list", where=at(path, "effects"), found=repr(entries), expected='["lag"]'
         )
     found: list[EffectSetting] = []
     for number, entry in enumerate(entries, 1):
-        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0))
+        setting = _effect(entry, at(path, f"effects, entry {number}"), units(g0), count)
         if any(e.id == setting.id for e in found):
             raise UserError(
                 f"the effect {setting.id!r} is listed twice",
@@ -114,7 +159,7 @@ def _effects(entries: object, g0: float, path: Path | None) -> tuple[EffectSetti
     return tuple(found)
 
 
-def _effect(entry: object, where: str, known: Units) -> EffectSetting:
+def _effect(entry: object, where: str, known: Units, count: int) -> EffectSetting:
     if isinstance(entry, str):
         entry = {"id": entry}
     if not isinstance(entry, dict) or not isinstance(entry.get("id"), str) or not entry["id"].strip():
@@ -131,14 +176,14 @@ def _effect(entry: object, where: str, known: Units) -> EffectSetting:
         # An effect in one line: its parameters stand beside stage and add, with or without a value.
         entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
         own = {}
-    values = {name: known.quantity(raw, f"{where}: {name}") for name, raw in own.items()}
+    values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
         _check_names(values, expression["params"], None, where)
         for name, parameter in expression["params"].items():
             if "value" in parameter:
                 values[name] = known.quantity(
-                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}"
+                    {"value": parameter["value"], "unit": parameter["unit"]}, f"{where}: {name}", count=count
                 )
     return EffectSetting(effect_id, MappingProxyType(values), expression)
 

@@ -210,7 +210,7 @@ def _values(value: object, where: str | None, count: int) -> float | tuple[float
             "wrong number of values",
             where=where,
             found=f"{len(value)} values",
-            expected=f"one number, or {count} (A1, A2, A3, A4)" if count > 1 else "one number",
+            expected=f"one number, or {count} ({_each(count)})" if count > 1 else "one number",
         )
     return tuple(_number(v, where) for v in value)
 
@@ -246,8 +246,17 @@ def _not_a_quantity(raw: object, where: str | None, count: int) -> UserError:
         where=where,
         found=repr(raw),
         expected='"0.1 m", { value = 0.1, unit = "m" }'
-        + (f' or {{ value = [{", ".join("1234567890"[:count])}], unit = "m" }}' if count > 1 else ""),
+        + (f' or {{ value = [{_numbers(count)}], unit = "m" }}' if count > 1 else ""),
     )
+
+
+def _each(count: int) -> str:
+    """A1, A2 ... A8."""
+    return ", ".join(f"A{k + 1}" for k in range(count)) if count <= 4 else f"A1 ... A{count}"
+
+
+def _numbers(count: int) -> str:
+    return ", ".join(str(k + 1) for k in range(count)) if count <= 4 else f"1, 2, ... {count}"
 
 
 def _complaint(text: str) -> str | None:

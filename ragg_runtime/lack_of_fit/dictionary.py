@@ -34,7 +34,7 @@ HIGHEST_OF_ONE = 6
 _MOTION = tuple(f"{n}_{k}" for n in ("a", "omega", "omegadot") for k in "xyz")
 _CUBIC = tuple(f"{n}_{k}" for n in ("a", "omega") for k in "xyz")
 _RATES = tuple(f"{d}_{n}_{k}" for d, n in (("d", "a"), ("d2", "a"), ("d", "omegadot")) for k in "xyz")
-_NOT_A_CHANNEL = frozenset({"spin_angle", *GRADIENTS})
+_NOT_A_CHANNEL = frozenset(GRADIENTS)
 
 _FORCES = (*features.FORCES, "a_z")
 """What the first accelerometer feels along its input, output and (but for the sign) pendulous axis."""
@@ -78,7 +78,7 @@ class Dictionary:
     """
 
     def __init__(self, r: Record) -> None:
-        centred = sorted(n for n in r.wide if n not in _MOTION and n not in _NOT_A_CHANNEL)
+        centred = sorted(n for n in r.wide if n not in _MOTION and _is_channel(n))
         rates = [n for n in _RATES if n.partition("_")[2] in r.wide]
         names = [*(n for n in _MOTION if n in r.wide), *centred, "time", *rates, *(f"d_{n}" for n in centred)]
         further = [c for c in generic([*centred, "time"]) if all(features.recorded(n, r) for n in c)]
@@ -96,9 +96,11 @@ class Dictionary:
             (m, o) for m in motion if m.startswith(("a_", "omega_")) for o in other if o in self.centre
         ]
         products += list(combinations_with_replacement([n for n in names if n in _CUBIC], 3))
-        alone = [Term(h, c) for c in products if len(c) <= 1 for h in harmonics(HIGHEST_OF_ONE)]
+        # of a disc that stands still every harmonic is a constant
+        of_one, of_several = (harmonics(n if r.turning else 0) for n in (HIGHEST_OF_ONE, HIGHEST))
+        alone = [Term(h, c) for c in products if len(c) <= 1 for h in of_one]
         alone += [Term("const", (f,)) for f in features.FORCES if f in self._size]
-        several = [Term(h, c) for c in products if len(c) > 1 for h in harmonics(HIGHEST)]
+        several = [Term(h, c) for c in products if len(c) > 1 for h in of_several]
         made_of = [c for c in further if all(n in self._size for n in c)]
         trends = [any(n in self.centre or features.is_slow(n) for n in c) for c in made_of]
         lasting = [t for t in several if t.harmonic == "const"]
@@ -168,6 +170,11 @@ class Chunks(Sequence[tuple[slice, Singles]]):
                     product = product * self.channels[name]
             np.multiply(product, self.carriers[t.harmonic], out=x[n])
         return slice(k * self.most, k * self.most + len(part)), x
+
+
+def _is_channel(name: str) -> bool:
+    """Whether a column that is no motion may enter a term: not gradients, nor the angles of discs."""
+    return name not in _NOT_A_CHANNEL and not name.startswith("spin_angle")
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.model.model import Chain, Model
 from ragg_runtime.model.record import Record
@@ -18,25 +19,24 @@ EOTVOS = 1e-9
 """1 Eo in s^-2."""
 
 
-def voltages(chain: Chain, r: Record, p: Array) -> Array:
-    """V_1 ... V_4, (4, N), V."""
+def voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+    """V_j of the accelerometers of an output, (members, N), V."""
     x = r.inputs(chain)
     return np.stack(
-        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in range(4)]
+        [chain.accelerometer(j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p)) for j in o.members]
     )
 
 
-def output(chain: Chain, r: Record, p: Array) -> Array:
-    """G_out, (N,), V (Eq. 15)."""
-    v = voltages(chain, r, p)
-    return np.asarray((v[0] + v[1]) - (v[2] + v[3]))
+def output(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:
+    """An output, (N,), V (Eq. 15)."""
+    return o.combined(voltages(chain, r, p, o))
 
 
-def scale_factor(chain: Chain, p: Array) -> float:
-    """k_ggi = sum of k_VI K1 R_j, V/Eo (Eq. 30)."""
-    values = named(chain, p)
+def scale_factor(model: Model, p: Array, output: int = 0) -> float:
+    """k_ggi of an output, V/Eo (Eq. 30)."""
+    values = named(model.chain, p)
     k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
-    return float(np.sum(k1 * R)) * EOTVOS
+    return scale(model.layout.outputs[output], k1, R) * EOTVOS
 
 
 def named(chain: Chain, p: Array) -> dict[str, Array]:
@@ -51,16 +51,20 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 def vector(model: Model, instrument: Instrument) -> Array:
     """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
     known = units(instrument.g0)
+    layout = instrument.layout
+    discs = [layout.discs[q.disc] for q in layout.places]
     values: dict[str, Array] = {
-        "radius": np.array([instrument.radius]),
-        "spin_frequency": np.array([instrument.spin_frequency]),
+        "radius": instrument.radii,
+        "spin_frequency": np.array([d.spin_frequency for d in discs]),
     }
+    if layout.like_paper:  # one value each
+        values = {name: v[:1] for name, v in values.items()}
     values |= {k: np.asarray(v, dtype=float) for k, v in instrument.accelerometers.items()}
     settings = {s.id: s for s in instrument.effects}
     for e in model.effects:
         setting = settings.get(e.id)
         for q in e.parameters:
-            size = 1 if q.shared else 4
+            size = 1 if q.shared else layout.size
             given = setting.values.get(q.name) if setting else None
             if given is None:
                 values[q.symbol] = np.full(size, (q.neutral or 0.0) * unit_factor(q.unit, known))

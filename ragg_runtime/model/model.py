@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.instrument.layout import PAPER, Layout
+
 if TYPE_CHECKING:
     from ragg_runtime.model.native import Evaluator
 
@@ -27,7 +29,6 @@ class Chain(Protocol):
     INPUTS: tuple[str, ...]
     PARAMETERS: tuple[tuple[str, int], ...]
     ROWS: tuple[tuple[str, bool], ...]
-    SIGNS: tuple[int, ...]
     SIZE: int
 
     def accelerometer(
@@ -94,6 +95,8 @@ class Model:
         The model in C: file name -> text, as derived.
     folded
         The generated module of the folded form, which only the paper's model has.
+    layout
+        Whose accelerometers the chain is.
     fitting
         The C of chain and signatures: of what fits evaluate.
     in_machine_code
@@ -107,6 +110,7 @@ class Model:
     digest: str
     sources: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
+    layout: Layout = PAPER
     fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     in_machine_code: bool = field(default=False, compare=False)
 
@@ -120,13 +124,13 @@ class Model:
         from ragg_runtime.model.native import for_fits
 
         modules = {"chain": self.chain, "signatures": self.signatures}
-        return for_fits(modules, self.fitting if self.in_machine_code else {})
+        return for_fits(modules, self.fitting if self.in_machine_code else {}, self.layout)
 
     def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
         from ragg_runtime.model.native import evaluator
 
-        return evaluator(self.chain, self.sources, self.folded, backend)
+        return evaluator(self.chain, self.sources, self.folded, backend, self.layout)
 
     def effect(self, identifier: str) -> Effect | None:
         """The effect of this id, in the model or not; ``None`` if unknown."""
@@ -158,8 +162,8 @@ def _packaged(kinematics: str) -> Model:
     return replace(model, sources=sources, folded=folded, in_machine_code=True)
 
 
-def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
-    """A model from derived source texts (``derive.pipeline.derive_model``).
+def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout = PAPER) -> Model:
+    """A model from derived source texts (``derive.pipeline.derive_model``), for this layout.
 
     The texts are executed: pass only what the derivation of this program has just yielded or what is,
     byte for byte, the same.
@@ -174,7 +178,7 @@ def from_files(files: Mapping[str, str], label: str = "derived") -> Model:
         modules[name] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")})
+    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")}, layout=layout)
 
 
 def _model(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.model.model import Chain, Effect
 from ragg_runtime.signals.derivative import differentiate
 
@@ -52,7 +54,15 @@ class Record:
     valid
         (N,) bool: False where a sample must not be used.
     spin_frequency
-        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``spin_angle``).
+        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``angle_column``).
+    angle_column
+        Channel with the angle of the disc that the output belongs to.
+    phase
+        rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase); 0 of the paper's layout.
+    turning
+        Whether the disc turns at all.
+    axes
+        First two axes of the disc at rest in the measurement frame; ``None``: x and y.
     """
 
     time: Array
@@ -61,6 +71,10 @@ class Record:
     valid: NDArray[np.bool_]
     spin_frequency: float
     halo: tuple[int, int] = (0, 0)
+    angle_column: str = "spin_angle"
+    phase: float = 0.0
+    turning: bool = True
+    axes: tuple[Vector3, Vector3] | None = None
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -70,9 +84,14 @@ class Record:
     @cached_property
     def phi(self) -> Array:
         """(N,) rad: the disc angle, the encoder's or 2 pi frac(spin_frequency time)."""
-        if "spin_angle" in self.wide:
-            return self._inner(self.wide["spin_angle"])
+        if self.angle_column in self.wide:
+            return self._inner(self.wide[self.angle_column])
         return disc_angle(self.time, self.spin_frequency)
+
+    @cached_property
+    def demodulation_angle(self) -> Array:
+        """(N,) rad: half the angle of the gradient's carriers."""
+        return self.phi if self.phase == 0.0 else self.phi + self.phase / 2
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -108,15 +127,14 @@ class Record:
             x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
         let_go(*self.wide.values(), self.valid, self.time)
-        return Record(
-            np.array(self.time[rows]), wide, self.rate, valid, self.spin_frequency, (a - first, last - b)
-        )
+        time = np.array(self.time[rows])
+        return replace(self, time=time, wide=wide, valid=valid, halo=(a - first, last - b))
 
     def angle(self, rows: slice) -> tuple[Array, Array]:
         """Time, s, and disc angle, rad, of some samples alone."""
         time = np.array(self.time[rows])
-        if "spin_angle" in self.wide:
-            return time, np.array(self.wide["spin_angle"][rows])
+        if self.angle_column in self.wide:
+            return time, np.array(self.wide[self.angle_column][rows])
         return time, disc_angle(time, self.spin_frequency)
 
     def _inner(self, x: Array) -> Array:
@@ -126,7 +144,7 @@ class Record:
         if name in self.wide:
             return self.wide[name]
         if name in SPIN:
-            encoder = self.wide.get("spin_angle")
+            encoder = self.wide.get(self.angle_column)
             length = len(self.time) + sum(self.halo)
             return spin(name, encoder, length, self.rate, self.spin_frequency)
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
@@ -163,12 +181,52 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
 
 
-def record(flight: Flight, instrument: Instrument) -> Record:
-    """What of this flight enters a model of this instrument."""
+Kind = Literal["voltages", "G_out", "channels"]
+"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
+
+
+def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
+    """What of an output was recorded, the most telling; ``None``: nothing."""
+    o = layout.outputs[place]
+    if layout.voltages(o, flight.outputs) is not None:
+        return "voltages"
+    if o.name in flight.outputs:
+        return "G_out"
+    return "channels" if len(layout.outputs) == 1 else None
+
+
+STANDING = 1e-3
+"""Range of a recorded disc angle, rad, below which the disc stands still."""
+
+
+def phase(g: complex) -> float:
+    """rad, between -pi and pi; 0 of a real number, whatever its sign: that is the sign of the scale factor."""
+    return 0.0 if abs(g.imag) <= 1e-12 * abs(g) else float(np.angle(g))
+
+
+def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
+    """What of this flight enters a model of this output of the instrument."""
     # a long flight's columns stay on disk, unless they have to be shifted
     time = flight.time if flight.time[0] == 0.0 else flight.time - flight.time[0]
+    layout, k = instrument.layout, instrument.accelerometers
+    o = layout.outputs[output]
+    disc = layout.discs[o.disc]
+    turning = disc.spin_frequency != 0.0
+    if disc.angle_column in flight.channels:
+        turning = bool(np.ptp(flight.channels[disc.angle_column]) > STANDING)
+        let_go(flight.channels[disc.angle_column])
     wide = {name: x for name, x in flight.channels.items() if name not in RATES}
-    return Record(time, wide, flight.rate, flight.valid, instrument.spin_frequency)
+    return Record(
+        time=time,
+        wide=wide,
+        rate=flight.rate,
+        valid=flight.valid,
+        spin_frequency=disc.spin_frequency,
+        angle_column=disc.angle_column,
+        phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
+        turning=turning,
+        axes=None if disc.level else disc.across,
+    )
 
 
 def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:

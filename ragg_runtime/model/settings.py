@@ -25,4 +25,6 @@ def check_settings(model: Model, instrument: Instrument) -> None:
             q = names[name]
             where = str(instrument.path) if instrument.path else None
             si_unit = instrument.units.base_unit(q.unit)
-            setting.si(name, si_unit, instrument.g0, shared=q.shared, where=where)
+            setting.si(
+                name, si_unit, instrument.g0, shared=q.shared, where=where, count=instrument.layout.size
+            )

@@ -7,21 +7,27 @@ is imported only where something is derived.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
+from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER as FOUR
+from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.model_dir import derived_cache
 from ragg_runtime.model_dir.trust import trusted_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
+    from derive.layout import Layout as SymbolicLayout
     from derive.pipeline import Form as SymbolicForm
 
 
@@ -48,6 +54,24 @@ class Known:
         )
 
 
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_SYMPY = threading.RLock()
+
+
+def _by_one(function: Callable[P, R]) -> Callable[P, R]:
+    """Let one thread at a time derive: SymPy's caches are not made for several."""
+
+    @functools.wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _SYMPY:
+            return function(*args, **kwargs)
+
+    return alone
+
+
+@_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
     from derive.effects import catalogue, from_sources
@@ -94,24 +118,28 @@ def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
 
     ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
     """
-    if not instrument.effects and instrument.effects_folder is None and _is_packaged(instrument.form):
+    if not instrument.effects and instrument.effects_folder is None and _is_packaged(instrument):
         return packaged(instrument.form.kinematics)
     asked = derived_cache.request(instrument)
     files = derived_cache.matching(generated, asked)
     if files is not None:
-        return _executed(asked, tuple(files.items()))
+        return _executed(asked, tuple(files.items()), instrument.layout)
     k = known(instrument)
-    if not instrument.effects and not k.own and _is_packaged(instrument.form):
+    if not instrument.effects and not k.own and _is_packaged(instrument):
         return packaged(instrument.form.kinematics)
-    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.form)
+    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)
     if _has_files(instrument):
         derived_cache.remember(asked, files)
     return model
 
 
 @cache
-def _executed(asked: str, files: tuple[tuple[str, str], ...]) -> Model:
-    return from_files(dict(files))
+def _executed(asked: str, files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
+    return from_files(dict(files), layout=_sized(layout))
+
+
+def _sized(layout: Layout) -> Layout:
+    return FOUR if layout.like_paper else layout
 
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
@@ -128,24 +156,24 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
         what = "it holds things that are no source files"
     else:
         names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
-        what = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+        what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
         f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
         "adding or removing an effect writes it again"
     )
 
 
-def _is_packaged(form: Form) -> bool:
-    """Whether models of this form come derived with the program: those of the paper's order."""
-    return form.preset == "paper"
+def _is_packaged(instrument: Instrument) -> bool:
+    """Whether such models come derived with the program: those of the paper's order and layout."""
+    return instrument.form.preset == "paper" and instrument.layout.like_paper
 
 
 def _has_files(instrument: Instrument) -> bool:
     """Whether a model directory of this instrument keeps derived code of its own."""
-    return bool(instrument.effects) or not _is_packaged(instrument.form)
+    return bool(instrument.effects) or not _is_packaged(instrument)
 
 
-def _symbolic(form: Form) -> SymbolicForm:
+def _symbolic(form: Form, layout: Layout) -> SymbolicForm:
     from derive.pipeline import Form as SymbolicForm
     from derive.stages import Order
 
@@ -154,11 +182,12 @@ def _symbolic(form: Form) -> SymbolicForm:
         misalignment=None if form.misalignment == "exact" else int(form.misalignment),
         second_order_angles=form.second_order_angles,
     )
-    return SymbolicForm(order=order, kinematics="full" if form.kinematics == "full" else "platform")
+    kinematics: Literal["full", "platform"] = "full" if form.kinematics == "full" else "platform"
+    return SymbolicForm(order=order, kinematics=kinematics, layout=_placed(layout))
 
 
 def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
-    form = _symbolic(instrument.form)
+    form = _symbolic(instrument.form, instrument.layout)
     found = [k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects]
     for e in found:
         _check_needed(e, form, instrument)
@@ -168,7 +197,7 @@ def _chosen(instrument: Instrument, k: Known) -> list[SymbolicEffect]:
 def offered(instrument: Instrument, identifier: str) -> SymbolicEffect:
     """The effect of this id, which the instrument's model does not hold already; UserError if it does."""
     e = known(instrument).get(identifier, at(instrument.path))
-    _check_needed(e, _symbolic(instrument.form), instrument)
+    _check_needed(e, _symbolic(instrument.form, instrument.layout), instrument)
     return e
 
 
@@ -183,21 +212,39 @@ def _check_needed(e: SymbolicEffect, form: SymbolicForm, instrument: Instrument)
 
 
 @cache
+@_by_one
 def derived(
-    effects: tuple[SymbolicEffect, ...], candidates: tuple[SymbolicEffect, ...], form: Form = PAPER
+    effects: tuple[SymbolicEffect, ...],
+    candidates: tuple[SymbolicEffect, ...],
+    form: Form = PAPER,
+    layout: Layout = FOUR,
 ) -> tuple[Model, Mapping[str, str]]:
     """A model of this form with these effects, and the files that its derivation yields."""
     from derive import pipeline
 
-    files = pipeline.derive_model(effects, candidates, _symbolic(form))
-    return from_files(files), files
+    files = pipeline.derive_model(effects, candidates, _symbolic(form, layout))
+    return from_files(files, layout=_sized(layout)), files
 
 
-def with_effects(instrument: Instrument, model: Model, further: Sequence[str]) -> Model:
-    """``model`` with further effects derived into it; without signatures of any more."""
+def _placed(layout: Layout) -> SymbolicLayout:
+    """The layout as the derivation takes it."""
+    from derive.layout import PAPER as QUARTERS
+    from derive.layout import Layout as SymbolicLayout
+    from derive.layout import Output
+
+    if layout.like_paper:
+        return QUARTERS
+    outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
+    return SymbolicLayout(names=layout.names, constants=stations.constants(layout), outputs=outputs)
+
+
+def with_effects(
+    instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
+) -> Model:
+    """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
     k = known(instrument)
     chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, (), instrument.form)[0]
+    return derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)[0]
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
@@ -205,12 +252,22 @@ def files_of(instrument: Instrument) -> Mapping[str, str]:
     if not _has_files(instrument):
         return {}
     k = known(instrument)
-    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.form)[1]
+    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)[1]
 
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:
     """The instrument's model in another form, with those of its effects that this form does not hold already."""
     k = known(instrument)
-    symbolic = _symbolic(form)
+    symbolic = _symbolic(form, instrument.layout)
     chosen = (k.get(s.id, at(instrument.path, "effects")) for s in instrument.effects)
-    return derived(tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics)), (), form)[0]
+    kept = tuple(e for e in chosen if not e.moot(symbolic.order, symbolic.kinematics))
+    return derived(kept, (), form, instrument.layout)[0]
+
+
+def plain_c(instrument: Instrument) -> Mapping[str, str]:
+    """The model in C, for G_out alone, in the order of operations of the NumPy code: file name -> text."""
+    from derive import pipeline
+
+    return pipeline.derive_plain(
+        _chosen(instrument, known(instrument)), _symbolic(instrument.form, instrument.layout)
+    )

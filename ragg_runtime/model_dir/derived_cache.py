@@ -22,6 +22,7 @@ import platformdirs
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
 from ragg_runtime.base.ownership import belongs_to_user
+from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model_dir.trust import trusted_sources
 
@@ -38,8 +39,15 @@ def request(instrument: Instrument) -> str:
     if instrument.effects_folder is not None:
         found = trusted_sources(instrument.effects_folder, instrument.path)
         own = {path.name: hashlib.sha256(text).hexdigest() for path, text in found.items()}
-    form = instrument.form.as_json()
-    return _sha256(json.dumps([_derivation(), effects, own, form], sort_keys=True))
+    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json()]
+    if not instrument.layout.like_paper:
+        layout = instrument.layout
+        asked += [
+            layout.names,
+            dict(stations.constants(layout)),
+            [[o.name, o.members, o.signs] for o in layout.outputs],
+        ]
+    return _sha256(json.dumps(asked, sort_keys=True))
 
 
 def matching(generated: Path | None, asked: str) -> Mapping[str, str] | None:

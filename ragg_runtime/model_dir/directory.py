@@ -1,4 +1,4 @@
-"""A model directory: model.toml, generated/ and history.json, changed all together or not at all.
+"""A model directory: model.toml, generated/, history.json and calibration.json, changed all together or not at all.
 
 A change is a transaction (:mod:`ragg_runtime.base.transaction`): a process may be killed at any instant. Writers
 hold a lock; readers need none: they look again if a change came between. What a killed writer left unfinished
@@ -27,15 +27,16 @@ from ragg_runtime.model_dir.history import Step, history_text, read_history
 
 __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
-MODEL, GENERATED, HISTORY = "model.toml", "generated", "history.json"
+MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 MAPPING = "mapping.toml"
 """How the columns of the instrument's flight files are read (see ``flight.mapping``); nothing but the user changes it."""
 Code = Mapping[str, str] | Path | None
 """Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
 
-NAMES = (MODEL, GENERATED, HISTORY)
+NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION)
 """All that a change of a model directory concerns."""
 
+_LONGEST = 1 << 26  # bytes of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 
@@ -59,6 +60,8 @@ class ModelDir:
         SHA-256 over all of it, hexadecimal: equal states have equal digests.
     unfinished
         Whether this is the new state of a change that was cut off before all of it was in its place.
+    calibration
+        The text of calibration.json; ``None``: nothing was ever saved.
     """
 
     path: Path
@@ -68,6 +71,7 @@ class ModelDir:
     history: tuple[Step, ...]
     digest: str
     unfinished: bool = False
+    calibration: str | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -158,9 +162,16 @@ def create_model_dir(
 
 
 def replace_model_dir(
-    current: ModelDir, text: str, *, generated: Code, history: tuple[Step, ...]
+    current: ModelDir,
+    text: str,
+    *,
+    generated: Code,
+    history: tuple[Step, ...],
+    calibration: str | None = None,
 ) -> ModelDir:
-    """Put a new state in place of ``current``: all three things, or nothing if this fails or is killed.
+    """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
+
+    Without a ``calibration`` (text of calibration.json) the one that is there stays.
 
     Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
     """
@@ -183,7 +194,7 @@ def replace_model_dir(
                 remedy="look at it with: ragg history, and run the command again",
             )
         try:
-            _stage(transaction.stage(path), text, generated, history)
+            _stage(transaction.stage(path), text, generated, history, calibration)
             folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
             transaction.switch(path, folders, removed=removed)
         except OSError as error:
@@ -195,8 +206,12 @@ def replace_model_dir(
     return load_model_dir(path)
 
 
-def _stage(folder: Path, text: str, generated: Code, history: tuple[Step, ...]) -> None:
+def _stage(
+    folder: Path, text: str, generated: Code, history: tuple[Step, ...], calibration: str | None = None
+) -> None:
     """Write a complete state into an empty folder."""
+    if calibration is not None:
+        (folder / CALIBRATION).write_bytes(calibration.encode())
     (folder / MODEL).write_bytes(text.encode())
     (folder / HISTORY).write_text(history_text(history), "utf-8")
     if isinstance(generated, Path):
@@ -228,7 +243,7 @@ def _unfinished(path: Path) -> ModelDir | None:
 
 
 def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
-    """What changes whenever one of the three things is replaced or edited."""
+    """What changes whenever one of these things is replaced or edited."""
     found: list[tuple[int, int, int] | None] = []
     for name in NAMES:
         try:
@@ -242,7 +257,7 @@ def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
 
 def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
     """The state whose parts stand at these ``places`` (:func:`ragg_runtime.base.transaction.places`)."""
-    model, generated, history = (places[name] for name in NAMES)
+    model, generated, history, calibration = (places[name] for name in NAMES)
     if model is None or not os.path.lexists(model):
         raise UserError(
             "not a model directory: model.toml is missing",
@@ -250,7 +265,7 @@ def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
             found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
             remedy="make a model with: ragg new",
         )
-    for place in (model, history):
+    for place in (model, history, calibration):
         if place is not None and place.is_symlink():
             raise UserError(
                 "links in a model directory are not followed",
@@ -267,13 +282,18 @@ def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
         generated=generated if generated is not None and generated.is_dir() else None,
         history=() if history is None else read_history(history),
         digest=_digest(places),
+        calibration=(
+            read_text(calibration, _LONGEST)
+            if calibration is not None and os.path.lexists(calibration)
+            else None
+        ),
     )
 
 
 def _digest(places: Mapping[str, Path | None]) -> str:
-    """SHA-256 over the three things. Links and pipes in generated/ count by what they are, and are not followed."""
+    """SHA-256 over all of it. Links and pipes in generated/ count by what they are, and are not followed."""
     total = hashlib.sha256()
-    for name in (MODEL, HISTORY, GENERATED):
+    for name in (MODEL, HISTORY, CALIBRATION, GENERATED):
         top = places[name]
         for file in [] if top is None else _below(top) if name == GENERATED else [top]:
             try:

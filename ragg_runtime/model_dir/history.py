@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
 
 _LONGEST = 1 << 26  # bytes
@@ -22,15 +22,17 @@ class Step:
     Attributes
     ----------
     action
-        ``new``, ``add`` or ``remove``.
+        ``new``, ``add``, ``remove`` or ``calibrate``.
     effect
-        The effect's id; empty for ``new``.
+        The effect's id; empty for ``new`` and ``calibrate``.
     time
         UTC, ISO 8601.
     before, after
         Error objects (rms_V, rms_Eo, ...) where a flight was given.
     flights
         The flights' names, with their SHA-256.
+    text
+        model.toml as it then was, so that one can go back to it; empty in histories of older versions.
     """
 
     action: str
@@ -39,6 +41,7 @@ class Step:
     before: Mapping[str, Any] | None = None
     after: Mapping[str, Any] | None = None
     flights: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    text: str = ""
 
     def as_json(self) -> dict[str, Any]:
         """The entry as it stands in the file."""
@@ -49,12 +52,26 @@ class Step:
             "before": None if self.before is None else dict(self.before),
             "after": None if self.after is None else dict(self.after),
             "flights": dict(self.flights),
+            **({"model": self.text} if self.text else {}),
         }
 
 
 def history_text(steps: tuple[Step, ...]) -> str:
     """The text of a history.json."""
     return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
+
+
+def calibrated_rms(error: Mapping[str, Any] | None) -> float | None:
+    """rms_Eo of an error object, or of the calibrated one of the three of ``compare``; ``None`` if it has none."""
+    inner = error.get("calibrated", error) if error else None
+    value = inner.get("rms_Eo") if inner else None
+    return None if value is None else float(value)
+
+
+def _error(found: Any) -> Mapping[str, Any] | None:
+    """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
+    calibrated_rms(found)
+    return None if found is None else dict(found)
 
 
 def read_history(path: Path) -> tuple[Step, ...]:
@@ -65,12 +82,13 @@ def read_history(path: Path) -> tuple[Step, ...]:
         content = json.loads(read_text(path, _LONGEST))
         return tuple(
             Step(
-                action=str(s["action"]),
-                time=str(s["time"]),
-                effect=str(s["effect"] or ""),
-                before=s.get("before"),
-                after=s.get("after"),
-                flights=MappingProxyType(dict(s.get("flights", {}))),
+                action=one_line(str(s["action"])),
+                time=one_line(str(s["time"])),
+                effect=one_line(str(s["effect"] or "")),
+                before=_error(s.get("before")),
+                after=_error(s.get("after")),
+                flights=MappingProxyType({str(n): str(d) for n, d in s.get("flights", {}).items()}),
+                text=str(s.get("model", "")),
             )
             for s in content["steps"]
         )

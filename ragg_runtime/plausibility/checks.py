@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE, VOLTAGES
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.derivative import differentiate
 
@@ -43,8 +44,8 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
                 expected="a column of that name with its unit",
                 remedy=f"record it, or take the effect out: ragg remove MODEL_DIR {e.id}",
             )
-    f = instrument.spin_frequency
-    if flight.duration * f < 1:
+    f = max(abs(d.spin_frequency) for d in instrument.layout.discs)
+    if 0 < flight.duration * f < 1:
         raise UserError(
             "the flight is shorter than one revolution of the disc",
             where=where,
@@ -52,7 +53,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
             expected=f"more than {1 / f:.6g} s (spin_frequency {f:.6g} Hz), usually half an hour",
             remedy="give a longer record; check the unit of time (s, ms, min) and spin_frequency",
         )
-    if flight.rate <= 4 * f:
+    if f > 0 and flight.rate <= 4 * f:
         raise UserError(
             "the flight is sampled too slowly for the disc",
             where=where,
@@ -63,7 +64,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
     for name, values in flight.outputs.items():
         there = values[flight.valid & np.isfinite(values)]
         let_go(values)
-        if len(there) and np.ptp(there) == 0 and name in ("G_out", *VOLTAGES):
+        if len(there) and np.ptp(there) == 0 and name in instrument.layout.columns:
             raise UserError(
                 "the output does not change",
                 where=at(where, f"column {name!r}"),
@@ -75,7 +76,8 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
 
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:
     """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
-    return [*_stuck(flight), *_rates(flight), *_encoder(instrument, flight)]
+    encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
+    return [*_stuck(flight), *_rates(flight), *encoders]
 
 
 def _stuck(flight: Flight) -> list[str]:
@@ -128,26 +130,27 @@ def _rates(flight: Flight) -> list[str]:
     return said
 
 
-def _encoder(instrument: Instrument, flight: Flight) -> list[str]:
+def _encoder(disc: Disc, flight: Flight) -> list[str]:
     """The encoder's rate against the model's spin rate."""
-    if "spin_angle" not in flight.channels:
+    column, f = disc.angle_column, disc.spin_frequency
+    if column not in flight.channels or f == 0.0:
         return []
     part = slice(0, min(len(flight), _LONGEST))
-    angle = np.unwrap(flight.channels["spin_angle"][part])
+    angle = np.unwrap(flight.channels[column][part])
     time = flight.time[part]
     rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
-    f = instrument.spin_frequency
-    if abs(rate - f) < 2e-3 * f:
+    if abs(rate - f) < 2e-3 * abs(f):
         return []
-    if abs(rate + f) < 2e-3 * f:
-        return [f"spin_angle runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
+    if abs(rate + f) < 2e-3 * abs(f):
+        return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
     nyquist = flight.rate / 2
     if any(
-        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < 1e-2 * f for x in (f / _DEGREE, f * _DEGREE)
+        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < 1e-2 * abs(f)
+        for x in (f / _DEGREE, f * _DEGREE)
     ):
-        return [f"spin_angle turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]
+        return [f"{column} turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]
     percent = 100 * (rate / f - 1)
     return [
-        f"spin_angle turns at {rate:.6g} Hz, {percent:+.2g} % off the model's spin_frequency of {f:.6g} Hz:"
+        f"{column} turns at {rate:.6g} Hz, {percent:+.2g} % off the model's spin_frequency of {f:.6g} Hz:"
         " the angle is used; is spin_frequency right?"
     ]

@@ -42,7 +42,9 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
         worst = max(worst, float(np.max(np.abs(x.time[k] - (first + step * k)), initial=0.0)) / step)
     let_go(x.time, x.valid)
     jitters = worst > JITTER_NOTED
-    encoder = "spin_angle" in x.channels
+    discs = instrument.layout.discs
+    # without an angle to find: recorded, standing still, or those of several discs
+    encoder = p.disc.angle_column in x.channels or len(discs) > 1 or p.disc.spin_frequency == 0.0
     start = float(x.time[0])
     if not jitters and (encoder or start == 0.0):
         return None
@@ -51,7 +53,7 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     tried: list[tuple[float, bool, float]] = []  # residual, even instants, where the disc's angle is 0
     if jitters:
         tried.append((explain(model, instrument, p.pick(rows, even=True)).rms, True, first))
-    f = instrument.spin_frequency
+    f = p.disc.spin_frequency
     for origin in () if encoder else (first, 0.0) if jitters else (0.0,):
         late = float(disc_angle(np.array([start]), f)[0] - disc_angle(np.array([origin]), f)[0])
         tried.append((explain(model, instrument, p.pick(rows, phase=late)).rms, False, origin))

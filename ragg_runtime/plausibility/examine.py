@@ -15,6 +15,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.identify import Likely, derived_rates, likely
@@ -41,14 +42,15 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     checks.require(model, instrument, flight)
     flight = _without_motion_spikes(flight)
     notes = checks.remarks(instrument, flight)
-    p = picker(flight, instrument, tuple(model.chain.INPUTS))
+    places = [k for k in range(len(instrument.layout.outputs)) if recorded(flight, instrument.layout, k)]
+    p = picker(flight, instrument, tuple(model.chain.INPUTS), places[0])
     if not p.usable.any():
         return dataclasses.replace(flight, notes=(*flight.notes, *notes))
     clock = steadied(model, instrument, p)
     if clock is not None:
         flight, note = clock
         notes.append(note)
-        p = picker(flight, instrument, tuple(model.chain.INPUTS))
+        p = picker(flight, instrument, tuple(model.chain.INPUTS), places[0])
     notes += _saturated(p)
     found = likely(model, instrument, p)
     if found is not None:
@@ -56,6 +58,11 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
             raise _refused(flight, found, notes)
         notes.append(_remark(found))
     valid, said = _output_spikes(model, instrument, p)
+    for place in places[1:]:
+        further = picker(flight, instrument, tuple(model.chain.INPUTS), place)
+        notes += _saturated(further)
+        mask, more = _output_spikes(model, instrument, further)
+        valid, said = valid & mask, [*said, *more]
     return dataclasses.replace(flight, valid=valid, notes=(*flight.notes, *notes, *said))
 
 
@@ -88,14 +95,16 @@ def _remark(found: Likely) -> str:
 
 
 def _saturated(p: Picker) -> list[str]:
-    if "G_out" not in p.flight.outputs:
+    if p.output.name not in p.flight.outputs:
         return []
-    G = p.flight.outputs["G_out"]
+    G = p.flight.outputs[p.output.name]
     clipped = int(np.sum(p.flight.valid & np.isfinite(G) & ~p.usable))
     if not clipped or p.kind == "voltages":
         return []
     top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))
-    return [f"G_out: {clipped} samples stand at the extreme value of {top:.6g} V: saturated, not used"]
+    return [
+        f"{p.output.name}: {clipped} samples stand at the extreme value of {top:.6g} V: saturated, not used"
+    ]
 
 
 def _without_motion_spikes(flight: Flight) -> Flight:
@@ -132,9 +141,9 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     if p.kind == "channels":
         return valid, []  # a demodulator has smeared them
     fitted = explain(model, instrument, p.pick(p.rows())).p
-    eotvos = scale_factor(model.chain, fitted)
+    eotvos = scale_factor(model, fitted, p.place)
     n = len(p.flight)
-    names = ("G_out",) if p.kind == "G_out" else ("V_1", "V_2", "V_3", "V_4")
+    names = p.columns
     left = np.empty((len(names), n))
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
@@ -144,7 +153,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
                 model.chain.accelerometer(
                     j, rows.time, np.cos(rows.phi), np.sin(rows.phi), x, model.chain.values_of(j, fitted)
                 )
-                for j in range(4)
+                for j in p.output.members
             ]
         )
         left[:, start : start + CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos

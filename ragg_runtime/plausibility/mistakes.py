@@ -9,12 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import permutations, product
+from itertools import combinations, permutations, product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight.record import VOLTAGES
 from ragg_runtime.instrument.units import Units
 from ragg_runtime.plausibility.subsample import Rows
 
@@ -81,7 +80,8 @@ def _stem(name: str) -> str:
 
 
 def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[Mistake]:
-    what = {"G_out": "G_out", "voltages": "V_1 ... V_4", "channels": "inline and cross"}[rows.kind]
+    several = f"{rows.names[0]} ... {rows.names[-1]}"
+    what = {"G_out": rows.names[0], "voltages": several, "channels": "inline and cross"}[rows.kind]
 
     def scaled(factor: float) -> Callable[[Rows], Rows]:
         return lambda r: replace(r, data=factor * r.data)
@@ -101,7 +101,7 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
             1,
         )
         return
-    given = written.get(VOLTAGES[0] if rows.kind == "voltages" else "G_out", "V")
+    given = written.get(rows.names[0], "V")
     for unit, factor in _meant(units_, given, ("V", "mV", "uV", "kV")):
         yield Mistake(
             f"{what} {'are' if rows.kind == 'voltages' else 'is'} in {unit}, not in {given}",
@@ -110,21 +110,31 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
         )
     if rows.kind != "voltages":
         return
-    for order in permutations(range(4)):
-        if order == (0, 1, 2, 3):
-            continue
-        swapped = [k for k in range(4) if order[k] != k]
+    for order in _orders(len(rows.names)):
+        swapped = [k for k, was in enumerate(order) if was != k]
         if len(swapped) == 2:
-            i, j = (VOLTAGES[k] for k in swapped)
+            i, j = (rows.names[k] for k in swapped)
             text = f"{i} and {j} are exchanged"
         else:
-            text = f"the order of {', '.join(VOLTAGES)} is {', '.join(VOLTAGES[k] for k in order)}"
+            text = f"the order of {', '.join(rows.names)} is {', '.join(rows.names[k] for k in order)}"
         yield Mistake(
             text,
             "exchange the names of the columns",
             _reordered(order),
             len(swapped),
         )
+
+
+def _orders(count: int) -> Iterator[tuple[int, ...]]:
+    """Orders in which voltages may stand by mistake: any of up to four, of more those with two exchanged."""
+    straight = tuple(range(count))
+    if count <= 4:
+        yield from (order for order in permutations(straight) if order != straight)
+        return
+    for i, j in combinations(straight, 2):
+        order = list(straight)
+        order[i], order[j] = j, i
+        yield tuple(order)
 
 
 def _reordered(order: tuple[int, ...]) -> Callable[[Rows], Rows]:

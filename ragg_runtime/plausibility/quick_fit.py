@@ -57,21 +57,27 @@ class Explained:
 def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
     """Fit the model's parameters about the instrument's values, with their priors."""
     p = vector(model, instrument)
-    eotvos = scale_factor(model.chain, p)
+    members = rows.output.members
+    place = instrument.layout.outputs.index(rows.output)
+    eotvos = scale_factor(model, p, place)
     x = rows.inputs(model.chain)
     cos_phi, sin_phi = np.cos(rows.phi), np.sin(rows.phi)
-    volts = np.empty((4, len(rows.time)))
+    volts = np.empty((len(members), len(rows.time)))
     by: dict[tuple[str, int | None], Array] = {}
-    for j in range(4):
+    for k, j in enumerate(members):
         q = model.chain.values_of(j, p)
-        volts[j] = model.chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
+        volts[k] = model.chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
         slopes = model.chain.derivatives(j, rows.time, cos_phi, sin_phi, x, q)
         for (name, shared), slope in zip(model.chain.ROWS, slopes, strict=True):
             if shared:
-                by.setdefault((name, None), np.empty_like(volts))[j] = slope
+                by.setdefault((name, None), np.empty_like(volts))[k] = slope
             else:
                 by[name, j + 1] = slope
-    found = design.base_columns(model, instrument)
+    found = [
+        (c, i)
+        for c, i in design.base_columns(model, instrument)
+        if c.accelerometer is None or c.accelerometer - 1 in members
+    ]
     columns = [
         rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) * (c.scale / eotvos)
         for c, _ in found
@@ -98,9 +104,16 @@ def _gradient(rows: Rows) -> list[Array]:
     """Columns of a constant gradient where none was recorded, before demodulation."""
     if rows.gradient_recorded:
         return []
-    volts = np.array([0.25, 0.25, -0.25, -0.25])[:, None] * GRADIENT_SCALE
-    carriers = (np.sin(2 * rows.phi), np.cos(2 * rows.phi))
-    return [rows.before_demodulation(volts * carrier, None) for carrier in carriers]
+    o = rows.output
+    share = (
+        np.array(o.carriers)[:, None] * np.array(o.radii)[:, None] / max((*o.radii, 1e-300)) / len(o.members)
+    )
+    turning = np.exp(2j * rows.phi)
+    if not np.any(share.imag):
+        carriers = [share.real * GRADIENT_SCALE * x for x in (np.sin(2 * rows.phi), np.cos(2 * rows.phi))]
+    else:
+        carriers = [x * GRADIENT_SCALE for x in ((share * turning).imag, (share * turning).real)]
+    return [rows.before_demodulation(x, None) for x in carriers]
 
 
 def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_]]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +12,18 @@ from scipy import signal
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_values import saturation
-from ragg_runtime.flight.record import DEMODULATED, VOLTAGES
+from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import PAPER, Disc, Output
 from ragg_runtime.model.model import Chain
-from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
+from ragg_runtime.model.record import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
-Kind = Literal["voltages", "G_out", "channels"]
 
 MOST = 1500
 """Rows that a fit takes: many times the number of parameters."""
@@ -54,6 +53,9 @@ class Rows:
     phi: Array
     channels: Mapping[str, Array]
     taps: Array
+    output: Output = PAPER.outputs[0]
+    names: tuple[str, ...] = ("G_out",)
+    """Columns of ``data``."""
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, n) in the order of the chain's INPUTS; what was not recorded is zero."""
@@ -64,15 +66,16 @@ class Rows:
         return x
 
     def before_demodulation(self, volts: Array, accelerometer: int | None) -> Array:
-        """(4, n) or (1, n): the voltages, or G_out, of voltages (4, n), or of one accelerometer's (n,)."""
+        """(members, n) or (1, n): the output's voltages, or itself, of these, or of one accelerometer's (n,)."""
+        members, signs = self.output.members, np.array(self.output.signs, dtype=np.float64)
+        at = None if accelerometer is None else members.index(accelerometer - 1)
         if self.kind == "voltages":
-            if accelerometer is None:
+            if at is None:
                 return volts
-            full = np.zeros((4, volts.shape[-1]))
-            full[accelerometer - 1] = volts
+            full = np.zeros((len(members), volts.shape[-1]))
+            full[at] = volts
             return full
-        signs = np.array([1.0, 1.0, -1.0, -1.0])
-        G = signs @ volts if accelerometer is None else signs[accelerometer - 1] * volts
+        G = signs @ volts if at is None else signs[at] * volts
         return np.asarray(G[None])
 
     def seen(self, raw: Array) -> Array:
@@ -107,6 +110,20 @@ class Picker:
     usable: Mask
     derived: Mapping[str, Array]
     taps: Array
+    place: int = 0
+
+    @property
+    def output(self) -> Output:
+        return self.instrument.layout.outputs[self.place]
+
+    @property
+    def disc(self) -> Disc:
+        return self.instrument.layout.discs[self.output.disc]
+
+    @cached_property
+    def columns(self) -> tuple[str, ...]:
+        """Of the flight, that hold the output."""
+        return _columns(self.flight, self.instrument, self.place, self.kind)
 
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
         """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
@@ -154,9 +171,9 @@ class Picker:
         time = _picked(x.time, rows) - x.time[0]
         if even:
             time = rows * self.even[1]
-        f = self.instrument.spin_frequency if spin_frequency is None else spin_frequency
-        if "spin_angle" in x.channels and spin_frequency is None:
-            phi = _picked(x.channels["spin_angle"], rows)
+        f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
+        if self.disc.angle_column in x.channels and spin_frequency is None:
+            phi = _picked(x.channels[self.disc.angle_column], rows)
         else:
             phi = disc_angle(time, f)
         moved = rows + shift
@@ -168,7 +185,9 @@ class Picker:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
         data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
-        return Rows(self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps)
+        return Rows(
+            self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps, self.output, self.columns
+        )
 
     @cached_property
     def _there(self) -> Index:
@@ -193,10 +212,8 @@ class Picker:
 
     def _output(self) -> list[Array]:
         outputs = self.flight.outputs
-        if self.kind == "voltages":
-            return [outputs[v] for v in VOLTAGES]
-        if self.kind == "G_out":
-            return [outputs["G_out"]]
+        if self.kind != "channels":
+            return [outputs[v] for v in self.columns]
         k = self.instrument.scale_factor
         return [k / 2 * outputs["inline"], -k * outputs["cross"]]
 
@@ -212,26 +229,32 @@ def _picked(column: Array, rows: Index) -> Array:
     return found
 
 
-def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = ()) -> Picker:
-    """Prepare a flight for picking rows; ``inputs`` are the names that the model asks for."""
-    if all(v in flight.outputs for v in VOLTAGES):
-        kind: Kind = "voltages"
-    elif "G_out" in flight.outputs:
-        kind = "G_out"
-    else:
-        kind = "channels"
+def _columns(flight: Flight, instrument: Instrument, place: int, kind: Kind) -> tuple[str, ...]:
+    layout = instrument.layout
+    o = layout.outputs[place]
+    volts = layout.voltages(o, flight.outputs) or ()
+    return {"voltages": volts, "G_out": (o.name,), "channels": DEMODULATED}[kind]
+
+
+def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (), place: int = 0) -> Picker:
+    """Prepare a flight for picking rows; ``inputs`` are the names that the model asks for, ``place`` the output."""
+    kind = recorded(flight, instrument.layout, place)
+    if kind is None:
+        raise ValueError("the flight does not hold this output")
     usable = flight.valid.copy()
-    for name in {"voltages": VOLTAGES, "G_out": ("G_out",), "channels": DEMODULATED}[kind]:
+    for name in _columns(flight, instrument, place, kind):
         usable &= np.isfinite(flight.outputs[name])
-    if "G_out" in flight.outputs and usable.any():
-        clipped = saturation(flight.outputs["G_out"], usable)
+    own = instrument.layout.outputs[place].name
+    if own in flight.outputs and usable.any():
+        clipped = saturation(flight.outputs[own], usable)
         if clipped is not None:
             usable &= ~clipped[1]
     derived = {}
     for name in inputs:
         if name in SPIN:
-            encoder = flight.channels.get("spin_angle")
-            derived[name] = spin(name, encoder, len(flight), flight.rate, instrument.spin_frequency)
+            disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
+            encoder = flight.channels.get(disc.angle_column)
+            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency)
             continue
         order = 2 if name.startswith("d2_") else 1
         base = name.removeprefix("d2_").removeprefix("d_")
@@ -241,4 +264,4 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = ())
                 series = differentiate(series, flight.rate)
             derived[name] = series
     taps = low_pass(flight.rate) if kind == "channels" else np.zeros(0)
-    return Picker(flight, instrument, kind, usable, derived, taps)
+    return Picker(flight, instrument, kind, usable, derived, taps, place)

@@ -44,17 +44,19 @@ class Found:
 def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     """The best of each kind of mistake."""
     found = _shift(model, instrument, p)
+    if p.disc.spin_frequency == 0.0:
+        return found
     if p.kind != "channels":  # a demodulator at the wrong rate lets nothing through
         found += _spin(model, instrument, p)
-    if "spin_angle" not in p.flight.channels or p.kind == "channels":
+    if p.disc.angle_column not in p.flight.channels or p.kind == "channels":
         found += _phase(model, instrument, p)
     return found
 
 
 def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     """The spin rate at which the model explains most, coarse to fine: half a turn of error at each step."""
-    f0 = instrument.spin_frequency
-    encoder = "spin_angle" in p.flight.channels
+    f0 = p.disc.spin_frequency
+    encoder = p.disc.angle_column in p.flight.channels
     x = p.flight
     best, width = f0, SPIN_RANGE * f0
     span = min(x.duration, 0.5 / width * 2)
@@ -160,11 +162,12 @@ def _shift(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
 def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
     """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y most."""
     x = p.flight
-    if p.kind == "channels" or x.duration < 3 / instrument.spin_frequency:
+    f = abs(p.disc.spin_frequency)
+    if p.kind == "channels" or (f > 0 and x.duration < 3 / f):
         return ()
     n = min(len(x), LONGEST)
     whole = p.pick(np.arange(n))
-    data = whole.data if p.kind == "G_out" else (whole.data[0] - whole.data[1])[None]
+    data = whole.data if len(whole.data) == 1 else (whole.data[0] - whole.data[1])[None]
     usable = p.usable[:n]
     carried = np.where(usable, data[0], 0.0) * np.exp(1j * whole.phi)
     taps = low_pass(x.rate)

@@ -7,18 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.reference.angle import disc_angle
 from ragg_runtime.reference.effects import Injected, force, geometry, transducer
-from ragg_runtime.reference.geometry import Mount, mount
+from ragg_runtime.reference.geometry import Mount, mount, standing
 from ragg_runtime.reference.gravity import Gravity
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import Rotations, frame_rotation
 from ragg_runtime.reference.taylor import Taylor, carried, spun
+from ragg_runtime.reference.turning import Turning
 
 if TYPE_CHECKING:
     from ragg_runtime.instrument.instrument import Instrument
@@ -44,10 +45,10 @@ _SECOND = (-1 / 12, 4 / 3, -5 / 2, 4 / 3, -1 / 12)
 
 @dataclass(frozen=True)
 class Instant:
-    """The truth at N instants: time (N,) s, disc angle (N,) rad and its rates, motion, auxiliary channels."""
+    """The truth at N instants: time (N,) s, angle (N,) rad of each disc and its rates, motion, auxiliary channels."""
 
     time: Array
-    phi: Taylor
+    phi: tuple[Taylor, ...]
     motion: MotionState
     auxiliaries: Mapping[str, Array]
     around: tuple[Instant, ...] = ()
@@ -68,6 +69,8 @@ class Chain:
         ``first-order`` (Eq. 2 and the paper's geometry) or ``exact``.
     effects
         Resolved.
+    turning
+        How each disc turns.
     spin
         Share of the disc's own turning in the kinematics: 0 is Eq. 49, 1 nature.
     """
@@ -78,29 +81,48 @@ class Chain:
     rotations: Rotations
     effects: Injected
     auxiliaries: Mapping[str, Auxiliary]
+    turning: tuple[Turning, ...]
     spin: float = 0.0
 
+    @property
+    def size(self) -> int:
+        """Number of accelerometers."""
+        return self.instrument.layout.size
+
+    @cached_property
+    def standing(self) -> tuple[Array | None, ...]:
+        """How each disc stands in the measurement frame."""
+        return tuple(standing(d) for d in self.instrument.layout.discs)
+
     def voltages(self, time: Array, angle_error: Array) -> Array:
-        """V_1 ... V_4 without noise, (4, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
-        tau = transducer.lags(self.effects)
+        """V_1 ... V_n without noise, (n, N) V, at (N,) s; ``angle_error`` (N,) rad: random part of phi."""
+        present = self._unfiltered(time, 0.0, angle_error)
+        change = np.zeros_like(present)
+        for delay, weight in transducer.averaging(self.effects):
+            change += weight * (self._unfiltered(time, delay, angle_error) - present)
+        return np.asarray(present + change)
+
+    def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
+        """The voltages (n, N) V so much earlier (s), loops and their lags included."""
+        tau = transducer.lags(self.effects, self.size)
         shaken = force.vibration(self.effects)
-        V = np.empty((4, time.size))
-        now = self._instant(time, 0.0, angle_error)
-        for j in range(4):
+        V = np.empty((self.size, time.size))
+        now = self._instant(time, earlier, angle_error)
+        for j in range(self.size):
             V[j] = self._average(j, now, shaken)
         for lag in np.unique(tau[tau > 0]):
             group = np.flatnonzero(tau == lag)
             # Adding the difference to the present, rather than the past itself, keeps a tiny lag accurate.
             present, change = V[group], np.zeros((group.size, time.size))
             for delay, weight in transducer.lag_quadrature(float(lag)):
-                past = self._instant(time, delay, angle_error)
+                past = self._instant(time, earlier + delay, angle_error)
                 for row, member in enumerate(group):
                     change[row] += weight * (self._average(int(member), past, shaken) - present[row])
             V[group] = present + change
         return V
 
     def scale(self, time: Array) -> Array:
-        """k_VI K1 of the four accelerometers as they are at the time, (4, N) V/(m/s^2)."""
+        """k_VI K1 of the accelerometers as they are at the time, (n, N) V/(m/s^2)."""
         auxiliaries = self._auxiliaries_at(time)
         k = self.instrument.accelerometers
         return np.stack(
@@ -109,23 +131,22 @@ class Chain:
                 * k["K1"][j]
                 * transducer.gain(j, time, auxiliaries, self.effects)
                 * np.ones(time.size)
-                for j in range(4)
+                for j in range(self.size)
             ]
         )
 
     def _instant(self, time: Array, delay: float, angle_error: Array, alone: bool = False) -> Instant:
-        bending = not alone and any(geometry.bends(j, self.effects) for j in range(4))
+        bending = not alone and any(geometry.bends(j, self.effects) for j in range(self.size))
         around = tuple(
             self._instant(time, delay - n * _STEP, angle_error, alone=True)
             for n in ((-2, -1, 1, 2) if bending else ())
         )
-        frequency = self.instrument.spin_frequency
-        steady = np.full(time.shape, 2 * np.pi * frequency)
-        nominal = Taylor(disc_angle(frequency, time, delay), steady, np.zeros(time.shape))
         past = time - delay
         return Instant(
             time=past,
-            phi=geometry.disc_angle(nominal, past, angle_error, self.effects),
+            phi=tuple(
+                geometry.disc_angle(t.at(time, delay), past, angle_error, self.effects) for t in self.turning
+            ),
             motion=self.motion.at(time, delay),
             auxiliaries=self._auxiliaries_at(past),
             around=around,
@@ -145,10 +166,11 @@ class Chain:
         return np.asarray(sum(voltages), dtype=np.float64)
 
     def _voltage(self, j: int, instant: Instant, shake: Array) -> Array:
-        """Eq. 49-52 for accelerometer j (0 ... 3), (N,) V."""
+        """Eq. 49-52 for accelerometer j, counted from 0, (N,) V."""
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
-        radius = self.instrument.radius + k["dR"]
-        actual = mount(j, k["beta_x"], k["beta_z"], self.rotations)
+        place = self.instrument.layout.places[j]
+        radius = place.radius + k["dR"]
+        actual = mount(place, k["beta_x"], k["beta_z"], self.rotations)
         nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
         C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.rotations)
@@ -156,7 +178,8 @@ class Chain:
         kappa = transducer.angles_in_second_order(self.effects)
         i, o, p = measured
         if kappa != 1:
-            unturned, _ = self._nominal_force(j, mount(j, 0.0, 0.0, self.rotations), radius, instant, shake)
+            level = mount(place, 0.0, 0.0, self.rotations)
+            unturned, _ = self._nominal_force(j, level, radius, instant, shake)
             i, o, p = (n + kappa * (m - n) for n, m in zip(unturned, measured, strict=True))
         bracket = (
             measured[0]
@@ -176,9 +199,9 @@ class Chain:
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
     ) -> tuple[Triple, Triad]:
         """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along."""
-        arm, triad = self._in_measurement_frame(fixed, instant.phi)
+        arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
         if not geometry.bends(j, self.effects):
-            return self._specific_force(arm * radius, triad, instant, shake), triad
+            return self._specific_force(_lifted(arm * radius, lift), triad, instant, shake), triad
         length, f = self._settled(j, fixed, radius, instant, shake)
         around = [self._settled(j, fixed, radius, near, shake)[0] for near in instant.around]
         beside = np.stack([*around[:2], length, *around[2:]])
@@ -191,28 +214,34 @@ class Chain:
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
     ) -> tuple[Array, Triple]:
         """Radius under the force that acts at this radius, (N,) m, and that force."""
-        arm, triad = self._in_measurement_frame(fixed, instant.phi)
-        f = self._specific_force(arm * radius, triad, instant, shake)
+        arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
+        f = self._specific_force(_lifted(arm * radius, lift), triad, instant, shake)
         length = np.full(instant.time.shape, radius)
         for _ in range(_ARM_ITERATIONS):
             length = geometry.arm_length(j, radius, f, self.effects)
-            f = self._specific_force(arm * length, triad, instant, shake)
+            f = self._specific_force(_lifted(arm * length, lift), triad, instant, shake)
         return length, f
 
     def _along(self, triad: Triad, f: Triple, further: Array) -> Triple:
         x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
         return x, y, z
 
-    def _in_measurement_frame(self, fixed: Mount, phi: Taylor) -> tuple[Taylor, Triad]:
-        """Arm and triad, (3, N) each, of a mount while the disc angle runs on."""
-        vectors = np.stack([fixed.arm, *fixed.triad])
+    def _in_measurement_frame(
+        self, j: int, fixed: Mount, instant: Instant
+    ) -> tuple[Taylor, Triad, Taylor | None]:
+        """Arm and triad, and what lifts it out of the disc's plane, (3, N) each, while the disc angle runs on."""
+        disc = self.instrument.layout.places[j].disc
+        lifts = bool(np.any(fixed.lift))
+        vectors = np.stack([fixed.arm, *fixed.triad, *([fixed.lift] if lifts else [])])
         if (lean := geometry.wobble(self.effects)) is not None:
             vectors = vectors @ lean.T
-        turned = [spun(v, phi) for v in vectors]
+        turned = [spun(v, instant.phi[disc]) for v in vectors]
         if (axis := geometry.spin_axis(self.effects)) is not None:
             turned = [v.turned(axis) for v in turned]
-        arm, tau_x, tau_y, tau_z = turned
-        return arm, (tau_x, tau_y, tau_z)
+        if (axes := self.standing[disc]) is not None:
+            turned = [v.turned(axes) for v in turned]
+        arm, tau_x, tau_y, tau_z, *lift = turned
+        return arm, (tau_x, tau_y, tau_z), lift[0] if lift else None
 
     def _specific_force(self, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
         """Eq. 49 at position r (3, N), or what a point moving like r feels, and Eq. 50: along the triad."""
@@ -228,6 +257,10 @@ class Chain:
         f = f - force.attraction(here, instant.auxiliaries, self.effects)
         x, y, z = (np.sum(f * tau.value, axis=0) for tau in triad)
         return x, y, z
+
+
+def _lifted(r: Taylor, lift: Taylor | None) -> Taylor:
+    return r if lift is None else r + lift
 
 
 def _rows(C: Array, f: Triple) -> Triple:

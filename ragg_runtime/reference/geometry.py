@@ -7,12 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.reference.rotation import Rotations, X, Y, Z, about
+from ragg_runtime.instrument.layout import TANGENTIAL, Disc, Place
+from ragg_runtime.reference.rotation import Rotations, X, Y, Z, about, least_rotation
 
 Array = NDArray[np.float64]
-
-_STATIONS = ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
-"""Cosine and sine of the angle of A1 ... A4 on the disc: 0, 180, 90 and 270 degrees."""
 
 # Columns: the nominal axes of an accelerometer at angle 0. x along the turn, y outward, hence z down.
 _NOMINAL = np.column_stack([Y, X, -Z])
@@ -28,23 +26,38 @@ class Mount:
         (3,) from the disc centre to the accelerometer, over its radius (unit length in exact rotations).
     triad
         (3, 3), rows tau_x, tau_y, tau_z: its nominal frame at its actual position.
+    lift
+        (3,) m, along the axis: from the plane of the disc's centre to that of the accelerometer.
     """
 
     arm: Array
     triad: Array
+    lift: Array
 
 
-def mount(j: int, beta_x: float, beta_z: float, rotations: Rotations) -> Mount:
-    """Accelerometer j = 0 ... 3 with altitude beta_x and initial phase angle beta_z (rad).
+def mount(place: Place, beta_x: float, beta_z: float, rotations: Rotations) -> Mount:
+    """An accelerometer with altitude beta_x and initial phase angle beta_z (rad).
 
     In its own nominal axes the arm is y turned by -beta_x about x, which lifts it towards +z of the
     measurement frame (nominal z points down), while the triad is turned by +beta_x: the senses of the
-    printed Eq. 19. Both then turn by beta_z about the spin axis and move to the station.
+    printed Eq. 19. Both then turn by beta_z about the spin axis and move to the station. An input axis of
+    another direction than along the turn has turned the triad before all that.
     """
-    c, s = _STATIONS[j]
+    c, s = place.cosine_sine
     station = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     axes = station @ about(Z, beta_z, rotations) @ _NOMINAL
-    return Mount(
-        arm=axes @ about(X, -beta_x, rotations) @ Y,
-        triad=(axes @ about(X, beta_x, rotations)).T,
-    )
+    turned = axes @ about(X, beta_x, rotations)
+    if place.direction != TANGENTIAL:
+        turned = turned @ _NOMINAL.T @ least_rotation(Y, np.array(place.direction), Z) @ _NOMINAL
+    return Mount(arm=axes @ about(X, -beta_x, rotations) @ Y, triad=turned.T, lift=place.height * Z)
+
+
+def standing(disc: Disc) -> Array | None:
+    """(3, 3): takes a disc from where z is its axis and x its angle 0 to where it is; ``None``: it is there."""
+    if disc.level:
+        return None
+    axis, zero = np.array(disc.axis), np.array(disc.zero)
+    leaning = least_rotation(Z, axis, X)
+    now = leaning @ X
+    twist = float(np.arctan2(axis @ np.cross(now, zero), now @ zero))
+    return about(axis, twist) @ leaning

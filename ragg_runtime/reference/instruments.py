@@ -81,7 +81,7 @@ def perfect() -> Instrument:
 def perturbed(instrument: Instrument, rng: np.random.Generator, amount: float = 1.0) -> Instrument:
     """True parameters drawn about a test sheet, ``amount`` times as uncertain as such sheets are."""
     drawn = {
-        name: values + amount * _UNCERTAINTY.get(name, 0.0) * rng.standard_normal(4)
+        name: values + amount * _UNCERTAINTY.get(name, 0.0) * rng.standard_normal(instrument.layout.size)
         for name, values in instrument.accelerometers.items()
     }
     return instrument.replace(**drawn)

@@ -37,6 +37,15 @@ def by_vector(vector: ArrayLike) -> Array:
     return np.eye(3) if angle == 0 else about(v / angle, angle)
 
 
+def least_rotation(start: Array, end: Array, spare: Array) -> Array:
+    """The smallest rotation that takes a unit vector to another, (3, 3); about ``spare`` if they are opposite."""
+    axis = np.cross(start, end)
+    sine = float(np.linalg.norm(axis))
+    if sine < 1e-12:
+        return np.eye(3) if start @ end > 0 else about(spare, np.pi)
+    return about(axis / sine, float(np.arctan2(sine, start @ end)))
+
+
 def spin(vector: ArrayLike, angle: ArrayLike) -> Array:
     """Turn one disc-fixed vector (3,), or a series (3, N), about z by each angle (N,) rad: (3, N)."""
     v = np.asarray(vector, dtype=np.float64)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import PAPER, Layout, Output
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.auxiliaries import plausible
 from ragg_runtime.reference.chain import Auxiliary, Chain
@@ -20,6 +21,7 @@ from ragg_runtime.reference.effects.sensing import record_motion
 from ragg_runtime.reference.gravity import COMPONENTS, Gravity
 from ragg_runtime.reference.motion import Motion
 from ragg_runtime.reference.rotation import Rotations
+from ragg_runtime.reference.turning import Turning
 
 if TYPE_CHECKING:
     from ragg_runtime.flight import Flight
@@ -43,9 +45,9 @@ class Simulation:
         (N,) s.
     channels
         Recorded motion, gradients and auxiliaries, (N,) each, SI.
-    voltages, G_out
-        (4, N) and (N,) V, as recorded.
-    voltages_noise_free, G_out_noise_free
+    voltages, outputs
+        (n, N) V and name -> (N,) V, as recorded.
+    voltages_noise_free, outputs_noise_free
         The same without accelerometer noise, effects included.
     instrument
         The true parameters.
@@ -56,19 +58,30 @@ class Simulation:
     time: Array
     channels: Mapping[str, Array]
     voltages: Array
-    G_out: Array
+    outputs: Mapping[str, Array]
     voltages_noise_free: Array
-    G_out_noise_free: Array
+    outputs_noise_free: Mapping[str, Array]
     instrument: Instrument
     effects: Injected
 
+    @property
+    def G_out(self) -> Array:
+        """The first output, (N,) V, as recorded."""
+        return next(iter(self.outputs.values()))
+
+    @property
+    def G_out_noise_free(self) -> Array:
+        """The same without accelerometer noise."""
+        return next(iter(self.outputs_noise_free.values()))
+
     def flight(self, name: str = "simulated", *, voltages: bool = False) -> Flight:
-        """The record as a flight: G_out, and the four voltages if asked for."""
+        """The record as a flight: its outputs, and the voltages if asked for."""
         from ragg_runtime.flight import Flight
 
-        outputs = {"G_out": self.G_out}
+        outputs = dict(self.outputs)
         if voltages:
-            outputs |= {f"V_{j + 1}": v for j, v in enumerate(self.voltages)}
+            layout = self.instrument.layout
+            outputs |= {layout.voltage_columns(j)[0]: v for j, v in enumerate(self.voltages)}
         return Flight(
             time=self.time,
             channels=dict(self.channels),
@@ -80,11 +93,12 @@ class Simulation:
         )
 
 
-def combine(voltages: Array) -> Array:
-    """Output before demodulation, V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
-    V_1, V_2, V_3, V_4 = voltages
-    G_out: Array = V_1 + V_2 - V_3 - V_4
-    return G_out
+def combine(voltages: Array, output: Output = PAPER.outputs[0]) -> Array:
+    """Output before demodulation, V_1 + V_2 - V_3 - V_4 (Eq. 15): the members' voltages with their signs, in turn."""
+    total: Array = np.zeros(voltages.shape[1])
+    for j, sign in zip(output.members, output.signs, strict=True):
+        total = total + voltages[j] if sign > 0 else total - voltages[j]
+    return total
 
 
 def instants(duration: float, rate: float, start: float = 0.0) -> Array:
@@ -114,6 +128,7 @@ def simulate(
     effects: EffectValues | None = None,
     seed: int = 0,
     auxiliaries: Mapping[str, Auxiliary] | None = None,
+    turning: Mapping[str, Turning] | None = None,
 ) -> Simulation:
     """Simulate a flight with the numerical model (Eq. 49-53).
 
@@ -141,6 +156,8 @@ def simulate(
         Of noise, angle jitter and the default auxiliaries.
     auxiliaries
         Channel name -> function of time (N,) s; ``None``: plausible ones (``auxiliaries.plausible``).
+    turning
+        Name of a disc -> how it turns; its encoder is recorded then. Others turn steadily, as the instrument says.
 
     Raises
     ------
@@ -150,32 +167,46 @@ def simulate(
     time = instants(duration, rate, start)
     if rotations not in ("first-order", "exact"):
         raise UserError("unknown kind of rotations", found=rotations, expected="first-order or exact")
-    injected = resolve(effects)
+    layout = instrument.layout
+    injected = resolve(effects, layout.size)
     if auxiliaries is None:
         auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
     _require_channels(injected, auxiliaries)
     share = spin_share(kinematics, injected)
-    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, share)
+    given = _turning(turning or {}, layout)
+    steady = tuple(Turning(d.spin_frequency) for d in layout.discs)
+    discs = tuple(given.get(d.name, s) for d, s in zip(layout.discs, steady, strict=True))
+    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share)
     error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, injected)
-    clean = np.empty((4, time.size))
+    clean = np.empty((layout.size, time.size))
     for begin in range(0, time.size, _CHUNK):
         part = slice(begin, begin + _CHUNK)
         clean[:, part] = chain.voltages(time[part], error[part])
     voltages = clean
     if noise is not None:
-        streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(4))
+        streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(layout.size))
         drawn = np.stack([noise.sample(stream, time.size, rate) for stream in streams])
         voltages = clean + chain.scale(time) * drawn
+    encoders = {d.angle_column: given[d.name].encoder(time) for d in layout.discs if d.name in given}
     return Simulation(
         time=time,
-        channels=_channels(chain, time, record_gradient),
+        channels=_channels(chain, time, record_gradient) | encoders,
         voltages=voltages,
-        G_out=record_output(combine(voltages), injected),
+        outputs={o.name: record_output(combine(voltages, o), injected) for o in layout.outputs},
         voltages_noise_free=clean,
-        G_out_noise_free=record_output(combine(clean), injected),
+        outputs_noise_free={o.name: record_output(combine(clean, o), injected) for o in layout.outputs},
         instrument=instrument,
         effects=injected,
     )
+
+
+def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turning]:
+    for name in given:
+        if name not in {d.name for d in layout.discs}:
+            raise UserError(
+                f"the instrument has no disc {name!r}", expected=", ".join(repr(d.name) for d in layout.discs)
+            )
+    return given
 
 
 def _channels(chain: Chain, time: Array, record_gradient: bool) -> dict[str, Array]:

@@ -70,6 +70,8 @@ def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Co
     a, b, n = (
         numbers.number(x) for x in (before.calibrated.rms_Eo, after.calibrated.rms_Eo, after.noise_floor)
     )
+    if after.complaint is not None:
+        return f"Nothing was added: {numbers.clean(after.complaint)}."
     fell = after.calibrated.rms_Eo < 0.995 * before.calibrated.rms_Eo
     rose = after.calibrated.rms_Eo > 1.005 * before.calibrated.rms_Eo
     moved = f"the error falls from {a} to {b} Eo" if fell else f"the error stays {b} Eo"
@@ -120,7 +122,7 @@ def _steps(history: Sequence[Mapping[str, Any]]) -> list[Step]:
             label = "as it was" if not steps else "same model,\nother flights"
             steps.append(Step(label, start, _value(entry.get("before"), "holdout"), strong=False))
         sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")
-        label = f"{sign} {entry.get('effect', '')}"
+        label = f"{sign} {entry.get('effect') or entry.get('action', '')}".strip()
         if end == end:
             steps.append(Step(label, end, _value(entry.get("after"), "holdout")))
             last = end

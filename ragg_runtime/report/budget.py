@@ -23,11 +23,11 @@ def contributions(f: Fitted) -> list[Contribution]:
     others stay as calibrated. Couplings between groups are so counted in each of them.
     """
     found = []
-    full = [output(f.model.chain, o.record, f.calibration.p) for o in f.observations]
+    full = [output(f.model.chain, o.record, f.calibration.p, o.output) for o in f.observations]
     for label, without, effect in _groups(f):
         squares = []
-        for o, G in zip(f.observations, full, strict=True):
-            e = error(G - output(f.model.chain, o.record, without), o.record, f.k_ggi)
+        for o, G, k in zip(f.observations, full, f.scales, strict=True):
+            e = error(G - output(f.model.chain, o.record, without, o.output), o.record, k)
             squares.append([e.rms_Eo**2, e.inline_Eo**2, e.cross_Eo**2])
         rms, inline, cross = np.sqrt(np.mean(squares, axis=0))
         found.append(Contribution(label, float(rms), float(inline), float(cross), effect))

@@ -54,6 +54,8 @@ def compare_html(
 def headline(c: Comparison) -> str:
     """Calibrated error against noise floor, adequate or not, in one sentence."""
     error, noise = numbers.number(c.calibrated.rms_Eo), numbers.number(c.noise_floor)
+    if c.complaint is not None:
+        return f"Nothing can be said of the model: {numbers.clean(c.complaint)}."
     if c.adequate:
         return (
             f"The model is adequate: calibrated, it leaves {error} Eo, which is the noise of this record"

@@ -74,6 +74,8 @@ def headline(d: Diagnosis) -> str:
             f"The model lacks {names}: with {it} the error falls from {before} to {after} Eo,"
             f" and the noise is {noise} Eo."
         )
+    if d.complaint is not None:
+        return f"Nothing can be said: {numbers.clean(d.complaint)}."
     return (
         f"Something is missing that no known effect accounts for: {before} Eo remain where the noise is"
         f" {noise} Eo, and the best of the known effects leave a significant remainder."
@@ -85,7 +87,7 @@ def lead(d: Diagnosis) -> list[str]:
     for r in d.ranking:
         if r.effect in d.found:
             v = effect_values.values(d.fitted, r)
-            if len(d.found) > 1 and d.final is not None:
+            if (len(d.found) > 1 or d.staged) and d.final is not None:
                 v = Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
             clear = sorted((x for x in v.values if abs(x.z) > 3.0), key=lambda x: -abs(x.z))[:3]
             if clear:
@@ -167,11 +169,18 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
                 "holdout": numbers.number(r.after_holdout.rms_Eo),
                 "inline": numbers.number(r.after.inline_Eo_per_rtHz),
                 "cross": numbers.number(r.after.cross_Eo_per_rtHz),
-                "fitted": effect_values.values(d.fitted, r) if claimed(d, r) or r.effect in d.found else None,
+                "fitted": _fitted(d, r) if claimed(d, r) or r.effect in d.found else None,
                 "twins": list(r.indistinguishable_from),
             }
         )
     return rows
+
+
+def _fitted(d: Diagnosis, r: Ranked) -> Values:
+    """Values of an effect alone; of one that was derived into the model first, those that it has there."""
+    if d.staged and d.final is not None and any(q.effect == r.effect for q in d.final.calibration.columns):
+        return Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
+    return effect_values.values(d.fitted, r)
 
 
 def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:

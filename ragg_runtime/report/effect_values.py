@@ -114,7 +114,7 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
     for positions in places.values():
         column = own[positions[0]][1]
         rows: list[tuple[str, Array, float]] = []
-        if len(positions) == 4:
+        if len(positions) == 4 and f.instrument.layout.like_paper:
             for name, signs in PATTERNS:
                 w = np.zeros(len(own))
                 w[positions] = np.array(signs) * gains(f.model, f.calibration.p, column.name)
@@ -141,7 +141,7 @@ def _instead(
         return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
 
     found = []
-    for a in (1, 2, 3, 4):
+    for a in range(1, f.instrument.layout.size + 1):
         other = [(n, c) for n, c in columns if c.accelerometer == a and _name(c) in names]
         if a not in mine and other and chi2(own) - chi2(other) < selection.INDISTINGUISHABLE:
             found += _single(f, other)

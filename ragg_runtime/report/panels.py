@@ -45,10 +45,10 @@ def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequ
         r = w.observation.record
         rows, edges = [], r.time
         for line, residuals in lines:
-            edges, rms = series.blocks(w, residuals[n], f.k_ggi)
+            edges, rms = series.blocks(w, residuals[n], f.scales[n])
             rows.append((line, rms))
-        e = series.envelope(r.time, lines[-1][1][n] / f.k_ggi, r.valid)
-        found.append(TimePanel(w.observation.name, e, edges, rows, series.noise_rms(w, f.k_ggi)))
+        e = series.envelope(r.time, lines[-1][1][n] / f.scales[n], r.valid)
+        found.append(TimePanel(w.observation.name, e, edges, rows, series.noise_rms(w, f.scales[n])))
     return found
 
 
@@ -62,13 +62,14 @@ def spectrum_panels(
         r = w.observation.record
         drawn = []
         for line, residuals in lines:
-            s = series.spectrum(residuals[n] / f.k_ggi, r.valid, r.rate)
+            s = series.spectrum(residuals[n] / f.scales[n], r.valid, r.rate)
             if s is not None:
                 drawn.append((line, s))
         if drawn:
             grid = drawn[0][1].frequency
-            noise = series.Spectrum(grid, series.noise_density(w, f.k_ggi, f.instrument.spin_frequency, grid))
-            found.append(SpectrumPanel(w.observation.name, drawn, noise, f.instrument.spin_frequency))
+            spin = abs(r.spin_frequency)
+            noise = series.Spectrum(grid, series.noise_density(w, f.scales[n], spin, grid))
+            found.append(SpectrumPanel(w.observation.name, drawn, noise, spin))
     return found
 
 
@@ -83,7 +84,9 @@ def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> li
             continue
         several = f" — {w.observation.name}" if len(f.flown) > 1 else ""
         for title, x, amplitude in (("inline", both[0], 4.0), ("cross", both[1], 2.0)):
-            noise = series.demodulated_noise(w, f.k_ggi, f.instrument.spin_frequency, 2, amplitude)
+            noise = series.demodulated_noise(
+                w, f.scales[n], abs(w.observation.record.spin_frequency), 2, amplitude
+            )
             # four samples a cycle of the low-pass's edge draw the whole of it
             step = max(1, int(w.observation.record.rate / (4.0 * DRAWN)))
             t, y = series.broken(time[::step], x[::step])

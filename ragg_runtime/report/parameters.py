@@ -147,7 +147,7 @@ def by_combination(f: Fitted) -> list[Row]:
     fitted = posterior(f)
     rows = []
     for positions in _names(f).values():
-        if len(positions) != 4:
+        if len(positions) != 4 or not f.instrument.layout.like_paper:
             continue
         first = c.columns[positions[0]]
         scale = np.array([c.columns[n].scale for n in positions])
@@ -180,7 +180,7 @@ def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
     kind = f.observations[0].kind
     directions, rows = [], []
     for positions in _names(f).values():
-        together = kind == "G_out" and len(positions) == 4
+        together = kind == "G_out" and len(positions) == 4 and f.instrument.layout.like_paper
         for k, n in enumerate(positions):
             row = np.zeros(len(columns))
             if together:
@@ -214,7 +214,7 @@ def visibility(f: Fitted) -> Visibility:
         len(own),
         tuple((k, tuple(v)) for k, v in unseen.items()),
         tuple(g for g in groups if g.unseen),
-        f.observations[0].kind == "G_out",
+        f.observations[0].kind == "G_out" and f.instrument.layout.like_paper,
     )
 
 
@@ -282,3 +282,23 @@ def _quotient(a: str, b: str) -> str:
     if not bottom:
         return top
     return f"{top}/({bottom})" if "/" in bottom or "·" in bottom else f"{top}/{bottom}"
+
+
+def pulls(f: Fitted, most: int) -> list[tuple[str, float]]:
+    """(parameter, distance from the test sheet in plausible sizes) of the calibrated values that moved farthest."""
+    c = f.calibration
+    scale = np.array([q.scale for q in c.columns])
+    away = (c.p[c.index] - vector(f.model, f.instrument)[c.index]) / scale
+    order = np.argsort(-np.abs(away), kind="stable")[:most]
+    return [(c.columns[n].label, float(away[n])) for n in order]
+
+
+def correlations(f: Fitted, most: int) -> list[tuple[str, str, float]]:
+    """(parameter, parameter, correlation) of the pairs that the record ties most closely, largest first."""
+    covariance = posterior(f).covariance
+    std = np.sqrt(np.diag(covariance))
+    r = covariance / np.outer(std, std)
+    i, j = np.triu_indices(len(r), 1)
+    order = np.argsort(-np.abs(r[i, j]), kind="stable")[:most]
+    label = [q.label for q in f.calibration.columns]
+    return [(label[i[k]], label[j[k]], float(r[i[k], j[k]])) for k in order]

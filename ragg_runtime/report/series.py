@@ -127,8 +127,11 @@ def demodulated_noise(w: Flown, k_ggi: float, spin: float, multiple: int, amplit
 
 def channel_noise(f: Fitted) -> tuple[float, float]:
     """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
-    spin = f.instrument.spin_frequency
-    values = [[demodulated_noise(w, f.k_ggi, spin, 2, a) for a in (4.0, 2.0)] for w in f.flown if _long(w)]
+    values = [
+        [demodulated_noise(w, k, abs(w.observation.record.spin_frequency), 2, a) for a in (4.0, 2.0)]
+        for w, k in zip(f.flown, f.scales, strict=True)
+        if _long(w) and w.observation.record.turning
+    ]
     if not values:
         return float("nan"), float("nan")
     inline, cross = np.sqrt(np.mean(np.square(values), axis=0))
@@ -137,12 +140,14 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
 
 def harmonic_noise(f: Fitted) -> dict[str, float]:
     """The same at every harmonic of :func:`ragg_runtime.diagnosis.comparison.harmonic_errors`, Eo."""
-    spin = f.instrument.spin_frequency
-    works = [w for w in f.flown if _long(w)]
+    works = [(w, s) for w, s in zip(f.flown, f.scales, strict=True) if _long(w)]
     found = {}
     for h in harmonics():
         k = series_name.harmonic(h).multiple
-        squares = [demodulated_noise(w, f.k_ggi, spin, k, 2.0 if k else 1.0) ** 2 for w in works]
+        squares = [
+            demodulated_noise(w, s, abs(w.observation.record.spin_frequency), k, 2.0 if k else 1.0) ** 2
+            for w, s in works
+        ]
         found[h] = float(np.sqrt(np.mean(squares))) if squares else float("nan")
     return found
 

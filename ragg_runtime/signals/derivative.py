@@ -77,16 +77,16 @@ def _derivative(x: Array) -> Array:
     half = window // 2
     result = np.empty_like(x)
     if n >= WINDOW:
-        ndimage.correlate1d(x, _weights(window, half), axis=-1, output=result, mode="nearest")
+        ndimage.correlate1d(x, weights(window, half), axis=-1, output=result, mode="nearest")
     for k in range(half if n >= WINDOW else n):
-        result[..., k] = x[..., :window] @ _weights(window, k)
+        result[..., k] = x[..., :window] @ weights(window, k)
     for k in range(half if n >= WINDOW else 0):
-        result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ _weights(window, k))
+        result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k))
     return result
 
 
 @cache
-def _weights(window: int, at: int) -> Array:
+def weights(window: int, at: int) -> Array:
     """Weights (window,) of the derivative, per sample, at sample ``at`` of the window.
 
     Least squares of the relative error of the frequency response over the band, plus the noise gain with a

@@ -91,14 +91,18 @@ class NoiseModel:
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
 
 
-def estimate(residuals: Sequence[Array], rate: float) -> NoiseModel:
+def estimate(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
+
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise.
 
     First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate)
+    f, p, count = _periodogram(residuals, rate, without)
     red = _red_and_white(f, p, count)
     coarse, fine = (_corrected(f, p, count, red(f), w) for w in (np.log, _dense(rate)))
     # Twice the gain in log likelihood against the number of coefficients (BIC).
@@ -152,7 +156,9 @@ def _corrected(f: Array, p: Array, count: Array, base: Array, scale: Callable[[A
     return _Correction(lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
 
 
-def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array, Array]:
+def _periodogram(
+    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None
+) -> tuple[Array, Array, Array]:
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency)."""
     longest = max(len(r) for r in residuals)
     usable = [r for r in residuals if len(r) >= max(64, longest // 4)]
@@ -162,8 +168,10 @@ def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array,
     for r in usable:
         f, p = signal.periodogram(r, rate, window="hann", detrend="constant")
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        frequency.append(f[LOWEST:-1])
-        density.append(p[LOWEST:-1])
+        kept = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
+        kept[:LOWEST] = kept[-1:] = False
+        frequency.append(f[kept])
+        density.append(without_lines(p[kept]))
     f, p = np.concatenate(frequency), np.concatenate(density)
     edges = np.geomspace(f.min() * 0.999, f.max() * 1.001, 120)
     which = np.digitize(f, edges)
@@ -172,6 +180,39 @@ def _periodogram(residuals: Sequence[Array], rate: float) -> tuple[Array, Array,
     mean_f = np.array([np.exp(np.mean(np.log(f[which == k]))) for k in bins])
     mean_p = np.array([np.mean(p[which == k]) for k in bins])
     return mean_f, mean_p, n / 1.5  # neighbouring bins of a Hann periodogram are correlated
+
+
+LINE = 25.0
+"""Density over that of its neighbourhood from which a bin is a line, no noise: of a day's million bins of noise the highest
+stands at about 14 times the mean."""
+
+NEIGHBOURS = 0.2
+"""Half width of the neighbourhood of a bin, as a share of its frequency: red noise changes little across it."""
+
+LEAST = 10
+"""Half width of the neighbourhood, bins: those lower than twice this are left as they are, red noise being steep there."""
+
+
+def without_lines(p: Array) -> Array:
+    """A periodogram with its lines cut down to their neighbourhood's median; of noise nothing is changed."""
+    n = len(p)
+    found = p.copy()
+    first = 2 * LEAST
+    if n <= 2 * first:
+        return found
+    # medians in neighbourhoods that grow with frequency, each half overlapping the next
+    starts, centres, levels = first, [], []
+    while starts < n:
+        half = max(LEAST, int(NEIGHBOURS * starts))
+        around = p[max(0, starts - half) : min(n, starts + half + 1)]
+        centres.append(starts)
+        levels.append(float(np.median(around)) / np.log(2.0))
+        starts += max(1, half // 2)
+    k = np.arange(first, n)
+    level = np.exp(np.interp(np.log(k), np.log(centres), np.log(np.maximum(levels, 1e-300))))
+    high = p[first:] > LINE * level
+    found[first:][high] = level[high]
+    return found
 
 
 def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
@@ -193,7 +234,11 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 
 @dataclass(frozen=True)
 class Noise:
-    """Noise of each output of an observation, and its whitening filters."""
+    """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
+    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either.
+    """
 
     models: tuple[NoiseModel, ...]
     filters: tuple[Array, ...]
+    bursts: tuple[tuple[int, int, float], ...] = ()
+    disturbed: str | None = None

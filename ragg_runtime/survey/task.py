@@ -32,7 +32,7 @@ from ragg_runtime.diagnosis.diagnose import diagnose_fitted
 from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.landmarks import landmarks
@@ -134,7 +134,13 @@ def examine(given: Job, file: str) -> Record:
             )
         with _one_thread(), alone():
             instrument, model = _model(given.text, given.path)
-            read = read_flight(path, instrument.g0, mapping=given.mapped(), line=line)
+            read = read_flight(
+                path,
+                instrument.g0,
+                accelerometers=instrument.layout,
+                mapping=given.mapped(),
+                line=line,
+            )
             flight = examined(model, instrument, read)
             return record | _figures(model, instrument, flight)
     except UserError as error:
@@ -225,11 +231,11 @@ _one_thread = _Limit()
 
 
 def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
-    def extended(m: Model, ids: Sequence[str]) -> Model:
+    def extended(m: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
         with _deriving:
-            return derive.with_effects(instrument, m, ids)
+            return derive.with_effects(instrument, m, ids, candidates=candidates)
 
-    f = fit(model, instrument, [observe(flight, instrument)])
+    f = fit(model, instrument, observations_of([flight], instrument))
     p = vector(model, instrument)
     held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, p, x)[None], 1)
     d = diagnose_fitted(f, [flight], extended)

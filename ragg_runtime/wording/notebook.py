@@ -68,6 +68,7 @@ def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
             f" {', '.join(c['effects']) or 'none'}"
         ),
         _table(ERROR_HEADS, rows),
+        *_not_converged(c),
         _line(ADEQUATE if c["adequate"] else NOT_ADEQUATE, strong=True),
         *(
             [
@@ -87,6 +88,43 @@ def comparison(c: Mapping[str, Any], flights: Sequence[str]) -> str:
     )
 
 
+def _not_converged(x: Mapping[str, Any]) -> list[str]:
+    return [] if x.get("converged", True) else [_line(f"NOT CONVERGED: {x['reason']}", strong=True)]
+
+
+def calibration(c: Mapping[str, Any], flights: Sequence[str]) -> str:
+    """The result of ``calibrate``."""
+    e = c["error"]
+    rows = [_error(label, e[key]) for label, key in (("nominal", "nominal"), ("calibrated", "calibrated"))]
+    rows += [_error("held out", e["holdout"]), _noise(c["noise_floor"]["rms_Eo"])]
+    seen = c["directions"]
+    return _fragment(
+        _line(
+            f"calibrated on {', '.join(flights)}" + ("" if c["converged"] else ", NOT converged"), strong=True
+        ),
+        _table(ERROR_HEADS, rows),
+        _line(f"the record determines {seen['seen']} of {seen['fitted']} directions:"),
+        *(_line(parameter({"accelerometer": None, **q})) for q in c["combinations"]),
+    )
+
+
+def compensation(c: Mapping[str, Any]) -> str:
+    """The result of ``compensate``."""
+    d = c["demodulator"]
+    parts = [_line(f"compensated, calibration {c['calibration']}, {d['what']}", strong=True)]
+    rows = []
+    for x in c["flights"]:
+        density, std = x["density"], x["std"]
+        for channel in ("inline", "cross"):
+            key = f"{channel}_Eo_per_rtHz"
+            shown = (density["before"][key], density["after"][key], density["noise"][key])
+            sizes = (std["noise"][f"{channel}_Eo"], std["parameters"][f"{channel}_Eo"])
+            rows.append((x["flight"], channel, *(number(v) for v in (*shown, *sizes))))
+    heads = ("flight", "channel", "before Eo/rtHz", "after", "noise", "std by noise Eo", "by parameters")
+    parts.append(_table(heads, rows, words=2))
+    return _fragment(*parts)
+
+
 def diagnosis(d: Mapping[str, Any]) -> str:
     """The result of ``diagnose``."""
     before, after = d["error"]["before"]["rms_Eo"], d["error"]["after"]["rms_Eo"]
@@ -101,6 +139,7 @@ def diagnosis(d: Mapping[str, Any]) -> str:
     ]
     parts = [
         _line(verdict(d["verdict"], d["found"]), strong=True),
+        *_not_converged(d),
         _line(
             f"error {number(before)} Eo -> {number(after)} Eo rms,"
             f" noise floor {number(d['noise_floor']['rms_Eo'])} Eo"
@@ -138,7 +177,8 @@ def diagnosis(d: Mapping[str, Any]) -> str:
 
 def added(a: Mapping[str, Any], effects: Sequence[str], noise: float | None, adequate: bool) -> str:
     """The result of ``add``; ``noise`` and ``adequate`` are those after it."""
-    parts = [_line(f"added {a['effect']}; effects: {', '.join(effects)}", strong=True)]
+    done = f"added {a['effect']}" if a.get("converged", True) else f"{a['effect']} was NOT added"
+    parts = [_line(f"{done}; effects: {', '.join(effects)}", strong=True), *_not_converged(a)]
     if a["before"] is not None and a["after"] is not None and noise is not None:
         rows = [
             _error("before", a["before"]["calibrated"]),
@@ -170,7 +210,8 @@ def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]])
         for key in ("before", "after"):
             e = s[key]
             calibrated = e.get("calibrated", e) if e else None
-            errors.append(number(calibrated["rms_Eo"]) if calibrated else "-")
+            rms = calibrated.get("rms_Eo") if calibrated else None
+            errors.append("-" if rms is None else number(rms))
         rows.append((s["time"], s["action"], s["effect"] or "-", *errors))
     return _fragment(
         _line(f"{name}: effects: {', '.join(effects) or 'none'}", strong=True),

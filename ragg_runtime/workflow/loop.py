@@ -20,7 +20,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
@@ -36,6 +36,7 @@ from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
 from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_effects_folder
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
@@ -76,7 +77,7 @@ class Loaded:
 
     @property
     def name(self) -> str:
-        return self.directory.path.resolve().name
+        return one_line(self.directory.path.resolve().name)
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: effects {', '.join(e.id for e in self.model.effects) or 'none'}>"
@@ -88,7 +89,10 @@ class Loaded:
 
 @dataclass(frozen=True, repr=False)
 class Added:
-    """The result of ``add``: the errors before and after, and the calibrated parameters."""
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
 
     loaded: Loaded
     effect: str
@@ -96,6 +100,11 @@ class Added:
     after: Comparison | None
     parameters: tuple[ParameterValue, ...]
     combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
 
     def __repr__(self) -> str:
         before = None if self.before is None else self.before.calibrated.rms_Eo
@@ -113,6 +122,9 @@ class Added:
     def as_json(self) -> dict[str, object]:
         return {
             "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
             "before": errors_of(self.before),
             "after": errors_of(self.after),
             "parameters": [p.as_json() for p in self.parameters],
@@ -147,7 +159,7 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     instrument = parse_instrument(text, Path(source) if source else None)
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())
-    history = (Step("new", _now()),)
+    history = (Step("new", _now(), text=text),)
     made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
     m = _loaded(made)
     return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
@@ -174,7 +186,7 @@ def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | N
     how = mapping_of(m, mapping)
     found = []
     for path in paths:
-        for x in _read_flights(path, m.instrument.g0, mapping=how):
+        for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
             found.append(settled(examined(m.model, m.instrument, x)))
     return found
 
@@ -201,13 +213,23 @@ def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Co
     )
 
 
-def diagnose(m: Loaded, flights: Sequence[Flight], limits: Mapping[str, float] = LIMITS) -> Diagnosis:
-    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`)."""
+def diagnose(
+    m: Loaded,
+    flights: Sequence[Flight],
+    limits: Mapping[str, float] = LIMITS,
+    compared: Comparison | None = None,
+) -> Diagnosis:
+    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`).
+
+    ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
+    """
     distinct(flights)
 
-    def extended(model: Model, ids: Sequence[str]) -> Model:
-        return derive.with_effects(m.instrument, model, ids)
+    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
+        return derive.with_effects(m.instrument, model, ids, candidates=candidates)
 
+    if compared is not None:
+        return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
 
@@ -268,12 +290,15 @@ def add(
     effect: str,
     flights: Sequence[Flight] = (),
     tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
 ) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
     An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
     The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
-    nothing is changed.
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
     """
     distinct(flights)
     instrument = m.instrument
@@ -311,12 +336,17 @@ def add(
     if flights:
         after = _compare.compare(model, extended, flights)
         parameters, combinations = calibrated(after, effect)
-        values |= settings(parameters)
+        values |= settings(parameters, instrument.layout.size)
         with_values = replace(
             extended,
             effects=(*others.effects, EffectSetting(effect, MappingProxyType(values), expression)),
         )
         after = after.with_nominal(with_values)
+        if not after.converged:
+            made = Added(m, effect, before, after, parameters, combinations)
+            if tell is not None:
+                tell(made)
+            return made
     text = add_effect(m.directory.text, EffectSetting(effect, MappingProxyType(values), expression))
     step = Step(
         "add",
@@ -325,10 +355,13 @@ def add(
         errors_of(before),
         errors_of(after),
         MappingProxyType({x.name: x.digest for x in flights}),
+        text,
     )
     made = Added(_planned(m, text, model, step), effect, before, after, parameters, combinations)
     if tell is not None:
         tell(made)
+    if not save:
+        return replace(made, loaded=m)
     directory = replace_model_dir(
         m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
     )
@@ -346,7 +379,7 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
     """Take an effect out of the model again; ``tell`` as for :func:`add`."""
     text = remove_effect(m.directory.text, effect)
     instrument = parse_instrument(text, m.directory.path / "model.toml")
-    step = Step("remove", _now(), effect)
+    step = Step("remove", _now(), effect, text=text)
     if tell is not None:
         tell(_planned(m, text, derive.model_of(instrument), step))
     directory = replace_model_dir(
@@ -368,17 +401,17 @@ def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], 
     )
 
 
-def settings(parameters: Sequence[ParameterValue]) -> dict[str, RawQuantity]:
-    """Calibrated parameters as they are written to model.toml."""
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
     values: dict[str, RawQuantity] = {}
     for p in parameters:
         if p.accelerometer is None:
             values[p.name] = RawQuantity(p.value, p.unit)
         else:
             old = values.get(p.name)
-            four = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * 4
-            four[p.accelerometer - 1] = p.value
-            values[p.name] = RawQuantity(tuple(four), p.unit)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
     return values
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight
+from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
@@ -42,6 +43,7 @@ def simulated(
     sheet_error: float = 1.0,
     no_gradient: bool = False,
     voltages: bool = False,
+    motion: Path | str | None = None,
 ) -> Flight:
     """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
 
@@ -55,20 +57,29 @@ def simulated(
         s, Hz, Eo/sqrt(Hz) of the cross channel.
     sheet_error
         How far the true instrument lies from its test sheet; 1 is usual.
+    motion
+        A flight file whose motion is flown, as long and as densely sampled as it is; else one is drawn.
 
     Raises
     ------
     UserError
     """
-    effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument.g0) for text in hidden)
+    effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
+    if motion is None:
+        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+    else:
+        x = read_flight(motion, instrument.g0, need_output=False)
+        rate, duration = x.rate, float(x.time[-1] - x.time[0])
+        a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
+        flown = reference.recorded_motion(x.time - x.time[0], a, omega)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
-        draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape),
+        flown,
         duration,
         rate,
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
@@ -83,7 +94,7 @@ def simulated(
     return s.flight("simulated", voltages=voltages)
 
 
-def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
+def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
     identifier, _, rest = text.partition(":")
     model = packaged()
     effect = model.effect(identifier)
@@ -93,7 +104,7 @@ def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
     values: dict[str, Array] = {}
     for part in rest.split(",") if rest else ():
         name, _, numbers = part.partition("=")
-        values[name.strip()] = _numbers(effect, name.strip(), numbers, g0)
+        values[name.strip()] = _numbers(effect, name.strip(), numbers, instrument)
     if not values:
         raise UserError(
             "the hidden effect has no value",
@@ -103,7 +114,8 @@ def _parsed(text: str, g0: float) -> tuple[str, dict[str, Array]]:
     return identifier, values
 
 
-def _numbers(effect: Effect, name: str, text: str, g0: float) -> Array:
+def _numbers(effect: Effect, name: str, text: str, instrument: Instrument) -> Array:
+    count = instrument.layout.size
     for q in effect.parameters:
         if q.name == name:
             break
@@ -116,11 +128,12 @@ def _numbers(effect: Effect, name: str, text: str, g0: float) -> Array:
         raw = np.array([float(x) for x in text.split("/")])
     except ValueError:
         raise UserError("not a number", where=f"--effect {effect.id}", found=repr(text)) from None
-    if len(raw) not in ((1,) if q.shared else (1, 4)):
+    if len(raw) not in ((1,) if q.shared else (1, count)):
+        wanted = "one value" if q.shared else f"one value or {'four' if count == 4 else count} joined by /"
         raise UserError(
-            f"{effect.id}: {name} takes {'one value' if q.shared else 'one value or four joined by /'}",
+            f"{effect.id}: {name} takes {wanted}",
             found=repr(text),
         )
-    known = units(g0)
+    known = units(instrument.g0)
     si = np.asarray(known.to_si(raw, q.unit, known.base_unit(q.unit)))
-    return si if len(si) == 4 else si[0]
+    return si if len(si) == count and not q.shared else si[0]

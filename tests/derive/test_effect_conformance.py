@@ -189,8 +189,9 @@ ALONGSIDE: Mapping[str, Mapping[str, float]] = {
 ONE_SIDED = frozenset({"lag", "output-filter"})
 """The simulator looks backwards only."""
 
-TOLERANCE: Mapping[str, float] = {"lag": 3e-5}
-"""The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too."""
+TOLERANCE: Mapping[str, float] = {"lag": 3e-5, "output-filter": 1e-4}
+"""The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too. The filter
+is derived to first order in b; the simulator averages over an interval."""
 
 
 def truth(effect: Effect, values: Mapping[str, float]) -> Record:

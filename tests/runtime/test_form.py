@@ -129,12 +129,12 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     model = derive.model_of(instrument)
     p = vector(model, instrument)
     r = record(flight, instrument)
-    left = (flight.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model.chain, p)
+    left = (flight.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
     assert np.sqrt(np.mean(left**2)) < 1e-5
     other = replace(instrument, form=PAPER if form == EXACT else EXACT)
     away = derive.model_of(other)
     q = vector(away, other)
-    left = (flight.outputs["G_out"] - output(away.chain, r, q)) / scale_factor(away.chain, q)
+    left = (flight.outputs["G_out"] - output(away.chain, r, q)) / scale_factor(away, q)
     assert np.sqrt(np.mean(left**2)) > 0.1
 
 
@@ -150,7 +150,7 @@ def test_folded_and_chain_of_full_kinematics_are_one_model() -> None:
         e = model.compiled(backend)  # type: ignore[arg-type]
         assert set(e.inputs[-2:]) == set(SPIN)
         G = e.output(r.time, inputs, p)
-        assert np.max(np.abs(G - chain)) < 1e-6 * scale_factor(model.chain, p)
+        assert np.max(np.abs(G - chain)) < 1e-6 * scale_factor(model, p)
         # without the spin's rate: 2 pi spin_frequency
         steady = e.output(r.time, [*inputs[:15], None, None], p)
         np.testing.assert_array_equal(steady, G)

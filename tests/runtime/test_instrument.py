@@ -272,3 +272,41 @@ def test_written_numbers_are_those_of_the_sheet(tmp_path: Path) -> None:
     assert written["dR"]["value"] == [0, 30, 35, 25]
     assert written["K1"]["value"] == [10, 10.001, 10.0015, 10.002]
     assert [p.name for p in tmp_path.iterdir()] == ["model.toml"]
+
+
+def sure(sigma: str) -> str:
+    return TEXT_WITH_K1.replace("SIGMA", sigma)
+
+
+TEXT_WITH_K1 = """
+[disc]
+radius = "0.1 m"
+spin_frequency = "0.25 Hz"
+g0 = "9.8 m/s^2"
+
+[accelerometers]
+K1 = { value = [10, 11, 11.5, 12], unit = "mA/g", sigma = SIGMA }
+K2 = { value = 5, unit = "ug/g^2" }
+k_VI = { value = 1e9, unit = "ohm" }
+"""
+
+
+@pytest.mark.parametrize(
+    ("sigma", "four"), [("0.01", [0.01] * 4), ("[0.1, 0.2, 0.3, 0.4]", [0.1, 0.2, 0.3, 0.4])]
+)
+def test_the_sheet_can_say_how_sure_it_is(sigma: str, four: list[float]) -> None:
+    known = parse_instrument(sure(sigma))
+    np.testing.assert_allclose(known.sigma("K1"), np.array(four) * 1e-3 / 9.8, rtol=1e-14)
+    np.testing.assert_allclose(known.sigma("K2"), 20e-6 / 9.8, rtol=1e-14)  # as sure as is plausible
+    again = parse_instrument(model_text(known))
+    np.testing.assert_allclose(again.sigma("K1"), known.sigma("K1"), rtol=1e-12)
+    kept = parse_instrument(set_parameters(sure(sigma), {"K1": RawQuantity(10.5, "mA/g")}))
+    np.testing.assert_array_equal(kept.sigma("K1"), known.sigma("K1"))
+
+
+@pytest.mark.parametrize("sigma", ["0", "-0.1", "[0.1, 0.1, 0, 0.1]", "[0.1, 0.1]", "nan", '"0.01 mA/g"'])
+def test_a_sigma_that_is_none_is_refused(sigma: str) -> None:
+    with pytest.raises(UserError) as refused:
+        parse_instrument(sure(sigma))
+    assert "K1" in str(refused.value)
+    assert "sigma" in str(refused.value)

@@ -9,12 +9,13 @@ import itertools
 
 import numpy as np
 import pytest
+import sympy as sp
 from scipy.spatial.transform import Rotation
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference import CATALOGUE, Motion, Simulation, Sinusoids, simulate, still
 from ragg_runtime.reference.effects import resolve
-from ragg_runtime.reference.effects.force import third_order_tensor, vibration
+from ragg_runtime.reference.effects.force import fourth_order_tensor, third_order_tensor, vibration
 from ragg_runtime.reference.gravity import Gradient, PointMass
 from ragg_runtime.reference.instruments import perfect, trimmed
 from ragg_runtime.reference.motion import recorded_motion
@@ -80,6 +81,7 @@ SIZES = {
     "m": 1e-3,
     "1/s^2/rad": 1e-7,
     "1/(m s^2)": 1e-7,
+    "1/(m^2 s^2)": 1e-7,
     "(m/s^2)^2": 1e-2,
     "V": 3.0,
     "1/s^2": 1e-7,
@@ -89,6 +91,7 @@ SIZES = {
     "(m/s^2)/(K/s)": 1e-3,
     "1/(K/s)": 1e-4,
     "(m/s^2)/(rad/s)^2": 1e-4,
+    "s^2": 1e-4,
 }
 RECORD_ONLY = {
     "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-bias",
@@ -507,6 +510,30 @@ def test_near_mass_is_what_newton_adds_to_the_gradient() -> None:
     tensor = third_order_tensor(resolve({"near-mass": T})["near-mass"])
     np.testing.assert_allclose(np.einsum("iij->j", tensor), 0, atol=1e-22)
     np.testing.assert_allclose(np.einsum("ijj->i", tensor), 0, atol=1e-22)
+
+
+def test_the_fourth_derivative_is_what_a_perfect_instrument_sees_of_a_near_mass() -> None:
+    """Newton's law less value, gradient and third derivative: opposite accelerometers add it up instead."""
+    site = np.array([2.4, -1.6, 1.1])
+    x = sp.symbols("x y z", real=True)
+    G, m = sp.Float("6.6743e-11", 30), 2000
+    potential = G * m / sp.sqrt(sum((sp.Float(str(s), 30) - v) ** 2 for s, v in zip(site, x, strict=True)))
+    T = {}
+    for name in CATALOGUE["near-mass"]:
+        axes = [x["xyz".index(k)] for k in name.removeprefix("T_")]
+        T[name] = float(sp.diff(potential, *axes).subs(dict.fromkeys(x, 0)))
+    mass = PointMass(2000.0, site)
+    linear = Gradient(mass.gradient(np.zeros(1))[:, 0])
+    third = {k: v for k, v in T.items() if len(k) == 5}
+    newton, flat, even, both = (
+        run(e, perfect(), still(), 4.0, gravity=g).G_out
+        for e, g in ((None, mass), (None, linear), ({"near-mass": third}, linear), ({"near-mass": T}, linear))
+    )
+    missing = np.max(np.abs(newton - flat))
+    assert np.max(np.abs(even - flat)) < 1e-5 * missing
+    assert np.max(np.abs(newton - both)) < 0.05 * missing
+    tensor = fourth_order_tensor(resolve({"near-mass": T})["near-mass"])
+    np.testing.assert_allclose(np.einsum("iijk->jk", tensor), 0, atol=1e-20)
 
 
 def test_vibration_rectification_closed_form() -> None:

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.reference import Motion, Simulation, Sinusoids, disc_angle, instants, simulate, still
 from ragg_runtime.reference.geometry import mount
 from ragg_runtime.reference.gravity import Gradient
@@ -118,7 +119,7 @@ def test_rigid_rotation_against_positions_differentiated_in_an_inertial_frame() 
 
 def test_triads_are_right_handed_and_orthogonal_when_exact() -> None:
     for j in range(4):
-        m = mount(j, 0.3, -0.2, "exact")
+        m = mount(PAPER.places[j], 0.3, -0.2, "exact")
         np.testing.assert_allclose(m.triad @ m.triad.T, np.eye(3), atol=1e-15)
         assert np.linalg.det(m.triad) == pytest.approx(1)
         assert np.linalg.norm(m.arm) == pytest.approx(1)
@@ -127,7 +128,7 @@ def test_triads_are_right_handed_and_orthogonal_when_exact() -> None:
 
 def test_first_order_geometry_is_the_printed_one() -> None:
     bx, bz = 2e-3, 3e-3
-    m = mount(2, bx, bz, "first-order")
+    m = mount(PAPER.places[2], bx, bz, "first-order")
     e_r, e_t, e_z = np.array([0, 1.0, 0]), np.array([-1.0, 0, 0]), np.array([0, 0, 1.0])
     e_r, e_t = e_r + bz * e_t, e_t - bz * e_r
     np.testing.assert_array_equal(m.arm, e_r + bx * e_z)

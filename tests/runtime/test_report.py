@@ -114,7 +114,7 @@ class Case:
 
 def case(made: Any) -> Case:
     model, known = load.packaged(), instrument()
-    d = diagnose.diagnose(model, known, [made], lambda m, ids: derive.with_effects(known, m, ids))
+    d = diagnose.diagnose(model, known, [made], lambda m, ids, **k: derive.with_effects(known, m, ids, **k))
     return Case(compare.compare(model, known, [made]), d, made)
 
 

@@ -210,7 +210,10 @@ CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
 
 def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
     return diagnose(
-        load.packaged(), s.sheet, [flight], lambda model, ids: derive.with_effects(s.sheet, model, ids)
+        load.packaged(),
+        s.sheet,
+        [flight],
+        lambda model, ids, **k: derive.with_effects(s.sheet, model, ids, **k),
     )
 
 

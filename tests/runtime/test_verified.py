@@ -13,7 +13,7 @@ from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive, derived_cache, trust
 from ragg_runtime.workflow import loop
 
-ROOT = Path(loop.__file__).parents[1]
+ROOT = Path(loop.__file__).parents[2]
 EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
 
 
@@ -53,9 +53,10 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
 
 def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from ragg_runtime import verified, workflow\n"
-        f"verified._list = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
-        "m = workflow.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
+        "import sys; from pathlib import Path; from ragg_runtime.model_dir import derived_cache; "
+        "from ragg_runtime.workflow import loop\n"
+        f"derived_cache._list = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
+        "m = loop.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, model], cwd=ROOT, capture_output=True, text=True, check=True

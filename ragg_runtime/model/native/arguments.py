@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import Layout
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
@@ -84,6 +85,17 @@ class Base:
     """What both backends share: arguments are checked, series cut, parts put together."""
 
     chain: Module
+    layout: Layout
+
+    @property
+    def size(self) -> int:
+        """Number of accelerometers."""
+        return self.layout.size
+
+    @property
+    def several(self) -> bool:
+        """Whether the generated code is that of a layout other than the paper's, function by accelerometer."""
+        return not self.layout.like_paper
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -102,7 +114,7 @@ class Base:
         if values.shape != (self.chain.SIZE,):
             raise UserError("wrong number of parameters", found=values.shape, expected=(self.chain.SIZE,))
         phi = None if angle is None else _series(angle, "angle", len(time))
-        spin = 2 * np.pi * float(values[1]) if phi is None else None
+        spin = 2 * np.pi * float(values[self.size if self.several else 1]) if phi is None else None
         rows = inputs if _is_matrix(inputs, len(time)) else self._each(inputs, len(time), spin)
         return Case(time, rows, values, phi)
 

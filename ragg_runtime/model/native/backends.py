@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.native.arguments import Base, Case, Module, Series, cut, in_parts, into
 from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 from ragg_runtime.model.native.library import Library
@@ -23,6 +24,7 @@ Backend = Literal["auto", "c", "numpy"]
 class Evaluator(Protocol):
     """A model to be evaluated. Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS.
 
+    Of a layout with several discs an angle is that of the disc whose accelerometers are asked for.
     ``angle`` is the disc angle, rad, (N,); by default 2 pi spin_frequency t, reduced exactly. Series that are
     contiguous float64 are used where they lie; others are converted. The figures do not depend on the number
     of threads.
@@ -44,8 +46,9 @@ class Evaluator(Protocol):
         angle: ArrayLike | None = None,
         threads: int | None = None,
         out: Array | None = None,
+        which: int = 0,
     ) -> Array:
-        """G_out, (N,), V; written into ``out``, contiguous float64, where that is given."""
+        """G_out, or another of the layout's outputs, (N,), V; into ``out``, contiguous float64, where that is given."""
 
     def voltages(
         self,
@@ -54,8 +57,9 @@ class Evaluator(Protocol):
         p: ArrayLike,
         angle: ArrayLike | None = None,
         threads: int | None = None,
+        members: Sequence[int] | None = None,
     ) -> Array:
-        """V_1 ... V_4, (4, N), V."""
+        """V_1 ... V_4, or those of some accelerometers (counted from 0), (members, N), V."""
 
     def derivatives(
         self,
@@ -66,7 +70,7 @@ class Evaluator(Protocol):
         angle: ArrayLike | None = None,
         threads: int | None = None,
     ) -> Array:
-        """Derivatives of V_j, j = 0 ... 3, (rows, N), in the order of the chain's ROWS."""
+        """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
 
 
 @dataclass(frozen=True)
@@ -89,13 +93,15 @@ class Compiled(Base):
         angle: ArrayLike | None = None,
         threads: int | None = None,
         out: Array | None = None,
+        which: int = 0,
     ) -> Array:
         case = self._case(t, inputs, p, angle)
         G = into(out, len(case.t))
         name = "folded" if self.folded else self.name
+        leading = (which,) if self.several else ()
 
         def work(c: Case, first: int, last: int) -> None:
-            self.library.series(name, "output", c, G[first:last])
+            self.library.series(name, "output", c, G[first:last], leading)
 
         in_parts(case, threads, work)
         return G
@@ -107,8 +113,14 @@ class Compiled(Base):
         p: ArrayLike,
         angle: ArrayLike | None = None,
         threads: int | None = None,
+        members: Sequence[int] | None = None,
     ) -> Array:
-        return self._rows("voltages", 4, self._case(t, inputs, p, angle), threads)
+        case = self._case(t, inputs, p, angle)
+        if not self.several:
+            V = self._rows("voltages", 4, case, threads)
+            return V if members is None or tuple(members) == (0, 1, 2, 3) else V[list(members)]
+        wanted = range(self.size) if members is None else members
+        return np.concatenate([self._rows("voltage", 1, case, threads, (j,)) for j in wanted])
 
     def derivatives(
         self,
@@ -120,7 +132,7 @@ class Compiled(Base):
         threads: int | None = None,
     ) -> Array:
         c = self._case(t, inputs, p, angle)
-        return self._rows("derivatives", len(self.chain.ROWS), c, threads, (_accelerometer(j),))
+        return self._rows("derivatives", len(self.chain.ROWS), c, threads, (_accelerometer(j, self.size),))
 
     def _rows(
         self, function: str, rows: int, case: Case, threads: int | None, leading: Sequence[int] = ()
@@ -153,11 +165,13 @@ class Interpreted(Base):
         angle: ArrayLike | None = None,
         threads: int | None = None,
         out: Array | None = None,
+        which: int = 0,
     ) -> Array:
         if self.folded is None:
-            v = self.voltages(t, inputs, p, angle, threads)
+            o = self.layout.outputs[which]
+            v = self.voltages(t, inputs, p, angle, threads, o.members)
             G = into(out, v.shape[1])
-            G[:] = (v[0] + v[1]) - (v[2] + v[3])
+            G[:] = o.combined(v)
             return G
         c = self._case(t, inputs, p, angle)
         G = into(out, len(c.t))
@@ -173,11 +187,13 @@ class Interpreted(Base):
         p: ArrayLike,
         angle: ArrayLike | None = None,
         threads: int | None = None,
+        members: Sequence[int] | None = None,
     ) -> Array:
         c = self._case(t, inputs, p, angle)
-        V = np.empty((4, len(c.t)))
-        for j in range(4):
-            self._chain(self.chain.accelerometer, j, c, V[j])
+        wanted = range(self.size) if members is None else members
+        V = np.empty((len(wanted), len(c.t)))
+        for k, j in enumerate(wanted):
+            self._chain(self.chain.accelerometer, j, c, V[k])
         return V
 
     def derivatives(
@@ -191,22 +207,24 @@ class Interpreted(Base):
     ) -> Array:
         c = self._case(t, inputs, p, angle)
         D = np.empty((len(self.chain.ROWS), len(c.t)))
-        self._chain(self.chain.derivatives, _accelerometer(j), c, D)
+        self._chain(self.chain.derivatives, _accelerometer(j, self.size), c, D)
         return D
 
     def _chain(self, function: Callable[..., Array], j: int, c: Case, found: Array) -> None:
         from generated.folded import disc_angle
 
         q = self.chain.values_of(j, c.p)
+        spin = float(q[1])
         for first, last in cut(len(c.t), len(c.t)):
             b = c.part(first, last)
-            phi = disc_angle(b.t, float(c.p[1])) if b.angle is None else b.angle
+            phi = disc_angle(b.t, spin) if b.angle is None else b.angle
             found[..., first:last] = function(j, b.t, np.cos(phi), np.sin(phi), b.matrix, q)
 
 
-def _accelerometer(j: int) -> int:
-    if j not in range(4):
-        raise UserError("there is no such accelerometer", found=j, expected="0, 1, 2 or 3")
+def _accelerometer(j: int, count: int) -> int:
+    if j not in range(count):
+        expected = "0, 1, 2 or 3" if count == 4 else f"0 ... {count - 1}"
+        raise UserError("there is no such accelerometer", found=j, expected=expected)
     return j
 
 
@@ -214,7 +232,11 @@ _said: list[str] = []
 
 
 def evaluator(
-    chain: Module, sources: Mapping[str, str], folded: ModuleType | None, backend: Backend = "auto"
+    chain: Module,
+    sources: Mapping[str, str],
+    folded: ModuleType | None,
+    backend: Backend = "auto",
+    layout: Layout = PAPER,
 ) -> Evaluator:
     """The evaluator of a model: of its chain in NumPy, its C (file name -> text), its folded form if it has one.
 
@@ -224,9 +246,9 @@ def evaluator(
     if backend not in ("auto", "c", "numpy"):
         raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
     if backend == "numpy":
-        return Interpreted(chain, folded)
+        return Interpreted(chain, layout, folded)
     try:
-        return Compiled(chain, Library(build(sources).library), "folded.c" in sources)
+        return Compiled(chain, layout, Library(build(sources).library), "folded.c" in sources)
     except BuildError as error:
         if backend == "c":
             raise UserError("the model cannot be compiled", found=str(error)) from None
@@ -237,10 +259,12 @@ def evaluator(
                 NativeWarning,
                 stacklevel=3,
             )
-        return Interpreted(chain, folded)
+        return Interpreted(chain, layout, folded)
 
 
-def for_fits(modules: Mapping[str, Module], sources: Mapping[str, str]) -> dict[str, Evaluator]:
+def for_fits(
+    modules: Mapping[str, Module], sources: Mapping[str, str], layout: Layout = PAPER
+) -> dict[str, Evaluator]:
     """Evaluators of generated modules (name -> module) for their derivatives.
 
     In machine code where ``sources`` (the C of all of them, or none) can be compiled; else in NumPy, without a note:
@@ -249,7 +273,9 @@ def for_fits(modules: Mapping[str, Module], sources: Mapping[str, str]) -> dict[
     if sources:
         try:
             library = Library(build(sources).library)
-            return {name: Compiled(module, library, False, name=name) for name, module in modules.items()}
+            return {
+                name: Compiled(module, layout, library, False, name=name) for name, module in modules.items()
+            }
         except BuildError:
             pass
-    return {name: Interpreted(module, None) for name, module in modules.items()}
+    return {name: Interpreted(module, layout, None) for name, module in modules.items()}

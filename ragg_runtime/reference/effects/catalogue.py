@@ -85,7 +85,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "clock-drift": _shared("1", "epsilon"),
     "bias-step": _each("m/s^2", "dK0") | _shared("s", "t_step"),
     "output-gain-step": _shared("1", "g") | _shared("s", "t_step"),
-    "output-filter": _shared("s", "tau"),
+    "output-filter": _shared("s^2", "b"),
     "thermal-lag": _each("(m/s^2)/(K/s)", "dK0_dTdot") | _each("1/(K/s)", "dK1_dTdot"),
     "anisoinertia": _each("(m/s^2)/(rad/s)^2", "K_ip"),
     "time-offset": _shared("s", "delta_t"),
@@ -93,7 +93,11 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "imu-misalignment": _shared("rad", "e_x", "e_y", "e_z"),
     "gyro-scale": _shared("1", "s_x", "s_y", "s_z"),
     "self-gradient": _shared("1/s^2/rad", *_TURNING),
-    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz"),
+    "near-mass": _shared("1/(m s^2)", "T_xxx", "T_xxy", "T_xxz", "T_xyy", "T_xyz", "T_yyy", "T_yyz")
+    | _shared(
+        "1/(m^2 s^2)",
+        *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
+    ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
@@ -101,12 +105,12 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
 """Every effect and its parameters."""
 
 
-def resolve(effects: EffectValues | None) -> Injected:
-    """Check what a user asked for and fill in the neutral values.
+def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
+    """Check what a user asked for and fill in the neutral values, for ``count`` accelerometers.
 
     Returns
     -------
-    For each effect, all of its parameters: (4,) arrays per accelerometer, () arrays shared.
+    For each effect, all of its parameters: (count,) arrays per accelerometer, () arrays shared.
 
     Raises
     ------
@@ -130,7 +134,7 @@ def resolve(effects: EffectValues | None) -> Injected:
                     remedy=did_you_mean(name, known),
                 )
         resolved[effect] = {
-            name: _values(effect, name, parameter, given.get(name, parameter.neutral))
+            name: _values(effect, name, parameter, given.get(name, parameter.neutral), count)
             for name, parameter in known.items()
         }
     return resolved
@@ -150,15 +154,17 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
     }.get(effect, ())
 
 
-def _values(effect: str, name: str, parameter: Parameter, given: ArrayLike) -> NDArray[np.float64]:
+def _values(
+    effect: str, name: str, parameter: Parameter, given: ArrayLike, count: int
+) -> NDArray[np.float64]:
     expected = (
-        f"four numbers, or one for all, in {parameter.unit}"
+        f"{'four' if count == 4 else count} numbers, or one for all, in {parameter.unit}"
         if parameter.per_accelerometer
         else (f"one number in {parameter.unit}")
     )
     try:
         value = np.asarray(given, dtype=np.float64)
-        value = np.broadcast_to(value, (4,)) if parameter.per_accelerometer else value.reshape(())
+        value = np.broadcast_to(value, (count,)) if parameter.per_accelerometer else value.reshape(())
     except (TypeError, ValueError):
         raise UserError(
             f"wrong value for {name} of the effect {effect!r}", found=given, expected=expected

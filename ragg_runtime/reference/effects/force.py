@@ -27,6 +27,7 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
         total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r)
     if near := effects.get("near-mass"):
         total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
+        total = total + np.einsum("ijkl,jn,kn,ln->in", fourth_order_tensor(near), r, r, r) / 6
     return total
 
 
@@ -37,14 +38,28 @@ def _turned(masses: Values, axis: str) -> Array:
 
 def third_order_tensor(near: Values) -> Array:
     """The symmetric, traceless (3, 3, 3) tensor of second derivatives of a_g, 1/(m s^2)."""
-    seven = {name.removeprefix("T_"): float(value) for name, value in near.items()}
+    seven = {name.removeprefix("T_"): float(value) for name, value in near.items() if len(name) == 5}
     # Laplace: each a_g component's Laplacian vanishes.
     seven["xzz"] = -(seven["xxx"] + seven["xyy"])
     seven["yzz"] = -(seven["xxy"] + seven["yyy"])
     seven["zzz"] = -(seven["xxz"] + seven["yyz"])
-    tensor = np.empty((3, 3, 3))
-    for index in itertools.product(range(3), repeat=3):
-        tensor[index] = seven["".join("xyz"[k] for k in sorted(index))]
+    return _symmetric(seven, 3)
+
+
+def fourth_order_tensor(near: Values) -> Array:
+    """The symmetric, traceless (3, 3, 3, 3) tensor of third derivatives of a_g, 1/(m^2 s^2)."""
+    found = {name.removeprefix("T_"): float(value) for name, value in near.items() if len(name) == 6}
+    for pair in ("xx", "xy", "xz", "yy", "yz", "zz"):  # Laplace, for each second derivative; z^4 comes last
+        of_x, of_y = ("".join(sorted(f"{pair}{k}{k}")) for k in "xy")
+        found[f"{pair}zz"] = -(found[of_x] + found[of_y])
+    return _symmetric(found, 4)
+
+
+def _symmetric(components: Mapping[str, float], rank: int) -> Array:
+    """The tensor of components by their sorted indices."""
+    tensor = np.empty((3,) * rank)
+    for index in itertools.product(range(3), repeat=rank):
+        tensor[index] = components["".join("xyz"[k] for k in sorted(index))]
     return tensor
 
 

@@ -133,12 +133,11 @@ LONGEST_LAG = 0.03
 _NODES, _WEIGHTS = np.polynomial.laguerre.laggauss(10)
 
 
-def lags(effects: Injected) -> Array:
-    """Time constants of the four accelerometers, (4,) s: of their loops, and of the filter that all pass."""
-    if "lag" not in effects and "output-filter" not in effects:
-        return np.zeros(4)
-    tau = effects["lag"]["tau"] if "lag" in effects else np.zeros(4)
-    tau = tau + (effects["output-filter"]["tau"] if "output-filter" in effects else 0.0)
+def lags(effects: Injected, count: int) -> Array:
+    """Time constants of the accelerometers, (count,) s."""
+    if "lag" not in effects:
+        return np.zeros(count)
+    tau = effects["lag"]["tau"]
     if np.any(tau < 0) or np.any(tau > LONGEST_LAG):
         raise UserError("a lag is out of range", found=tau.tolist(), expected=f"0 to {LONGEST_LAG} s")
     return tau
@@ -147,3 +146,16 @@ def lags(effects: Injected) -> Array:
 def lag_quadrature(tau: float) -> tuple[tuple[float, float], ...]:
     """Delays (s) and weights of 1/(1 + tau s): u(t) = integral of exp(-x) V(t - tau x) dx, Gauss-Laguerre."""
     return tuple((tau * float(x), float(w)) for x, w in zip(_NODES, _WEIGHTS, strict=True))
+
+
+def averaging(effects: Injected) -> tuple[tuple[float, float], ...]:
+    """Delays (s) and weights of the output's average over its converter's interval; empty: there is none.
+
+    The average over T, centred, has the curvature b = T^2/24.
+    """
+    b = float(effects["output-filter"]["b"]) if "output-filter" in effects else 0.0
+    if b < 0:
+        raise UserError("b of output-filter must not be negative", found=f"{b:g} s^2")
+    half = np.sqrt(24 * b) / 2
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    return tuple((half * float(x), float(w) / 2) for x, w in zip(nodes, weights, strict=True)) if b else ()

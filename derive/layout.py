@@ -1,0 +1,101 @@
+"""Where the accelerometers of an instrument are: constants of each, and which of them make an output.
+
+The chain is derived for one generic accelerometer; what tells one from another are constants: the cosine and sine of
+its angle on the disc, and, where a layout has them, its height, the turn of its triad and the axis of its disc.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import sympy as sp
+
+from derive.symbols import QUARTER_TURNS, SIGNS, symbol
+
+HEIGHT = symbol("height_j")
+"""Distance of the accelerometer along the spin axis from the disc's centre, m."""
+
+
+def _matrix(name: str) -> sp.Matrix:
+    return sp.Matrix(3, 3, lambda i, k: symbol(f"{name}_{i}{k}_j"))
+
+
+TURN = _matrix("turn")
+"""Rotation of the nominal triad in (e_r, e_t, e_a)."""
+
+AXES = _matrix("axes")
+"""From the frame of the disc at rest (angle 0, z along the spin axis) to the measurement frame."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """An output: the sum of voltages of accelerometers (counted from 0) with their signs."""
+
+    name: str
+    members: tuple[int, ...]
+    signs: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The accelerometers of an instrument.
+
+    Attributes
+    ----------
+    names
+        A1 ...
+    constants
+        Name of a symbol (``cos_j``, ``sin_j``; ``height_j``, ``turn_00_j`` ..., ``axes_00_j`` ... if the layout has
+        heights, directions or axes) -> one number for each accelerometer.
+    outputs
+        G_out ...
+    """
+
+    names: tuple[str, ...]
+    constants: Mapping[str, tuple[float, ...]] = field(hash=False)
+    outputs: tuple[Output, ...]
+
+    @property
+    def size(self) -> int:
+        return len(self.names)
+
+    @cached_property
+    def is_paper(self) -> bool:
+        return self == PAPER
+
+    @property
+    def common(self) -> Mapping[sp.Symbol, sp.Expr]:
+        """Constants that are 0, 1 or -1 in all accelerometers alike: what they multiply vanishes, or stays as it is.
+
+        The angle stays: of a single accelerometer it is a constant like others.
+        """
+        return {
+            symbol(n): sp.Integer(int(v[0]))
+            for n, v in self.constants.items()
+            if n not in ("cos_j", "sin_j") and v[0] in (0.0, 1.0, -1.0) and len(set(v)) == 1
+        }
+
+    def without_common(self) -> Layout:
+        """The layout with the other constants alone."""
+        known = {s.name for s in self.common}
+        if not known:
+            return self
+        return replace(self, constants={n: v for n, v in self.constants.items() if n not in known})
+
+    def has(self, constant: sp.Symbol) -> bool:
+        return constant.name in self.constants
+
+
+_COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)
+
+PAPER = Layout(
+    names=("A1", "A2", "A3", "A4"),
+    constants={
+        "cos_j": tuple(_COSINES[q] for q in QUARTER_TURNS),
+        "sin_j": tuple(_SINES[q] for q in QUARTER_TURNS),
+    },
+    outputs=(Output("G_out", (0, 1, 2, 3), SIGNS),),
+)
+"""Four quarter turns, G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15)."""

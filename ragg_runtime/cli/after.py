@@ -1,0 +1,163 @@
+"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``export``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.main import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
+
+if TYPE_CHECKING:
+    from ragg_runtime.compensation.compensate import Kind
+    from ragg_runtime.workflow.loop import Loaded
+
+
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
+@_json
+def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
+    """Fit the model's parameters: values, how sure they are, what the record sees of them."""
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.workflow import after, loop
+
+    m = _load(model_dir)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = loop.read_flights(m, flights)
+    _progress("calibrating")
+    with progress.shown("compare", sum(map(len, read))):
+        kept = after.calibrate(m, read, save)
+    origin = terminal.origin(kept.loaded, read, _command())
+    _emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
+
+
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    type=DIRECTORY,
+    required=True,
+    metavar="OUT",
+    help="File to write (.csv, .parquet, .nc).",
+)
+@click.option(
+    "--calibration",
+    type=click.Choice(["frozen", "self", "crossed"]),
+    default="self",
+    show_default=True,
+    help="As saved; fitted to these flights; each block of time fitted to all others.",
+)
+@click.option(
+    "--demodulator",
+    type=click.Choice(["fir", "butterworth", "causal"]),
+    default="fir",
+    show_default=True,
+    help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
+)
+@_json
+def compensate(
+    model_dir: Path,
+    flights: Sequence[Path],
+    output: Path,
+    calibration: Kind,
+    demodulator: str,
+    json_file: str | None,
+) -> None:
+    """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.flight.formats import format_of
+    from ragg_runtime.workflow import after
+
+    format_of(output)
+    m = _load(model_dir)
+    odd = _calibration_notes(m) if calibration == "frozen" else []
+    _progress(f"reading {len(flights)} flight(s)")
+    read = after.read_for_compensation(m, flights)
+    _progress("compensating" if calibration == "frozen" else "calibrating and compensating")
+    with progress.shown("compare", sum(map(len, read))):
+        c = after.compensate(m, read, calibration, demodulator, output)
+    origin = terminal.origin(m, read, _command()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    _emit(
+        c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
+    )
+
+
+@click.command()
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("folder", type=DIRECTORY, metavar="DIR")
+@click.option(
+    "--c", "form", flag_value="c", help="A C17 program: make -C DIR; ragg_model < MOTION.csv > OUT.csv."
+)
+@click.option("--numpy", "form", flag_value="numpy", help="A folder that runs with NumPy alone.")
+@click.option(
+    "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
+)
+def export(model_dir: Path, folder: Path, form: str | None) -> None:
+    """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
+    from ragg_runtime.workflow import after
+
+    if form is None:
+        raise UserError(
+            "say what to export", expected="--c, --numpy or --json", remedy="see: ragg export --help"
+        )
+    m = _load(model_dir)
+    for place in after.export(m, folder, form):
+        click.echo(f"written: {place}")
+    click.echo(f"with {after.contents(m).origin}")
+
+
+def compare_frozen(
+    m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
+) -> None:
+    """``ragg compare --frozen``."""
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.compensation.frozen import sentence
+    from ragg_runtime.workflow import after, loop
+
+    odd = _calibration_notes(m)
+    _progress(f"reading {len(flights)} flight(s)")
+    read = loop.read_flights(m, flights)
+    _progress("comparing with the calibration that was kept")
+    with progress.shown("compare", sum(map(len, read))):
+        h = after.compare_frozen(m, read)
+
+    def page() -> str:
+        from ragg_runtime.report import compare_html
+
+        return compare_html(
+            h.comparison,
+            title=f"{m.name}, frozen, and {', '.join(x.name for x in read)}",
+            command=_command(),
+            sources=loop.sources(m, read),
+            notes=[sentence(h), *odd, *terminal.notes(m, read)],
+        )
+
+    _write_report(report_file, page)
+    origin = terminal.origin(m, read, _command())
+    _emit(
+        h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
+        json_file,
+        terminal_after.held(h, read),
+    )
+
+
+def _calibration_notes(m: Loaded) -> list[str]:
+    """What is odd about the saved calibration, told on stderr as well."""
+    from ragg_runtime.workflow import after
+
+    odd = after.calibration_notes(m)
+    for note in odd:
+        click.echo(printable(f"note: {note}"), err=True)
+    return odd
+
+
+COMMANDS = (calibrate, compensate, export)
+"""What the command line registers."""

@@ -1,0 +1,98 @@
+"""Results of what comes after a model in words, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ragg_runtime.cli.terminal import compared, errors_table
+from ragg_runtime.compensation.frozen import Held, sentence
+from ragg_runtime.flight import Flight
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.after import Compensation, Kept
+
+MOVED = 3.0
+"""Standard deviations from which a combination is shown as moved."""
+
+
+def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
+    """The result of ``calibrate``."""
+    c = k.calibrated
+    seen, of = c.directions
+    found: dict[str, Any] = k.as_json()
+    floor = found["noise_floor"]["rms_Eo"]
+    rows = (("nominal", c.nominal), ("calibrated", c.error), ("held out", c.holdout))
+    lines = [
+        f"{', '.join(x.name for x in flights)}: {c.fitted.calibration.rows} samples, effects in the model: "
+        f"{', '.join(found['effects']) or 'none'}",
+        *errors_table(rows, floor, flights),
+        "" if c.converged else "\nThe fit has NOT converged: do not rely on these values.",
+        f"the record determines {seen} of {of} directions of the parameters; the sheet alone says the others:",
+        *(f"  {notebook.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),
+    ]
+    if found["drift"]:
+        lines.append("\neach flight alone:")
+        lines += [
+            f"  {q['flight']:28} {q['name']} = {q['value']:.4g} +- {q['std']:.2g} {q['unit']}"
+            for q in found["drift"]
+        ]
+    if k.saved:
+        d = k.loaded.directory.path
+        lines += ["", f"kept in {d}; use it with: ragg compensate {d} FLIGHT -o OUT --calibration frozen"]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)
+
+
+def held(h: Held, flights: Sequence[Flight]) -> str:
+    """The result of ``compare --frozen``."""
+    rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
+    moved = [r for r in rows if abs(r["z"]) > MOVED]
+    lines = [compared(h.comparison, flights), "", sentence(h)]
+    if moved:
+        lines.append("what moved since (frozen, now):")
+        lines += [
+            f"  {r['flight']:24} {r['name']}: {r['frozen']:.5g} -> {r['value']:.5g} {r['unit']}, {r['z']:+.1f} sigma"
+            for r in moved
+        ]
+    suspects = h.suspects()
+    if suspects:
+        lines.append("the change of one parameter that would explain it, and how much of it:")
+        lines += [
+            f"  {x['name']:32} {x['change']:+.4g} {x['unit']}   {100 * x['share']:.1f} %" for x in suspects
+        ]
+    return "\n".join(lines)
+
+
+CONTRIBUTIONS = 8
+"""Contributions that are listed, the largest."""
+
+
+def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str:
+    """The result of ``compensate``."""
+    r = c.as_json()
+    d = r["demodulator"]
+    lag = f", {d['latency_s']:.3g} s late" if d["latency_s"] else ""
+    lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
+    if not r["converged"]:
+        lines.append("The calibration has NOT converged: do not rely on these values.")
+    for x in r["flights"]:
+        lines += ["", f"{x['flight']}: {x['good']} of {x['samples']} samples good"]
+        lines.append(
+            f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
+        )
+        for channel in ("inline", "cross"):
+            numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
+            sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+            a, b, n, s, p = (notebook.number(v) for v in (*numbers, *sizes))
+            lines.append(f"  {channel:8} {a:>12} {b:>10} {n:>10} {'':9} {s:>10} {p:>10}")
+        lines.append("  removed (rms inline, cross, Eo):")
+        lines += [
+            f"    {q['of']:28} {q['inline_Eo']:10.4g} {q['cross_Eo']:10.4g}"
+            for q in x["contributions"][:CONTRIBUTIONS]
+        ]
+        told = [f"{name} {n}" for name, n in x["quality"].items() if n]
+        if told:
+            lines.append(f"  quality: {', '.join(told)} samples")
+    lines += [f"note: {note}" for x in flights for note in x.notes]
+    return "\n".join(lines)

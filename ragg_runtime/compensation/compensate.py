@@ -1,0 +1,230 @@
+"""Flights with all removed that a model explains: the gravity gradient as the instrument saw it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import mapped, one_thread
+from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
+from ragg_runtime.compensation.calibrated import information, inverse
+from ragg_runtime.compensation.demodulators import Demodulator, demodulator
+from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.compensation.schedule import Stretch
+from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import fit
+from ragg_runtime.fit.noise import spread
+from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.score import finite
+from ragg_runtime.fit.segments import ROWS, Segment
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.record import GRADIENTS
+
+Array = NDArray[np.float64]
+Kind = Literal["frozen", "self", "crossed"]
+KINDS: tuple[Kind, ...] = ("self", "crossed", "frozen")
+
+NEGLECTED = 0.01
+"""Share of the noise's variance that directions of the parameters may add which are left out of the uncertainty."""
+
+SEARCHED = 4
+"""Stretches of a flight, of some minutes, on which the directions that matter are sought."""
+
+
+def without_gradients(flight: Flight) -> Flight:
+    """A flight without recorded gradients: nothing of them shall get into what is compensated."""
+    channels = {n: x for n, x in flight.channels.items() if n not in GRADIENTS}
+    return replace(flight, channels=channels) if len(channels) < len(flight.channels) else flight
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """Flights with the parameters that compensate them.
+
+    ``stretches`` and ``noise`` (densities are in the calibration) of every flight; ``validity`` only if frozen.
+    """
+
+    kind: Kind
+    model: Model
+    instrument: Instrument
+    flights: tuple[Flight, ...]
+    observations: tuple[Observation, ...]
+    calibration: Calibration
+    stretches: tuple[tuple[Stretch, ...], ...]
+    converged: bool
+    validity: dict[str, tuple[float, float]]
+
+
+@one_thread
+def prepared(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], kind: Kind, saved: Saved | None = None
+) -> Prepared:
+    """Calibrate on the flights (``self``, ``crossed``), or take what was saved (``frozen``)."""
+    if kind not in KINDS:
+        raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
+    papers_only(instrument)
+    flights = tuple(without_gradients(x) for x in flights)
+    observations = tuple(observe(x, instrument) for x in flights)
+    model = model.for_fits(sum(len(o.record.time) for o in observations))
+    lengths = [len(o.record.time) for o in observations]
+    validity: dict[str, tuple[float, float]] = {}
+    if kind == "frozen":
+        if saved is None:
+            raise UserError("a frozen compensation needs a saved calibration")
+        c = frozen.calibration(saved, model, instrument, observations)
+        root = frozen.root(saved, model, instrument)
+        stretches = [schedule.whole(c, root, n) for n in lengths]
+        settled, validity = saved.converged, dict(saved.validity)
+    else:
+        f = fit(model, instrument, observations)
+        c, settled = f.calibration, f.calibration.converged
+        root = inverse(information(f))
+        stretches = (
+            schedule.crossed(f) if kind == "crossed" else [schedule.whole(c, root, n) for n in lengths]
+        )
+    return Prepared(
+        kind=kind,
+        model=model,
+        instrument=instrument,
+        flights=flights,
+        observations=observations,
+        calibration=c,
+        stretches=tuple(stretches),
+        converged=settled,
+        validity=validity,
+    )
+
+
+def papers_only(instrument: Instrument) -> None:
+    """UserError for an instrument whose inline and cross are not those of the paper's one disc."""
+    if not instrument.layout.of_paper:
+        raise UserError(
+            "gradients are compensated, and models exported, for the paper's disc alone as yet",
+            where=str(instrument.path),
+            found=f"[[disc]] with {instrument.layout.size} accelerometers",
+            expected="one [disc] with four accelerometers",
+        )
+
+
+class Compensated:
+    """One flight being compensated: its series come from :meth:`segments`, once; then :meth:`as_json` tells of them."""
+
+    def __init__(self, p: Prepared, k: int, name: str) -> None:
+        self.flight, o = p.flights[k], p.observations[k]
+        rate = o.record.rate
+        self.demodulator = demodulator(name, rate)
+        _long_enough(self.flight, self.demodulator)
+        k_ggi = scale_factor(p.model, p.calibration.p)
+        noise = spectrum.of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
+        self.model, self.instrument = p.model, p.instrument
+        many = p.model.in_machine_code and len(self.flight.time) >= MANY
+        s = Setting(
+            model=p.model,
+            evaluator=p.model.compiled("auto" if many else "numpy"),
+            demodulator=self.demodulator,
+            observation=o,
+            recorded=_recorded(self.flight, o, p.instrument.scale_factor * EOTVOS / k_ggi),
+            stretches=p.stretches[k],
+            noise=noise,
+            validity=p.validity,
+        )
+        sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
+        U = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
+        self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches))
+        self.before, self.after = spectrum.Density(rate), spectrum.Density(rate)
+        self.count = 0
+        self.bits = dict.fromkeys(Quality, 0)
+        self.squares, self.good = np.zeros(2), 0
+
+    def _rows(self) -> int:
+        return max(ROWS, 4 * len(self.demodulator.taps))
+
+    def _parts(self, most: int) -> list[Segment]:
+        n = len(self.flight.time)
+        count = max(1, -(-n // most))
+        edges = np.linspace(0, n, count + 1).astype(int)
+        return [Segment(slice(int(a), int(b)), ()) for a, b in pairwise(edges)]
+
+    def segments(self) -> Iterator[Series]:
+        """The compensated series, segment after segment, in order of time."""
+        holes = not bool(np.all(self.setting.observation.record.valid))
+        parts = [x.rows for x in self._parts(self._rows())]
+        for x in mapped(lambda rows: series(self.setting, rows, holes=holes), parts):
+            self._count(x)
+            progress.step(float(len(x.quality)))
+            yield x
+
+    def _count(self, x: Series) -> None:
+        self.before.add(x.raw)
+        self.after.add(x.gradient)
+        self.count += len(x.quality)
+        for q in Quality:
+            self.bits[q] += int(np.sum((x.quality & q) != 0))
+        good = x.good
+        self.good += int(np.sum(good))
+        self.squares += np.sum(x.parameters[:, good] ** 2, axis=1)
+
+    def as_json(self) -> dict[str, Any]:
+        """What was done and how good it is; after all segments."""
+        noise = dict(zip(("inline_Eo", "cross_Eo"), map(finite, self.setting.noise), strict=True))
+        rms = np.sqrt(self.squares / self.good) if self.good else np.full(2, np.nan)
+        expected = [finite(x / np.sqrt(self.demodulator.bandwidth)) for x in self.setting.noise]
+        return {
+            "flight": self.flight.name,
+            "samples": self.count,
+            "good": self.good,
+            "quality": {q.name: n for q, n in self.bits.items()},
+            "density": {
+                "band_Hz": list(spectrum.BAND),
+                "before": self.before.as_json(),
+                "after": self.after.as_json(),
+                "noise": dict(zip(("inline_Eo_per_rtHz", "cross_Eo_per_rtHz"), expected, strict=True)),
+            },
+            "std": {
+                "noise": noise,
+                "parameters": dict(zip(("inline_Eo", "cross_Eo"), map(finite, rms), strict=True)),
+                "directions": len(self.setting.stretches[0].directions),
+            },
+            "contributions": contributions.of(
+                self.setting,
+                [x.rows for x in spread(self._parts(self._rows()), 2)],
+                self.model,
+                self.instrument,
+            ),
+        }
+
+
+def _long_enough(flight: Flight, d: Demodulator) -> None:
+    least = sum(d.settling) + 1
+    if len(flight.time) < least:
+        raise UserError(
+            "the record is too short for the demodulator",
+            where=flight.path or flight.name,
+            found=f"{flight.duration:.4g} s",
+            expected=f"at least {least / d.rate:.3g} s for {d.name}",
+            remedy="give a longer recording, or choose another --demodulator",
+        )
+
+
+def _recorded(flight: Flight, o: Observation, factor: float) -> NDArray[np.complex128] | None:
+    """inline + i cross, Eo, of a flight that its recorder demodulated: put right for the calibrated scale factor."""
+    if o.kind != "channels":
+        return None
+    g = flight.outputs["inline"] + 1j * flight.outputs["cross"]
+    return np.asarray(g * (factor / EOTVOS))
+
+
+def meaning() -> dict[str, str]:
+    """Bit of ``quality`` -> what it says."""
+    return {str(int(q)): f"{q.name}: {text}" for q, text in MEANING.items()}

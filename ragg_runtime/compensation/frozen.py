@@ -1,0 +1,303 @@
+"""A calibration that was kept, held against another flight: nothing is fitted, and how well it holds is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.compensation import calibrated
+from ragg_runtime.compensation.saved import Saved, read
+from ragg_runtime.diagnosis import comparison as compare
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.columns import base_columns
+from ragg_runtime.fit.fitted import Fitted, about
+from ragg_runtime.fit.linearise import Point
+from ragg_runtime.fit.noise import estimate_noise
+from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.square_root import join
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir
+from ragg_runtime.signals.noise_spectrum import Noise
+
+Array = NDArray[np.float64]
+
+INFORMED = 0.1
+"""A direction is tested where the flight knows at least this share of what the saved calibration knows: the rest is
+noise that would hide a change."""
+
+HOLDS = 0.01
+"""Level of the test that the frozen parameters are still the instrument's."""
+
+SUSPECTS = 5
+"""Parameters that are named, at most, where the calibration does not hold."""
+
+
+def in_force(directory: ModelDir, model: Model) -> Saved:
+    """The calibration that a model directory keeps, if it is of this model; UserError if there is none."""
+    where = str(directory.path / CALIBRATION)
+    again = f"calibrate: ragg calibrate {directory.path} FLIGHT... --save"
+    if directory.calibration is None:
+        raise UserError("the model has no saved calibration", where=directory.path, remedy=again)
+    saved = read(directory.calibration, where)[-1]
+    nominal = vector(model, directory.instrument)
+    names = tuple(model.chain.PARAMETERS)
+    here = (tuple(e.id for e in model.effects), directory.instrument.form.words())
+    if saved.layout != names or (saved.effects, saved.form) != here:
+        raise UserError(
+            "the saved calibration is of another model",
+            where=where,
+            found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
+            expected=f"{here[1]}, effects {', '.join(here[0]) or 'none'}",
+            remedy=again,
+        )
+    current = {(c.name, c.accelerometer): k for c, k in base_columns(model, directory.instrument)}
+    for c, k in zip(saved.columns, saved.index, strict=True):
+        if current.get((c.name, c.accelerometer)) != k:
+            raise UserError(
+                "the saved calibration names a parameter that the model does not fit",
+                where=where,
+                found=c.label,
+                remedy=did_you_mean(c.name, [name for name, _ in current]) or again,
+            )
+    given = np.setdiff1d(np.arange(len(nominal)), saved.index)
+    if not np.array_equal(saved.p[given], nominal[given]):
+        raise UserError(
+            "model.toml was changed since the calibration was saved: values that are not fitted differ",
+            where=where,
+            found=f"a calibration made {saved.time}",
+            remedy=again,
+        )
+    if not scale_factor(model, saved.p) > 0.0:
+        raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
+    return saved
+
+
+def notes(saved: Saved, model: Model, directory: ModelDir) -> list[str]:
+    """What is odd about a saved calibration, in sentences."""
+    found = []
+    if saved.derivation != model.digest:
+        found.append("the model has been derived anew since the calibration was saved")
+    if not saved.converged:
+        found.append("the saved calibration had not converged")
+    if not np.array_equal(saved.sheet, vector(model, directory.instrument)):
+        found.append(
+            "model.toml has other values than when the calibration was saved; those it saved are used"
+        )
+    return found
+
+
+def root(saved: Saved, model: Model, instrument: Instrument) -> Array:
+    """(n, k): a root of the covariance of the calibration, in units of the present scales of the fitted columns."""
+    place = {int(k): n for n, k in enumerate(saved.index)}
+    inverse = calibrated.inverse(saved.information)
+    columns = base_columns(model, instrument)
+    found = np.zeros((len(columns), len(inverse)))
+    for n, (c, k) in enumerate(columns):
+        if k in place:  # else it stays where the sheet puts it
+            found[n] = inverse[place[k]] * (saved.columns[place[k]].scale / c.scale)
+    return found
+
+
+def information(saved: Saved, model: Model, instrument: Instrument) -> Array:
+    """(n, n) square root of the information of the calibration, in the present scales of the fitted columns.
+
+    Of a parameter that was not fitted then the sheet alone speaks.
+    """
+    columns = base_columns(model, instrument)
+    place = {int(k): n for n, k in enumerate(saved.index)}
+    rows = np.zeros((len(saved.information), len(columns)))
+    for n, (c, k) in enumerate(columns):
+        if k in place:
+            rows[:, n] = saved.information[:, place[k]] * (c.scale / saved.columns[place[k]].scale)
+    new = np.diag([0.0 if k in place else 1.0 for _, k in columns])
+    return np.asarray(np.linalg.qr(np.vstack([rows, new]), mode="r"))
+
+
+@one_thread
+def calibration(
+    saved: Saved, model: Model, instrument: Instrument, observations: Sequence[Observation]
+) -> Calibration:
+    """The saved parameters as the calibration of these flights; of the flights only the noise is estimated."""
+    columns = base_columns(model, instrument)
+    half = root(saved, model, instrument)
+    at = Point(model, instrument, saved.p, with_candidates=True)
+    noise: list[Noise] = [estimate_noise(at, o) for o in observations]
+    return Calibration(
+        p=saved.p,
+        columns=tuple(c for c, _ in columns),
+        index=np.array([k for _, k in columns], dtype=np.intp),
+        covariance=half @ half.T,
+        noise=tuple(noise),
+        rows=int(sum(np.sum(o.record.valid) for o in observations)),
+        chi2=0.0,
+        excess=1.0,
+        converged=True,
+        reason="nothing is fitted: the parameters are those that were saved",
+    )
+
+
+@dataclass(frozen=True)
+class Change:
+    """The step from the frozen to the free fit.
+
+    Attributes
+    ----------
+    z
+        (k,): its components, each of unit variance if nothing has changed.
+    signatures
+        (k, n): what a change of each fitted parameter, by its scale, would make of them.
+    squares
+        Sums of squares of the whitened residual, frozen and free.
+    """
+
+    z: Array
+    signatures: Array
+    squares: tuple[float, float]
+
+    @property
+    def chi2(self) -> float:
+        return float(np.sum(self.z**2))
+
+
+@dataclass(frozen=True)
+class Held:
+    """How a frozen calibration holds on flights.
+
+    Attributes
+    ----------
+    comparison
+        Model and flights, everything about the frozen parameters: ``calibrated`` and ``holdout`` are the frozen error.
+    root
+        (n, k): of the covariance of the calibration, in the scales of the fitted columns.
+    saved
+        The calibration.
+    free, free_holdout
+        The errors if the model's parameters were fitted to these flights.
+    change
+        The step from the frozen to the free fit, tested.
+    """
+
+    comparison: Comparison
+    root: Array
+    saved: Saved
+    free: Error
+    free_holdout: Error
+    change: Change
+
+    @property
+    def p_value(self) -> float:
+        n = len(self.change.z)
+        return float(stats.chi2.sf(self.change.chi2, n)) if n else 1.0
+
+    def suspects(self) -> list[dict[str, Any]]:
+        """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
+        if self.holds:
+            return []
+        found: list[dict[str, Any]] = []
+        for c, signature in zip(
+            self.comparison.fitted.calibration.columns, self.change.signatures.T, strict=True
+        ):
+            power = float(signature @ signature)
+            if not power > 1.0:
+                continue  # the flight does not tell this one
+            along = float(signature @ self.change.z)
+            share = along**2 / power / self.change.chi2
+            value = along / power * c.scale / c.unit_factor
+            found.append({"name": c.label, "change": value, "unit": c.unit, "share": share})
+        return sorted(found, key=lambda r: -r["share"])[:SUSPECTS]
+
+    @property
+    def holds(self) -> bool:
+        return self.p_value > HOLDS
+
+    def drift(self) -> list[dict[str, Any]]:
+        """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
+        f = self.comparison.fitted
+        c = f.calibration
+        values = c.p[c.index] / np.array([q.scale for q in c.columns])
+        rows = []
+        for k, o in enumerate(f.observations):
+            step, root_now = calibrated.alone(f, k)
+            for q in calibrated.visible(f.model, c.p, c.columns, self.root):
+                value, std = q.of(values, self.root)
+                now, now_std = q.of(values + step, root_now)
+                both = float(np.hypot(std, now_std))
+                z = (now - value) / both if both else 0.0
+                row = {"flight": o.name, "name": q.name, "frozen": value, "frozen_std": std}
+                rows.append(row | {"value": now, "std": now_std, "unit": q.unit, "z": z})
+        return rows
+
+    def as_json(self) -> dict[str, Any]:
+        frozen = {
+            "made": self.saved.time,
+            "flights": dict(self.saved.flights),
+            "converged": self.saved.converged,
+            "holds": self.holds,
+            "chi2": self.change.chi2,
+            "degrees_of_freedom": len(self.change.z),
+            "p_value": self.p_value,
+            "samples": self.comparison.fitted.calibration.rows,
+            "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
+            "suspects": self.suspects(),
+            "free": {"calibrated": self.free.as_json(), "holdout": self.free_holdout.as_json()},
+            "drift": self.drift(),
+        }
+        return self.comparison.as_json() | {"frozen": frozen}
+
+
+def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
+    """Hold a saved calibration against flights."""
+    observations = [observe(x, instrument) for x in flights]
+    model = model.for_fits(sum(len(o.record.time) for o in observations))
+    f = about(model, instrument, observations, calibration(saved, model, instrument, observations))
+    free, _ = f.coefficients(())
+    half, _ = f.coefficients((), held_out=True)
+    frozen, fitted, held_out, nominal = compare.errors(f, [np.zeros(f.n_base), free, half])
+    half_covariance = root(saved, model, instrument)
+    # nothing of these flights was fitted: all of their time is held out
+    comparison = compare.concluded(f, nominal.whole, frozen, frozen.whole)
+    return Held(
+        comparison=comparison,
+        root=half_covariance,
+        saved=saved,
+        free=fitted.whole,
+        free_holdout=held_out.held_out,
+        change=changed(f, half_covariance),
+    )
+
+
+def changed(f: Fitted, root: Array) -> Change:
+    """Test the step from frozen parameters to what flights say; ``root`` (n, k) of the calibration's covariance.
+
+    In directions in which the calibration has unit variance, a flight that has s^-2 of its own moves by a step of
+    variance 1 + s^-2.
+    """
+    n = f.n_base
+    T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
+    U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
+    told = s**2 >= INFORMED
+    both = (U.T @ T[:n])[told] / np.sqrt(1.0 + s[told] ** 2)[:, None]
+    total = float(np.sum(T[:, n] ** 2))
+    return Change(z=both[:, n], signatures=both[:, :n], squares=(total, float(T[n, n] ** 2)))
+
+
+def sentence(h: Held) -> str:
+    """How the calibration holds, in words."""
+    verdict = "holds" if h.holds else "does NOT hold"
+    return (
+        f"the calibration of {h.saved.time} on {', '.join(h.saved.flights)} {verdict} here: chi-square of the step to "
+        f"the free fit {h.change.chi2:.1f} in {len(h.change.z)} directions (p = {h.p_value:.2g}); error frozen "
+        f"{h.comparison.calibrated.rms_Eo:.4g} Eo, free {h.free.rms_Eo:.4g} Eo rms"
+    )

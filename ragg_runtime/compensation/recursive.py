@@ -1,0 +1,187 @@
+"""Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
+
+The states are the fitted parameters (steps from a point p, in their scales) and the two channels of the gradient, inline and
+cross, which wander: a random walk of so many Eo a root second. What is kept is the triangle R and the right-hand side z of
+R x = z, so that a sample is one more row, turned into them; nothing is ever inverted or squared. Parameters forget: what flights
+said fades with a time constant, what the sheet says does not. The same steps, in the same order, are those of the exported C.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from ragg_runtime.fit.columns import Column, base_columns
+from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import GRADIENTS, Record
+
+Array = NDArray[np.float64]
+
+UPDATE = 0.25
+"""The gradient takes a step of its walk after so many seconds: it does not change within them."""
+
+FADE = 10.0
+"""Parameters forget in steps of so many seconds."""
+
+UNKNOWN_EO = 1e4
+"""Standard deviation of the gradient before anything is known, Eo: three times the Earth's own."""
+
+
+@dataclass(frozen=True)
+class Tuning:
+    """How an online filter works.
+
+    Attributes
+    ----------
+    noise
+        Standard deviation of a sample of G_out, V.
+    walk
+        Of the gradient, Eo/sqrt(s); 0: it is constant. The filter follows it with a time constant, s, of the noise's
+        density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
+    forget
+        Time constant, s, with which parameters forget the flight; a drift is followed with this lag. Infinite: never.
+    """
+
+    noise: float
+    walk: float = 0.0
+    forget: float = float("inf")
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What a filter had found at some instants: (k,) each; channels in Eo."""
+
+    time: Array
+    inline: Array
+    cross: Array
+    inline_std: Array
+    cross_std: Array
+
+
+class Online:
+    """The filter. Samples are fed in order of time, in parts of any length; NaN and gaps are passed over."""
+
+    def __init__(
+        self,
+        model: Model,
+        instrument: Instrument,
+        tuning: Tuning,
+        p: Array | None = None,
+        root: Array | None = None,
+    ) -> None:
+        """Begin at parameters ``p`` (size,) with ``root`` (n, n) of their information, in scales; else at the sheet."""
+        self.model, self.instrument, self.tuning = model, instrument, tuning
+        self.nominal = vector(model, instrument)
+        self.p = self.nominal.copy() if p is None else p.copy()
+        found = base_columns(model, instrument)
+        self.columns: tuple[Column, ...] = tuple(c for c, _ in found)
+        self.index = np.array([k for _, k in found], dtype=np.intp)
+        self.scale = np.array([c.scale for c in self.columns])
+        self.to_nominal = (self.nominal[self.index] - self.p[self.index]) / self.scale
+        self.k_ggi = scale_factor(model, self.p)
+        n = len(self.columns)
+        self.R = np.zeros((n + 2, n + 3))
+        self.R[:n, :n] = np.eye(n) if root is None else root
+        self.R[:n, -1] = self.R[:n, :n] @ (self.to_nominal if root is None else np.zeros(n))
+        self.R[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
+        self._waiting: list[Array] = []
+        self._before: float | None = None
+        self._waited = self._faded = 0.0
+
+    def feed(self, o: Observation) -> Followed:
+        """Take a flight, or the next part of it (recorded gradients are not looked at); what was found on the way."""
+        rows, known = self._rows(o), []
+        for t, row, valid in zip(o.record.time, rows, o.record.valid, strict=True):
+            dt = 0.0 if self._before is None else float(t) - self._before
+            self._before = float(t)
+            self._waited += dt
+            self._faded += dt
+            stepped = self._waited >= UPDATE
+            if stepped:
+                self._fold()
+                self._walk()
+            if self._faded >= FADE:
+                self._fold()
+                self._fade()
+            if valid and np.isfinite(row).all():
+                self._waiting.append(row)
+            if stepped:
+                self._fold()
+                known.append((float(t), *self.gradient()))
+        self._fold()
+        return Followed(*np.array(known).reshape(-1, 5).T)
+
+    def _rows(self, o: Observation) -> Array:
+        """(N, n + 3): every sample as a row of the least squares, over the noise."""
+        r = o.record
+        bare = Observation(o.kind, _without_gradients(r), o.series, o.name)
+        columns = as_output(bare, linearised(Point(self.model, self.instrument, self.p, False), bare))
+        sine, cosine = 2 * r.sin_phi * r.cos_phi, r.cos_phi**2 - r.sin_phi**2
+        gradient = self.k_ggi * np.stack([sine / 2, -cosine])
+        return np.asarray(np.concatenate([columns[:-1], gradient, columns[-1:]]).T / self.tuning.noise)
+
+    def _fold(self) -> None:
+        if self._waiting:
+            self.R = _triangle(np.vstack([self.R, *self._waiting]))[: len(self.R)]
+            self._waiting.clear()
+
+    def _walk(self) -> None:
+        """The gradient takes a step: g' = g + w, w of variance walk^2 t; w is eliminated."""
+        t, self._waited = self._waited, 0.0
+        if self.tuning.walk == 0.0:
+            return
+        n = len(self.columns)
+        whole = np.zeros((n + 4, n + 5))
+        whole[:2, :2] = np.eye(2) / (self.tuning.walk * np.sqrt(t))
+        whole[2:, :2] = -self.R[:, n : n + 2]
+        whole[2:, 2:] = self.R
+        self.R = _triangle(whole)[2:, 2:]
+
+    def _fade(self) -> None:
+        t, self._faded = self._faded, 0.0
+        kept = float(np.exp(-t / self.tuning.forget))
+        if kept == 1.0:
+            return
+        n = len(self.columns)
+        sheet = np.zeros((n, n + 3))
+        sheet[:, :n] = np.sqrt(1.0 - kept) * np.eye(n)
+        sheet[:, -1] = np.sqrt(1.0 - kept) * self.to_nominal
+        self.R = _triangle(np.vstack([np.sqrt(kept) * self.R, sheet]))[: n + 2]
+
+    def gradient(self) -> tuple[float, float, float, float]:
+        """inline, cross, and their standard deviations, Eo, whatever the parameters may be."""
+        n = len(self.columns)
+        inverse = np.linalg.inv(self.R[n:, n : n + 2])
+        inline, cross = inverse @ self.R[n:, -1]
+        std = np.linalg.norm(inverse, axis=1)
+        return float(inline), float(cross), float(std[0]), float(std[1])
+
+    def parameters(self) -> tuple[Array, Array]:
+        """Parameter vector (size,), SI, and root (n, n) of the information of the fitted ones, in scales."""
+        self._fold()
+        n = len(self.columns)
+        x = linalg.solve_triangular(self.R[:, : n + 2], self.R[:, -1])
+        p = self.p.copy()
+        p[self.index] += x[:n] * self.scale
+        return p, _marginal(self.R, n)
+
+
+def _triangle(rows: Array) -> Array:
+    """The triangular factor of rows."""
+    return np.asarray(np.linalg.qr(rows, mode="r"))
+
+
+def _marginal(R: Array, n: int) -> Array:
+    """(n, n): what a triangle of n + 2 states knows of the first n, whatever the others are."""
+    return _triangle(R[:, [n, n + 1, *range(n)]])[2:, 2:]
+
+
+def _without_gradients(r: Record) -> Record:
+    return replace(r, wide={name: x for name, x in r.wide.items() if name not in GRADIENTS})

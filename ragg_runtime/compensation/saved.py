@@ -1,0 +1,226 @@
+"""calibration.json of a model directory: the calibrations that were kept, the last one in force.
+
+The file may have been written by anyone: every number of it is checked before it is used.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit.columns import Column
+
+Array = NDArray[np.float64]
+
+VERSION = 1
+"""Of the file's form."""
+
+KEPT = 20
+"""Calibrations that are kept, the latest: each takes some 30 kB, most of it their information."""
+
+LEAST = 1e-3
+"""Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
+
+_FORM = '{"version": 1, "calibrations": [...]}, as `ragg calibrate --save` writes it'
+_REMEDY = "restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)"
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A calibration as it was kept.
+
+    Attributes
+    ----------
+    time
+        When it was made, UTC, ISO 8601.
+    effects, form, derivation
+        Ids of the effects in the model, kinematics and order in words, and the digest of its derivation.
+    layout
+        The parameters of the model's chain and how many values each has.
+    p, sheet
+        (size,) SI: calibrated values, and those of model.toml at that time.
+    columns, index
+        The fitted parameters and their places in ``p``.
+    information
+        (n, n) upper triangular R, in units of the scales, prior included: the covariance is R^-1 R^-T. Its variances
+        span sixteen decades or more: written out, a covariance would lose what the record sees best to rounding.
+    converged
+        Whether the fit had settled.
+    validity
+        Channel -> least and largest value, SI, in the flights; ``time`` is since the flight's first sample.
+    flights
+        Name -> SHA-256 of the flights' files.
+    error
+        The errors (nominal, calibrated, holdout) on them.
+    """
+
+    time: str
+    effects: tuple[str, ...]
+    form: str
+    derivation: str
+    layout: tuple[tuple[str, int], ...]
+    p: Array
+    sheet: Array
+    columns: tuple[Column, ...]
+    index: NDArray[np.intp]
+    information: Array
+    converged: bool
+    validity: Mapping[str, tuple[float, float]]
+    flights: Mapping[str, str]
+    error: Mapping[str, Any]
+
+    def as_json(self) -> dict[str, Any]:
+        """The entry as it stands in the file."""
+        return {
+            "time": self.time,
+            "converged": self.converged,
+            "model": {"effects": list(self.effects), "form": self.form, "derivation": self.derivation},
+            "values": _by_name(self.layout, self.p),
+            "sheet": _by_name(self.layout, self.sheet),
+            "fitted": [
+                {
+                    "name": c.name,
+                    "accelerometer": c.accelerometer,
+                    "effect": c.effect,
+                    "place": int(k),
+                    "scale": c.scale,
+                    "unit": c.unit,
+                    "unit_factor": c.unit_factor,
+                }
+                for c, k in zip(self.columns, self.index, strict=True)
+            ],
+            "square_root_information": [
+                [float(x) for x in row[n:]] for n, row in enumerate(self.information)
+            ],
+            "validity": {name: list(limits) for name, limits in self.validity.items()},
+            "flights": dict(self.flights),
+            "error": dict(self.error),
+        }
+
+
+def _by_name(layout: Sequence[tuple[str, int]], p: Array) -> dict[str, list[float]]:
+    found, start = {}, 0
+    for name, size in layout:
+        found[name] = [float(x) for x in p[start : start + size]]
+        start += size
+    return found
+
+
+def with_another(text: str | None, new: Saved, where: str) -> str:
+    """The text of calibration.json with one more calibration, the oldest forgotten beyond :data:`KEPT`."""
+    before = () if text is None else read(text, where)
+    entries = [s.as_json() for s in (*before, new)[-KEPT:]]
+    lines = ",\n".join(json.dumps(e, allow_nan=False, ensure_ascii=False) for e in entries)
+    return f'{{"version": {VERSION}, "calibrations": [\n{lines}\n]}}\n'
+
+
+def read(text: str, where: str) -> tuple[Saved, ...]:
+    """The calibrations in the text of a calibration.json, oldest first; UserError if anything in it cannot be."""
+    try:
+        content = json.loads(text)
+        if content["version"] != VERSION:
+            raise UserError(
+                "the saved calibrations are of another version of this program",
+                where=where,
+                found=repr(content["version"])[:40],
+                expected=VERSION,
+                remedy=_REMEDY,
+            )
+        found = tuple(_entry(e) for e in content["calibrations"])
+        if not found:
+            raise ValueError("no calibration in it")
+        return found
+    except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
+        what = f"no {error}" if isinstance(error, KeyError) else str(error)
+        raise UserError(
+            "the saved calibration is damaged", where=where, found=what[:200], expected=_FORM, remedy=_REMEDY
+        ) from None
+
+
+def _entry(e: Mapping[str, Any]) -> Saved:
+    layout = tuple((str(name), len(values)) for name, values in e["values"].items())
+    p = _numbers([x for values in e["values"].values() for x in values], "values")
+    sheet = _numbers([x for values in e["sheet"].values() for x in values], "sheet")
+    if [(str(n), len(v)) for n, v in e["sheet"].items()] != list(layout):
+        raise ValueError("sheet and values name different parameters")
+    index = np.array([_place(c["place"], len(p)) for c in e["fitted"]], dtype=np.intp)
+    if len(set(index.tolist())) != len(index):
+        raise ValueError("a parameter is fitted twice")
+    columns = tuple(_column(c) for c in e["fitted"])
+    if not isinstance(e["converged"], bool):
+        raise TypeError("converged is neither true nor false")
+    limits = {str(n): _numbers(v, f"validity of {n}") for n, v in e["validity"].items()}
+    if any(len(v) != 2 or v[0] > v[1] for v in limits.values()):
+        raise ValueError("validity: not a least and a largest value")
+    json.dumps(e["error"], allow_nan=False)
+    return Saved(
+        time=_text(e["time"]),
+        effects=tuple(_text(x) for x in e["model"]["effects"]),
+        form=_text(e["model"]["form"]),
+        derivation=_text(e["model"]["derivation"]),
+        layout=layout,
+        p=p,
+        sheet=sheet,
+        columns=columns,
+        index=index,
+        information=_information(e["square_root_information"], len(columns)),
+        converged=e["converged"],
+        validity={n: (float(v[0]), float(v[1])) for n, v in limits.items()},
+        flights={_text(n): _text(d) for n, d in e["flights"].items()},
+        error=dict(e["error"]),
+    )
+
+
+def _column(c: Mapping[str, Any]) -> Column:
+    scale, factor = _numbers([c["scale"], c["unit_factor"]], "scale and unit_factor")
+    if not (scale > 0.0 and factor > 0.0):
+        raise ValueError("a scale or unit_factor is not positive")
+    j = c["accelerometer"]
+    if j is not None and (isinstance(j, bool) or not isinstance(j, int) or j < 1):
+        raise ValueError("accelerometer is neither null nor a number from 1 on")
+    return Column(
+        name=_text(c["name"]),
+        accelerometer=j,
+        scale=float(scale),
+        unit=_text(c["unit"]),
+        unit_factor=float(factor),
+        effect=None if c["effect"] is None else _text(c["effect"]),
+    )
+
+
+def _information(rows: Sequence[Sequence[Any]], n: int) -> Array:
+    if len(rows) != n or any(len(row) != n - k for k, row in enumerate(rows)):
+        raise ValueError("the square root of the information is no upper triangle of the fitted parameters")
+    R = np.zeros((n, n))
+    for k, row in enumerate(rows):
+        R[k, k:] = _numbers(row, "square_root_information")
+    if n and not np.min(np.abs(np.diag(R))) > LEAST:
+        raise ValueError("the square root of the information is singular")
+    return R
+
+
+def _numbers(values: Sequence[Any], what: str) -> Array:
+    if any(isinstance(x, bool) or not isinstance(x, int | float) for x in values):
+        raise TypeError(f"{what}: not a list of numbers")
+    found = np.array([float(x) for x in values], dtype=np.float64)
+    if not np.isfinite(found).all():
+        raise ValueError(f"{what}: a number is not finite")
+    return found
+
+
+def _place(x: Any, size: int) -> int:
+    if isinstance(x, bool) or not isinstance(x, int) or not 0 <= x < size:
+        raise ValueError("a fitted parameter has no place among the values")
+    return x
+
+
+def _text(x: Any) -> str:
+    if not isinstance(x, str) or len(x) > 4096:
+        raise TypeError("a text is missing, or too long")
+    return x

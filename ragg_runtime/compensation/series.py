@@ -1,0 +1,321 @@
+"""The gravity gradient in one segment of a flight: what the model explains removed, demodulated, and how sure it is.
+
+With e = G_out - model(motion, no gradient), the channels inline + i cross are the low-pass of e times
+(4 sin 2 phi - 2 i cos 2 phi) / k_ggi. The instrument does not see the gradient quite so: its phase and gains are a little
+off, by what the model says. So the model's own response to that first estimate replaces the ideal one, which leaves the
+second order. The gradient that is put in is the one that was found, never a recorded one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import IntFlag
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.compensation.demodulators import Demodulator, demodulator
+from ragg_runtime.compensation.schedule import Stretch, within
+from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.model.model import Model
+from ragg_runtime.model.native import Evaluator
+from ragg_runtime.model.record import GRADIENTS, Record
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
+
+HOLES = 0.05
+"""Share of the kernel that may fall on missing samples; they are bridged by the gradient found around them."""
+
+BRIDGES = 2
+"""Times that holes are filled with the gradient found: what remains is the share of the holes to this power + 1."""
+
+STEP = 1e-5
+"""Standard deviations of a difference that is a derivative: what is of second order (up to 1000 Eo a standard deviation
+of the sheet) stays below 0.01 Eo, rounding (3e-7 Eo) over it below 0.03 Eo a sample, of which the low-pass leaves a tenth."""
+
+FINE = 4.0
+"""Rate, Hz, at which the uncertainty is followed: what the low-pass lets through does not change faster than 0.25 Hz."""
+
+MARGIN = 0.1
+"""By this share of its calibrated range a channel may go beyond it before that is flagged."""
+
+
+class Quality(IntFlag):
+    """Bits of ``quality``; 0 is good."""
+
+    EDGE = 1
+    GAP = 2
+    BRIDGED = 4
+    MOTION = 8
+    AUXILIARY = 16
+
+
+MEANING = {
+    Quality.EDGE: "the low-pass has not heard enough at this end of the record: no value",
+    Quality.GAP: "more than 5 % of what the low-pass hears is missing: no value",
+    Quality.BRIDGED: "a missing or saturated sample within reach was bridged",
+    Quality.MOTION: "a motion channel is beyond the range that the calibration knows",
+    Quality.AUXILIARY: "an auxiliary channel is beyond the range that the calibration knows",
+}
+"""What each bit says."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What is the same for all segments of a flight.
+
+    Attributes
+    ----------
+    model, evaluator
+        The model.
+    demodulator
+        The low-pass.
+    observation
+        The whole flight, without recorded gradients.
+    recorded
+        inline + i cross (N,), Eo, if the flight was demodulated by its recorder; then only the model is low-passed.
+    stretches
+        The parameters.
+    noise
+        Standard deviations of inline and cross that the noise causes, Eo.
+    validity
+        Channel -> range, SI, that the calibration knows; empty: not flagged.
+    """
+
+    model: Model
+    evaluator: Evaluator
+    demodulator: Demodulator
+    observation: Observation
+    recorded: Complex | None
+    stretches: tuple[Stretch, ...]
+    noise: tuple[float, float]
+    validity: dict[str, tuple[float, float]]
+
+    def reach(self, holes: bool) -> tuple[int, int]:
+        """Samples before and after a segment that its values depend on."""
+        times = 2 + (BRIDGES if holes else 0)
+        return times * self.demodulator.before, times * self.demodulator.ahead
+
+
+@dataclass(frozen=True)
+class Series:
+    """Compensated samples.
+
+    Attributes
+    ----------
+    rows
+        Which samples of the flight.
+    gradient, raw
+        (n,) inline + i cross, Eo, compensated and as it is without; NaN where there is none.
+    parameters
+        (2, n): standard deviation of inline and cross by the parameters, Eo.
+    std
+        (2, n): by parameters and noise together, Eo.
+    quality
+        (n,): bits of :class:`Quality`.
+    """
+
+    rows: slice
+    gradient: Complex
+    raw: Complex
+    parameters: Array
+    std: Array
+    quality: NDArray[np.int64]
+
+    @property
+    def good(self) -> Mask:
+        return np.isfinite(self.gradient.real)
+
+
+class Segment:
+    """One segment, with so much of its neighbours as its values depend on."""
+
+    def __init__(self, s: Setting, rows: slice, *, holes: bool) -> None:
+        n = len(s.observation.record.time)
+        before, after = s.reach(holes)
+        self.s = s
+        self.rows = rows
+        self.first, self.last = max(0, rows.start - before), min(n, rows.stop + after)
+        self.own = slice(rows.start - self.first, rows.stop - self.first)
+        o = s.observation.part(slice(self.first, self.last))
+        self.record: Record = o.record
+        self.G = as_output(o, o.data)
+        self.x = self.record.inputs(s.model.chain)
+        self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
+        self.x[list(self.places.values())] = 0.0
+        phi = self.record.phi
+        self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
+        self.mixer = 4 * self.sine - 2j * self.cosine
+        self.parts = within(s.stretches, self.first, self.last)
+        self.k = np.empty(len(phi))
+        for some, stretch in self.parts:
+            self.k[some] = scale_factor(s.model, stretch.p)
+        self.bare = self.output()
+
+    @cached_property
+    def reference(self) -> Array:
+        """G_out (N,), V, from which directions are counted; asked for once the gradient is put in."""
+        return self.output(0, 0.0)
+
+    def output(self, direction: int | None = None, step: float = 0.0) -> Array:
+        """G_out (N,), V, of the present inputs; or so many standard deviations from ``about`` in one direction."""
+        G = np.empty(len(self.k))
+        for some, stretch in self.parts:
+            p = stretch.p if direction is None else stretch.about + step * stretch.directions[direction]
+            part = (self.record.time[some], self.x[:, some], p, self.record.phi[some], 1)
+            G[some] = self.s.evaluator.output(*part)
+        return G
+
+    def demodulated(self, e: Array) -> Complex:
+        """inline + i cross (..., N), Eo, of residuals (..., N), V."""
+        return self.s.demodulator.low_passed(e * (self.mixer / self.k))
+
+    def carried(self, g: Complex) -> Array:
+        """What an ideal instrument makes of channels (N,), Eo: V."""
+        return np.asarray(self.k * (g.real / 2 * self.sine - g.imag * self.cosine))
+
+    def put(self, g: Complex) -> None:
+        """Let the model see this gradient, Eo."""
+        for name, value in (("Gamma_xx", g.real / 2), ("Gamma_yy", -g.real / 2), ("Gamma_xy", g.imag)):
+            if name in self.places:
+                self.x[self.places[name]] = EOTVOS * value
+
+    def first_estimate(self) -> Complex:
+        """The gradient as an ideal instrument would have seen it; holes are bridged."""
+        valid = self.record.valid
+        if self.s.recorded is not None:
+            rec = np.where(valid, self.s.recorded[self.first : self.last], 0.0)
+            return np.asarray(rec - self.demodulated(self.bare))
+        e = self.G - self.bare
+        if valid.all():
+            return self.demodulated(e)
+        e[~valid] = 0.0
+        g = self.demodulated(e)
+        for _ in range(BRIDGES):
+            e[~valid] = self.carried(g)[~valid]
+            g = self.demodulated(e)
+        return g
+
+    def gradient(self) -> Complex:
+        """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input."""
+        g = self.first_estimate()
+        self.put(g)
+        return np.asarray(g - self.demodulated(self.output() - self.bare - self.carried(g)))
+
+    def directions(self) -> int:
+        return len(self.parts[0][1].directions)
+
+    def by_parameters(self, k: int) -> Complex:
+        """How the gradient changes, to first order, a standard deviation along direction k of the parameters, Eo.
+
+        Of every so many samples the mean enters (:data:`FINE`), for the centres of these; how sure a value is, is no
+        matter of its last digits.
+        """
+        few, d = self.fewer
+        count = len(self.k) // few
+        mixed = (self.output(k, STEP) - self.reference) / STEP * self.mixer / self.k
+        return d.low_passed(np.mean(mixed[: count * few].reshape(count, few), axis=1))
+
+    @property
+    def fewer(self) -> tuple[int, Demodulator]:
+        """Samples of which the mean enters the uncertainty, and the low-pass at that rate."""
+        d = self.s.demodulator
+        few = max(1, int(d.rate // FINE))
+        return few, demodulator(d.name, d.rate / few)
+
+    def variance(self) -> Array:
+        """(2, N) Eo^2: of inline and cross, by the parameters."""
+        few, _ = self.fewer
+        total = np.zeros((2, len(self.k) // few))
+        for k in range(self.directions()):
+            d = self.by_parameters(k)
+            total += np.stack([d.real**2, d.imag**2])
+        at = np.arange(len(self.k))
+        centres = (np.arange(total.shape[1]) + 0.5) * few - 0.5
+        return np.stack([np.interp(at, centres, v) for v in total])
+
+    def raw(self) -> Complex:
+        """(N,) Eo: the channels without any compensation."""
+        if self.s.recorded is not None:
+            return np.where(self.record.valid, self.s.recorded[self.first : self.last], 0.0)
+        return self.demodulated(np.where(self.record.valid, self.G, 0.0))
+
+    def quality(self) -> NDArray[np.int64]:
+        """(N,): bits of the segment's samples."""
+        d = self.s.demodulator
+        n, total = len(self.k), len(self.s.observation.record.time)
+        bits = np.zeros(n, dtype=np.int64)
+        head, tail = d.settling
+        bits[: max(0, head - self.first)] |= Quality.EDGE
+        if self.last > total - tail:
+            bits[max(0, total - tail - self.first) :] |= Quality.EDGE
+        missing = ~self.record.valid
+        if missing.any():
+            if self.s.recorded is not None:
+                bits[missing] |= Quality.GAP
+            else:
+                weights = replace(d, taps=np.abs(d.taps) / np.sum(np.abs(d.taps)))
+                share = weights.low_passed(missing.astype(np.complex128)).real
+                bits[share > HOLES] |= Quality.GAP
+                bits[(share > FELT) & (share <= HOLES)] |= Quality.BRIDGED
+        for name, (low, high) in self.s.validity.items():
+            if name == "time" or name in GRADIENTS or name == "spin_angle":
+                continue
+            x = self.record.channels.get(name)
+            if x is None:
+                continue
+            room = MARGIN * (high - low)
+            beyond = (x < low - room) | (x > high + room)
+            moving = name.partition("_")[0] in ("a", "omega", "omegadot")
+            bits[beyond] |= Quality.MOTION if moving else Quality.AUXILIARY
+        return bits
+
+
+FELT = 1e-4
+"""Share of the kernel on missing samples from which their bridging is told."""
+
+
+def series(s: Setting, rows: slice, *, holes: bool) -> Series:
+    """Compensate one segment."""
+    segment = Segment(s, rows, holes=holes)
+    g = segment.gradient()[segment.own]
+    variance = segment.variance()[:, segment.own]
+    bits = segment.quality()[segment.own]
+    none = (bits & (Quality.EDGE | Quality.GAP)) != 0
+    noise = np.array(s.noise)[:, None]
+    parameters = np.sqrt(variance)
+    nothing = complex(np.nan, np.nan)
+    return Series(
+        rows=rows,
+        gradient=np.where(none, nothing, g),
+        raw=np.where(none, nothing, segment.raw()[segment.own]),
+        parameters=np.where(none, np.nan, parameters),
+        std=np.where(none, np.nan, np.sqrt(variance + noise**2)),
+        quality=bits,
+    )
+
+
+def basis(s: Setting, samples: Sequence[slice], neglected: float) -> Array:
+    """(k, r): the directions of the parameters that matter, found on some stretches of a flight.
+
+    Of the variance that all k directions cause, what the others add is below ``neglected`` of the noise's everywhere.
+    """
+    rows = []
+    for some in samples:
+        segment = Segment(s, some, holes=False)
+        segment.gradient()
+        few, coarse = segment.fewer
+        step = max(1, int(coarse.rate))  # the channels do not change within a second
+        inside = slice(-(-segment.own.start // few), segment.own.stop // few, step)
+        found = np.stack([segment.by_parameters(k)[inside] for k in range(segment.directions())])
+        rows.append(np.concatenate([found.real / s.noise[0], found.imag / s.noise[1]], axis=1))
+    D = np.concatenate(rows, axis=1)
+    U, _, _ = np.linalg.svd(D, full_matrices=False)
+    share = np.cumsum((U.T @ D) ** 2, axis=0)
+    left = np.max(share[-1] - share, axis=1)
+    return np.asarray(U[:, : int(np.argmax(left <= neglected)) + 1])

@@ -1,0 +1,44 @@
+"""How probable each effect is, those included that were derived into the model one after the other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.diagnosis.strong import Taken
+from ragg_runtime.evidence.probability import Probabilities, probabilities, summed
+from ragg_runtime.evidence.selection import Field
+
+
+def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
+    """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
+    found = probabilities(field)
+    sets: Mapping[tuple[str, ...], float] = found.sets
+    for t in steps:
+        options = (t.effect, *t.rivals)
+        made: dict[tuple[str, ...], float] = {}
+        for s, p in sets.items():
+            for o in options:
+                key = tuple(sorted({*s, o}))
+                made[key] = made.get(key, 0.0) + p / len(options)
+        sets = made
+    if not steps:
+        return found
+    logs = {s: math.log(p) for s, p in sets.items() if p > 0.0}
+    return summed(logs, sorted({e for s in sets for e in s} | set(found.of)))
+
+
+def with_probability(r: Ranked, found: Probabilities) -> Ranked:
+    """The row with its effect's probability.
+
+    Random effects and those of the output channel are no columns, and not enumerated: there it is the largest that the
+    p-value allows at even odds, 1 / (1 - 1/(e p ln p)) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    """
+    if r.effect in found.of:
+        return replace(r, probability=found.of[r.effect])
+    if r.log_p >= -1.0:
+        return replace(r, probability=0.5)
+    bound = -math.exp(1.0 + r.log_p) * r.log_p if r.log_p > -700.0 else 0.0
+    return replace(r, probability=1.0 / (1.0 + bound))

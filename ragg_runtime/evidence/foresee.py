@@ -1,0 +1,150 @@
+"""What an effect would do before it is derived: the error that would be left, and its signature in the residual.
+
+Tests are made on whitened columns; an error is that of the plain ones. So besides the whitened triangles of
+:class:`~ragg_runtime.fit.fitted.Fitted` those of the plain columns are kept: with both, the error with any choice of
+effects is linear algebra of a few hundred rows, whatever the length of the flights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.evidence.selection import Field
+from ragg_runtime.fit import unknown_gradient
+from ragg_runtime.fit.fitted import FITTED_BLOCKS, Fitted
+from ragg_runtime.fit.observation import as_output
+from ragg_runtime.fit.passes import Piece, flight_segments, passed
+from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.square_root import join, triangle
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Plain:
+    """Of the columns [base | candidates | residual] of G_out, not whitened.
+
+    Attributes
+    ----------
+    triangles
+        One of all flights in each block of time, (n + 1, n + 1), V.
+    samples
+        (BLOCKS,): valid samples in it.
+    """
+
+    triangles: tuple[Array, ...]
+    samples: Array
+
+    def rms(self, v: Array, blocks: Sequence[int]) -> float:
+        """Root mean square, V, of the residual in some blocks once columns have coefficients v (n,)."""
+        w = np.append(-v, 1.0)
+        squares = sum(float(np.sum((self.triangles[b] @ w) ** 2)) for b in blocks)
+        count = float(np.sum(self.samples[list(blocks)]))
+        return float(np.sqrt(squares / count)) if count else float("nan")
+
+
+@one_thread
+def plain(f: Fitted) -> Plain:
+    """The plain triangles, in one pass over the flights."""
+    found: list[list[Array]] = [[] for _ in range(BLOCKS)]
+    samples = np.zeros(BLOCKS)
+
+    def own(piece: Piece) -> list[tuple[int, Array, int]]:
+        r = piece.observation.record
+        e = as_output(piece.observation, unknown_gradient.without(piece.columns, piece.windows, r.valid))
+        parts = []
+        for b, rows in piece.segment.blocks:
+            here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
+            parts.append((b, triangle(e[:, here]), int(np.sum(r.valid[here]))))
+        return parts
+
+    for x in f.flown:
+        for parts in x.each(own, whitened=False):
+            for b, T, count in parts:
+                found[b].append(T)
+                samples[b] += count
+    nothing = np.zeros((f.size + 1, f.size + 1))
+    return Plain(tuple(join(t) if t else nothing for t in found), samples)
+
+
+@dataclass(frozen=True)
+class Foreseen:
+    """What a choice of effects would leave, if everything is linear.
+
+    Attributes
+    ----------
+    rms_Eo, holdout_Eo
+        Error before demodulation: calibrated, and fitted on half of the blocks of time and scored on the others.
+    chi2, rank
+        What they explain of the whitened residual beyond the model, with so many coefficients.
+    """
+
+    effects: tuple[str, ...]
+    rms_Eo: float
+    holdout_Eo: float
+    chi2: float
+    rank: int
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effects": list(self.effects),
+            "rms_Eo": self.rms_Eo,
+            "holdout_Eo": self.holdout_Eo,
+            "chi2": self.chi2,
+            "rank": self.rank,
+        }
+
+
+def columns_of(field: Field, effects: Sequence[str]) -> list[int]:
+    """The testable candidate columns of some effects."""
+    return [n for e in effects if e in field.candidates for n in field.testable(e)]
+
+
+def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: bool = False) -> Array:
+    """(size,): fitted coefficients of all columns with these effects in."""
+    extra = columns_of(field, effects)
+    fitted, _ = f.coefficients(extra, held_out=held_out)
+    return f.vector(fitted, extra)
+
+
+@one_thread
+def foreseen(f: Fitted, known: Plain, field: Field, effects: Sequence[str]) -> Foreseen:
+    """The error that the flights would leave with these effects in the model."""
+    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+    chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
+    return Foreseen(
+        effects=tuple(effects),
+        rms_Eo=known.rms(coefficients(f, field, effects), range(BLOCKS)) / f.k_ggi,
+        holdout_Eo=known.rms(coefficients(f, field, effects, held_out=True), scored) / f.k_ggi,
+        chi2=chi2,
+        rank=rank,
+    )
+
+
+def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
+    """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight.
+
+    It is computed for the segments that hold ``rows`` (all samples, if none are given); where they begin and end is
+    returned. Of columns of the model it holds the part by which the calibration moves.
+    """
+    x = f.flown[flight]
+    wanted = rows or slice(0, len(x.observation.record.time))
+    chosen = [
+        s for s in flight_segments(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start
+    ]
+    both = np.stack([v, np.zeros_like(v)])
+
+    def taken(piece: Piece) -> Array:
+        after, before = piece.left(both)
+        return np.asarray(before - after)
+
+    if len(flight_segments(x.observation)) == 1:
+        parts = [*x.each(taken, whitened=False)]
+    else:
+        parts = [*passed(x.at, x.observation, x.noise, taken, chosen=chosen, whitened=False)]
+    return slice(chosen[0].rows.start, chosen[-1].rows.stop), np.concatenate(parts)

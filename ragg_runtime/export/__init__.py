@@ -1,0 +1,1 @@
+"""A calibrated model taken elsewhere: as a C program, as NumPy, as JSON."""

@@ -1,0 +1,24 @@
+"""A model as a folder that runs with NumPy alone."""
+
+from __future__ import annotations
+
+import json
+from importlib import resources
+
+from ragg_runtime.export.contents import Contents
+from ragg_runtime.export.document import json_files
+from ragg_runtime.export.program import example_files
+from ragg_runtime.signals.derivative import WINDOW, weights
+
+
+def numpy_files(c: Contents) -> dict[str, str]:
+    """File name -> text."""
+    slopes = [[float(x) for x in weights(WINDOW, k)] for k in range(WINDOW // 2 + 1)]
+    program = resources.files("ragg_runtime.export").joinpath("python", "ragg_model.py").read_text("utf-8")
+    return {
+        **json_files(c),
+        "chain.py": c.module,
+        "derivative.json": json.dumps(slopes) + "\n",
+        "ragg_model.py": program,
+        **example_files(c),
+    }

@@ -1,0 +1,96 @@
+"""Parameters that a record puts far from the test sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+
+FAR = 5.0
+"""Standard errors of the sheet from which a parameter is named: none of a few dozen should be there by chance."""
+
+
+@dataclass(frozen=True)
+class OffSheet:
+    """One parameter: its calibrated and the sheet's value in ``unit``, and their distance in the sheet's sigmas."""
+
+    name: str
+    accelerometer: int | None
+    sigmas: float
+    value: float
+    sheet: float
+    unit: str
+
+    def in_words(self) -> str:
+        """``K1 of A2 is 40 sigma off its sheet: 10.4 where it says 10 mA/g``."""
+        of = "" if self.accelerometer is None else f" of A{self.accelerometer}"
+        return (
+            f"{self.name}{of} is {abs(self.sigmas):.3g} sigma off its sheet: "
+            f"{self.value:.6g} where it says {self.sheet:.6g} {self.unit}"
+        )
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "name": self.name,
+            "accelerometer": self.accelerometer,
+            "sigmas": self.sigmas,
+            "value": self.value,
+            "sheet": self.sheet,
+            "unit": self.unit,
+        }
+
+
+def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffSheet]:
+    """The instrument's parameters that ended more than :data:`FAR` sigmas from their sheet, farthest first."""
+    sheet = vector(model, instrument)
+    found = [
+        OffSheet(
+            name=q.name,
+            accelerometer=q.accelerometer,
+            sigmas=float((c.p[k] - sheet[k]) / instrument.sigma(q.name)[(q.accelerometer or 1) - 1]),
+            value=float(c.p[k] / q.unit_factor),
+            sheet=float(sheet[k] / q.unit_factor),
+            unit=q.unit,
+        )
+        for q, k in zip(c.columns, c.index, strict=True)
+        if q.effect is None
+    ]
+    return sorted((x for x in found if abs(x.sigmas) > FAR), key=lambda x: -abs(x.sigmas))
+
+
+WIDE = 2.0
+"""Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
+(or than is plausible), by that factor: a sheet for an instrument of another class, say."""
+
+QUIET = 2.0
+"""Excess of chi-square up to which the record says so, not an effect that is missing."""
+
+
+def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
+    """The instrument with a sheet as sure as the record says it is, if that is far less than it says."""
+    sheet = vector(model, instrument)
+    off = [(c.p[k] - sheet[k]) / q.scale for q, k in zip(c.columns, c.index, strict=True) if q.effect is None]
+    factor = float(np.sqrt(np.mean(np.square(off))))
+    if factor < WIDE or c.excess > QUIET:
+        return None
+    sigmas = {q.name: factor * instrument.sigma(q.name) for q in c.columns if q.effect is None}
+    return replace(instrument, sigmas=MappingProxyType(sigmas))
+
+
+SAID = 3
+"""Most parameters that are named in a note."""
+
+
+def note(found: Sequence[OffSheet]) -> str | None:
+    """One sentence on them, if any."""
+    if not found:
+        return None
+    more = f"; and {len(found) - SAID} more" if len(found) > SAID else ""
+    return "; ".join(x.in_words() for x in found[:SAID]) + more

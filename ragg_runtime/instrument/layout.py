@@ -1,0 +1,308 @@
+"""Where the accelerometers are: discs, places, signs and outputs. The paper's four are one such layout.
+
+A layout is data and nothing else: positions, directions and signs as they are written in model.toml. The derived
+models take their constants from :mod:`ragg_runtime.instrument.stations`, the numerical reference makes its own.
+
+Conventions, said once. A disc spins about its ``axis`` (measurement frame); its angle 0 lies along ``zero``. At the
+angle of an accelerometer e_r points outward, e_t along the turn, e_a along the axis. The nominal triad of the paper is
+(e_t, e_r, -e_a); a ``direction`` of the input axis other than e_t turns that triad by the smallest rotation that takes
+e_t there (from e_t to -e_t: half a turn about e_a).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Container, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Vector3 = tuple[float, float, float]
+
+X_AXIS: Vector3 = (1.0, 0.0, 0.0)
+Z_AXIS: Vector3 = (0.0, 0.0, 1.0)
+TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)
+"""Direction of an input axis along the turn, in (e_r, e_t, e_a)."""
+
+QUARTER = math.pi / 2
+
+HIGHEST_HARMONIC = 4
+"""Highest multiple of the spin rate that second-order terms of a rotating force reach (Eq. 17)."""
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A disc, turning or standing still.
+
+    Attributes
+    ----------
+    name
+        As in model.toml; empty for the paper's one.
+    spin_frequency
+        Hz; 0: it stands still unless its angle is recorded.
+    axis, zero
+        Unit vectors in the measurement frame, perpendicular: the axis of the spin, and where angle 0 points.
+    angle_column
+        Column of a flight with its encoder's angle.
+    """
+
+    name: str
+    spin_frequency: float
+    axis: Vector3 = Z_AXIS
+    zero: Vector3 = X_AXIS
+    angle_column: str = "spin_angle"
+
+    @property
+    def level(self) -> bool:
+        """Whether its frame is the measurement frame: angle 0 along x, axis along z."""
+        return self.axis == Z_AXIS and self.zero == X_AXIS
+
+    @property
+    def across(self) -> tuple[Vector3, Vector3]:
+        """Where its angle 0 and a quarter turn point, in the measurement frame."""
+        (a, b, c), (x, y, z) = self.axis, self.zero
+        return self.zero, (b * z - c * y, c * x - a * z, a * y - b * x)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where an accelerometer sits, and how it counts.
+
+    Attributes
+    ----------
+    name
+        As in model.toml (A1 ...).
+    disc, output
+        Which, counted from 0.
+    angle
+        On the disc, rad, from its angle 0 in the sense of the turn.
+    radius, height
+        Distance from the axis, and along it from the disc's centre, m.
+    direction
+        Unit vector of the input axis in (e_r, e_t, e_a).
+    sign
+        Of its voltage in the output, 1 or -1.
+    """
+
+    name: str
+    disc: int
+    angle: float
+    radius: float
+    height: float = 0.0
+    direction: Vector3 = TANGENTIAL
+    sign: int = 1
+    output: int = 0
+
+    @cached_property
+    def cosine_sine(self) -> tuple[float, float]:
+        """Of the angle; exact at quarters of a turn."""
+        quarters = self.angle / QUARTER
+        whole = round(quarters)
+        if abs(quarters - whole) < 1e-12:
+            return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[whole % 4]
+        return math.cos(self.angle), math.sin(self.angle)
+
+    @property
+    def carrier(self) -> complex:
+        """How the gradient across the spin axis shows in its voltage, over k1 R: 1 and -1 in the paper's (Eq. 30)."""
+        (c, s), (radial, tangential, _) = self.cosine_sine, self.direction
+        return complex(tangential, -radial) * complex(c * c - s * s, 2 * c * s)
+
+
+@dataclass(frozen=True)
+class Output:
+    """An output before demodulation: a column of the flight, the sum of voltages with their signs.
+
+    ``members`` are places of the layout, ``signs`` theirs; all are on one disc.
+    """
+
+    name: str
+    disc: int
+    members: tuple[int, ...]
+    signs: tuple[int, ...]
+    carriers: tuple[complex, ...]
+    """How the gradient across the spin axis shows in each voltage, over k1 R: see :func:`gain`."""
+    radii: tuple[float, ...]
+    angles: tuple[tuple[float, float], ...]
+    """Cosine and sine of each member's angle on the disc."""
+
+    @property
+    def patterns(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
+        """Harmonic and weights (members,) with which it sees a parameter: sign times cos and sin of n times the angle.
+
+        For n = 0 ... 4, the largest weight 1; those that vanish or repeat others are left out.
+        """
+        angles = np.array([math.atan2(s, c) for c, s in self.angles])
+        found: list[tuple[str, Array]] = []
+        for n in range(HIGHEST_HARMONIC + 1):
+            for name, wave in (("cos", np.cos), ("sin", np.sin)):
+                w = np.array(self.signs) * wave(n * angles)
+                w[np.abs(w) < 1e-12] = 0.0
+                if not np.any(w):
+                    continue
+                w = w / w[int(np.argmax(np.abs(w)))]
+                if not any(np.allclose(w, v, atol=1e-9) for _, v in found):
+                    found.append((f"{name} {n}" if n else "const", w))
+        return tuple((name, tuple(float(x) for x in w)) for name, w in found)
+
+    def combined(self, v: Array) -> Array:
+        """(N,): its members' voltages (members, N) with their signs; equal signs are added first (Eq. 15)."""
+        added = [v[k] for k, sign in enumerate(self.signs) if sign > 0]
+        taken = [v[k] for k, sign in enumerate(self.signs) if sign < 0]
+        total = np.sum(added, axis=0) if added else np.zeros(v.shape[1])
+        return np.asarray(total - np.sum(taken, axis=0) if taken else total)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """All discs and accelerometers of an instrument, in the order of model.toml."""
+
+    discs: tuple[Disc, ...]
+    places: tuple[Place, ...]
+    output_names: tuple[str, ...] = ("G_out",)
+
+    @cached_property
+    def outputs(self) -> tuple[Output, ...]:
+        found = []
+        for k, name in enumerate(self.output_names):
+            members = tuple(j for j, p in enumerate(self.places) if p.output == k)
+            own = [self.places[j] for j in members]
+            found.append(
+                Output(
+                    name=name,
+                    disc=own[0].disc,
+                    members=members,
+                    signs=tuple(p.sign for p in own),
+                    carriers=tuple(p.carrier for p in own),
+                    radii=tuple(p.radius for p in own),
+                    angles=tuple(p.cosine_sine for p in own),
+                )
+            )
+        return tuple(found)
+
+    @property
+    def size(self) -> int:
+        """Number of accelerometers."""
+        return len(self.places)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(p.name for p in self.places)
+
+    @cached_property
+    def like_paper(self) -> bool:
+        """Whether this is the paper's instrument: the packaged models are derived for it."""
+        d = self.discs[0]
+        placed = tuple((p.cosine_sine, p.sign) for p in self.places)
+        return (
+            len(self.discs) == 1
+            and d.level
+            and d.spin_frequency > 0
+            and self.output_names == ("G_out",)
+            and placed == tuple((p.cosine_sine, p.sign) for p in _FOUR)
+            and len({p.radius for p in self.places}) == 1
+            and all(p.height == 0.0 and p.direction == TANGENTIAL for p in self.places)
+        )
+
+    def voltage_columns(self, j: int) -> tuple[str, ...]:
+        """Names under which a flight may hold the voltage of an accelerometer: V_<name>, or V_1 ... by its number."""
+        if self.of_paper:
+            return (f"V_{j + 1}",)
+        return tuple(dict.fromkeys((f"V_{self.places[j].name}", f"V_{j + 1}")))
+
+    def voltages(self, o: Output, columns: Container[str]) -> tuple[str, ...] | None:
+        """The columns of an output's voltages among those that a flight has; ``None`` if not all are there."""
+        found = [next((c for c in self.voltage_columns(j) if c in columns), None) for j in o.members]
+        return None if None in found else tuple(c for c in found if c is not None)
+
+    def formula(self, o: Output, voltages: Sequence[str]) -> str:
+        """An output in words: V_1 + V_2 - V_3 - V_4."""
+        text = " ".join(f"{'+' if s > 0 else '-'} {v}" for s, v in zip(o.signs, voltages, strict=True))
+        return text.removeprefix("+ ")
+
+    @cached_property
+    def columns(self) -> tuple[str, ...]:
+        """Every column of a flight that may hold something of this instrument's output before demodulation."""
+        volts = (c for j in range(self.size) for c in self.voltage_columns(j))
+        return tuple(dict.fromkeys((*self.output_names, *volts)))
+
+    @property
+    def of_paper(self) -> bool:
+        """Whether model.toml describes it as the paper's, by [disc]."""
+        return self.discs[0].name == ""
+
+
+_FOUR = tuple(
+    Place(name=f"A{k}", disc=0, angle=quarters * QUARTER, radius=1.0, sign=sign)
+    for k, quarters, sign in ((1, 0, 1), (2, 2, 1), (3, 1, -1), (4, 3, -1))
+)
+"""The paper's places (Section II.A) and signs (Eq. 15); the one definition of them at run time."""
+
+
+def paper(radius: float, spin_frequency: float) -> Layout:
+    """The paper's instrument: A1 ... A4 at 0, 180, 90 and 270 degrees, G_out = V_1 + V_2 - V_3 - V_4."""
+    places = tuple(Place(name=p.name, disc=0, angle=p.angle, radius=radius, sign=p.sign) for p in _FOUR)
+    return Layout(discs=(Disc(name="", spin_frequency=spin_frequency),), places=places)
+
+
+PAPER = paper(1.0, 1.0)
+"""The paper's layout, where only names, signs and number matter."""
+
+
+CANCELLED = 1e-3
+"""Share of its accelerometers' gains below which an output is not made to see the gradient across the spin axis."""
+
+
+def gain(o: Output, k1: Array, R: Array) -> complex:
+    """g, V s^2: an output is T_1 Im(g e^{2 i phi}) + T_2 Re(g e^{2 i phi}), with T_1 = (Gamma_xx - Gamma_yy)/2 and
+    T_2 = -Gamma_xy by the axes of the disc at rest (Eq. 30).
+
+    ``k1`` = k_VI K1 and radii ``R``, (n,), of all accelerometers of the layout.
+    """
+    members = list(o.members)
+    return complex(np.sum(k1[members] * R[members] * _seen(o)))
+
+
+def scale(o: Output, k1: Array, R: Array) -> float:
+    """k_ggi of an output, V s^2: volts per s^-2 of gradient (Eq. 30), the measure in which its errors are told in eotvos.
+
+    Of an output that cancels that gradient, as a sum of opposite accelerometers does, what one gradient would make
+    of all its accelerometers together.
+    """
+    members, seen = list(o.members), _seen(o)
+    if not np.any(seen.imag):
+        total = float(np.sum(k1[members] * R[members] * seen.real))
+    else:
+        total = abs(gain(o, k1, R))
+    single = float(np.sum(np.abs(k1[members] * R[members])))
+    return total if abs(total) > CANCELLED * single else single
+
+
+def _seen(o: Output) -> Complex:
+    return np.array([s * c for s, c in zip(o.signs, o.carriers, strict=True)])
+
+
+def unit(v: Sequence[float]) -> Vector3:
+    """A vector (3,) scaled to length 1; one along an axis stays exact."""
+    length = math.sqrt(math.fsum(x * x for x in v))
+    return (v[0] / length, v[1] / length, v[2] / length)
+
+
+def perpendicular(v: Sequence[float], axis: Vector3) -> Vector3:
+    """The direction of ``v`` less its part along a unit vector."""
+    along = math.fsum(a * b for a, b in zip(v, axis, strict=True))
+    return unit([a - along * b for a, b in zip(v, axis, strict=True)])
+
+
+def turned_with(axis: Vector3, v: Vector3) -> Vector3:
+    """``v`` after the smallest rotation that takes z to ``axis`` (to -z: half a turn about x)."""
+    x, y, z = axis
+    if z <= -1.0 + 1e-15:
+        return (v[0], -v[1], -v[2])
+    lean = x * v[0] + y * v[1]
+    across = v[2] - lean / (1.0 + z)
+    return (v[0] + x * across, v[1] + y * across, z * v[2] - lean)

@@ -1,0 +1,161 @@
+"""Figures of the page: windows of series, spectra, spectrograms, the map of harmonic and motion term."""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.model.record import Record
+from ragg_runtime.report import series as reported
+from ragg_runtime.report.spectrogram import spectrogram
+from ragg_runtime.studio.pyramid import HEAD
+from ragg_runtime.studio.session import State
+from ragg_runtime.wording import numbers
+
+Array = NDArray[np.float64]
+
+UNITS = ("V", "Eo", "inline", "cross")
+
+DENSE = 260
+"""Frequencies of a spectrum."""
+
+MULTIPLES = 6.0
+"""A spectrogram reaches to this multiple of the spin unless more is asked for."""
+
+COLUMNS = 26
+"""Products of channels that the map of terms shows."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is to be drawn: a series, its unit, the flight, effects that are ticked, a window (s), points."""
+
+    what: str
+    unit: str
+    flight: int
+    effects: tuple[str, ...]
+    first: float
+    last: float
+    points: int
+
+
+def series(s: State, a: Asked) -> bytes:
+    """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
+    if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.glances):
+        look = s.glances[a.flight]
+        if look is not None:
+            return look[1].window(a.first, a.last, a.points)
+    if a.what.startswith("channel:"):
+        return s.tracks.channel(a.what.partition(":")[2], a.flight).window(a.first, a.last, a.points)
+    window = (a.first, a.last)
+    drawn = s.tracks.drawn(a.what, a.unit, a.flight, a.effects, window)
+    return drawn.window(a.first, a.last, a.points)
+
+
+def _rows(r: Record, a: Asked) -> slice:
+    n = len(r.time)
+    first, last = ((t - float(r.time[0])) * r.rate for t in (a.first, a.last))
+    i, j = int(np.clip(np.floor(first), 0, n)), int(np.clip(np.ceil(last) + 1, 0, n))
+    if j - i < 64:
+        raise UserError("the stretch is too short for a spectrum", found=f"{max(0, j - i)} samples")
+    return slice(i, j)
+
+
+def _record(s: State, a: Asked) -> Record:
+    f = s.tracks.fitted
+    if not 0 <= a.flight < len(f.flown):
+        raise UserError("there is no such flight", found=a.flight + 1)
+    return f.flown[a.flight].observation.record
+
+
+def spectra(s: State, a: Asked) -> dict[str, Any]:
+    """Amplitude densities, Eo/sqrt(Hz), of the residual now, before the last step, and with effects; and the noise."""
+    r = _record(s, a)
+    rows = _rows(r, a)
+    f = s.tracks.fitted
+    valid = r.valid[rows]
+    lines = {}
+    for name in _lines(s, a):
+        try:
+            x = _volts(s, a, name, rows)
+        except UserError:
+            continue  # of so long a flight the signature is not known everywhere
+        found = reported.spectrum(x / f.k_ggi, valid, r.rate, DENSE)
+        if found is not None:
+            lines[name] = found
+    if not lines:
+        raise UserError("no stretch without gaps is long enough for a spectrum")
+    grid = next(iter(lines.values())).frequency
+    noise = reported.noise_density(f.flown[a.flight], f.k_ggi, f.instrument.spin_frequency, grid)
+    return {
+        "frequency": grid.tolist(),
+        "lines": {n: x.density.tolist() for n, x in lines.items()},
+        "noise": noise.tolist(),
+        "spin_Hz": f.instrument.spin_frequency,
+    }
+
+
+def _lines(s: State, a: Asked) -> list[str]:
+    found = ["residual"]
+    if s.tracks.before is not None:
+        found.insert(0, "before")
+    if a.effects and s.tracks.found is not None:
+        found.append("left")
+    return found
+
+
+def _volts(s: State, a: Asked, name: str, rows: slice) -> Array:
+    if name == "left":
+        e = s.tracks.effect(a.effects, a.flight, (a.first, a.last))
+        if e.rows.start > rows.start or e.rows.stop < rows.stop:
+            raise UserError("not known there")
+        inside = slice(rows.start - e.rows.start, rows.stop - e.rows.start)
+        return s.tracks.volts("residual", a.flight)[rows] - e.volts[inside]
+    return s.tracks.volts(name, a.flight)[rows]
+
+
+def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
+    """Instants, frequencies and densities (Eo/sqrt(Hz)) as floats: two lengths, first and last of each axis, values."""
+    r = _record(s, a)
+    rows = _rows(r, a)
+    f = s.tracks.fitted
+    top = highest if highest > 0.0 else MULTIPLES * f.instrument.spin_frequency
+    name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"
+    x = _volts(s, a, name, rows) / f.k_ggi
+    spin = f.instrument.spin_frequency
+    found = spectrogram(
+        x, np.asarray(r.valid[rows]), r.rate, float(r.time[rows.start]), spin, min(top, r.rate / 2)
+    )
+    if found is None:
+        raise UserError("the stretch is too short for a spectrogram")
+    t, g = found.time, found.frequency
+    head = struct.pack("<4sIIdddd", b"RAGS", len(t), len(g), t[0], t[-1], g[0], g[-1])
+    return head + np.ascontiguousarray(found.density, dtype="<f4").tobytes()
+
+
+def heat_map(s: State, a: Asked) -> dict[str, Any]:
+    """Significance of harmonic x product of channels: the single channels, and the products that stand out most."""
+    h = s.tracks.heat(a.effects, a.flight)
+    strongest = np.nanmax(np.abs(np.where(np.isnan(h.z), 0.0, h.z)), axis=0)
+    single = [
+        k
+        for k, p in enumerate(h.products)
+        if "*" not in p and "(" not in p and not p.startswith(("d_", "d2_"))
+    ]
+    rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
+    chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
+    return {
+        "harmonics": [{"id": n, "words": numbers.harmonic(n)} for n in h.harmonics],
+        "products": [{"id": h.products[k], "words": numbers.product(h.products[k])} for k in chosen],
+        "z": [[float(h.z[i, k]) for k in chosen] for i in range(len(h.harmonics))],
+        "level": h.level,
+        "tried": int(np.sum(np.isfinite(h.z))),
+    }
+
+
+__all__ = ["HEAD", "UNITS", "Asked", "heat_map", "series", "spectra", "spectrogram_of"]

@@ -1,0 +1,331 @@
+"""What the page asks for and what it can do: JSON, binary series, events, files."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import traceback
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from importlib import metadata, resources
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response, StreamingResponse
+from starlette.routing import Mount, Route
+from starlette.staticfiles import StaticFiles
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.evidence import foresee
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.studio import drawing, views
+from ragg_runtime.studio.guard import TooLong
+from ragg_runtime.studio.jobs import Busy
+from ragg_runtime.studio.session import Session
+from ragg_runtime.studio.take_away import take_away
+from ragg_runtime.studio.uploads import receive
+
+BEAT = 0.15
+"""How often a page is told of changes, s."""
+
+WATCH = 1.5
+"""How often the model directory is looked at for changes by others, s."""
+
+UPLOAD = "/api/upload"
+
+Answer = Callable[[Session, Request], Awaitable[Response]]
+
+
+def application(session: Session) -> Starlette:
+    """The routes, without the guard."""
+
+    def route(path: str, answer: Answer, method: str = "GET") -> Route:
+        async def asked(request: Request) -> Response:
+            return await _guarded(answer, session, request)
+
+        return Route(path, asked, methods=[method])
+
+    static = Path(str(resources.files("ragg_runtime.studio").joinpath("static")))
+    return Starlette(
+        routes=[
+            route("/", _page(static)),
+            Mount("/static", StaticFiles(directory=static)),
+            route("/api/state", _state),
+            route("/api/events", _events),
+            route("/api/series", _series),
+            route("/api/spectrum", _spectrum),
+            route("/api/spectrogram", _spectrogram),
+            route("/api/heat", _heat),
+            route("/api/preview", _preview),
+            route("/api/folder", _folder),
+            route("/api/take/{what}", _take),
+            route("/api/do/{what}", _do, "POST"),
+            route(UPLOAD, _upload, "POST"),
+        ]
+    )
+
+
+async def _guarded(answer: Answer, session: Session, request: Request) -> Response:
+    try:
+        return await answer(session, request)
+    except UserError as e:
+        facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
+        return JSONResponse({"error": facts}, 400)
+    except Busy:
+        return JSONResponse({"error": {"what": "something else is being worked on; cancel it or wait"}}, 409)
+    except TooLong:
+        return JSONResponse({"error": {"what": "the request is too long"}}, 413)
+    except Exception as e:
+        if not isinstance(e, OSError):
+            traceback.print_exc()
+            return JSONResponse(
+                {"error": {"what": "this is a fault of the program; the terminal shows where"}}, 500
+            )
+        return JSONResponse({"error": {"what": e.strerror or "the system refuses", "where": e.filename}}, 400)
+
+
+def _page(static: Path) -> Answer:
+    text = (static / "index.html").read_text("utf-8")
+
+    async def page(session: Session, request: Request) -> Response:
+        return Response(text, media_type="text/html")
+
+    return page
+
+
+def _json(content: Any, status: int = 200) -> Response:
+    text = json.dumps(_finite(content), allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    return Response(text.encode("utf-8", "replace"), status, media_type="application/json")
+
+
+def _finite(x: Any) -> Any:
+    """JSON knows no NaN: null in its place."""
+    if isinstance(x, float):
+        return x if math.isfinite(x) else None
+    if isinstance(x, Mapping):
+        return {k: _finite(v) for k, v in x.items()}
+    return [_finite(v) for v in x] if isinstance(x, list | tuple) else x
+
+
+async def _state(session: Session, request: Request) -> Response:
+    status = session.jobs.status.as_json()
+    version = metadata.version("ragg")
+
+    def made() -> Any:
+        s = session.state
+        return views.overview(s, status, version) | {
+            "commands": views.commands(s),
+            "roots": [str(r) for r in session.places.roots],
+        }
+
+    return _json(await run_in_threadpool(made))
+
+
+async def _events(session: Session, request: Request) -> Response:
+    async def told() -> AsyncIterator[str]:
+        last, waited = -1, 0.0
+        while not await request.is_disconnected():
+            status = session.jobs.status
+            if status.count != last:
+                last = status.count
+                yield f"data: {json.dumps(status.as_json())}\n\n"
+            await asyncio.sleep(BEAT)
+            waited += BEAT
+            if waited > WATCH:
+                waited = 0.0
+                await _watched(session)
+                yield ": still here\n\n"
+
+    return StreamingResponse(told(), media_type="text/event-stream")
+
+
+async def _watched(session: Session) -> None:
+    try:
+        await run_in_threadpool(session.reread)
+    except (UserError, Busy, OSError):
+        return  # half-edited by hand: look again later
+
+
+def _number(request: Request, name: str, default: float) -> float:
+    try:
+        value = float(request.query_params.get(name, default))
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise UserError("a number is needed", where=name, found=request.query_params[name][:40])
+    return value
+
+
+def _asked(request: Request) -> drawing.Asked:
+    q = request.query_params
+    effects = tuple(sorted({e for e in q.get("effects", "").split(",") if e}))
+    unit = q.get("unit", "Eo")
+    if unit not in drawing.UNITS:
+        raise UserError("the unit is not known", found=unit[:40], expected=", ".join(drawing.UNITS))
+    return drawing.Asked(
+        what=q.get("what", "residual"),
+        unit=unit,
+        flight=int(_number(request, "flight", 0)),
+        effects=effects,
+        first=_number(request, "from", -1e12),
+        last=_number(request, "to", 1e12),
+        points=int(min(max(_number(request, "points", 1500), 16), 20000)),
+    )
+
+
+async def _series(session: Session, request: Request) -> Response:
+    data = await run_in_threadpool(drawing.series, session.state, _asked(request))
+    return Response(data, media_type="application/octet-stream")
+
+
+async def _spectrum(session: Session, request: Request) -> Response:
+    return _json(await run_in_threadpool(drawing.spectra, session.state, _asked(request)))
+
+
+async def _spectrogram(session: Session, request: Request) -> Response:
+    highest = _number(request, "top", 0.0)
+    data = await run_in_threadpool(drawing.spectrogram_of, session.state, _asked(request), highest)
+    return Response(data, media_type="application/octet-stream")
+
+
+async def _heat(session: Session, request: Request) -> Response:
+    return _json(await run_in_threadpool(drawing.heat_map, session.state, _asked(request)))
+
+
+async def _preview(session: Session, request: Request) -> Response:
+    asked = _asked(request)
+
+    def made() -> Any:
+        s = session.state
+        if s.diagnosed is None or s.plain is None or s.field is None:
+            raise UserError("the effects are not tested yet", remedy="wait a moment")
+        known = s.field
+        chosen = [e for e in asked.effects if e in known.candidates]
+        found = foresee.foreseen(s.diagnosed.fitted, s.plain, known, chosen)
+        without = foresee.foreseen(s.diagnosed.fitted, s.plain, known, [])
+        return found.as_json() | {"before_Eo": without.rms_Eo, "noise_Eo": s.diagnosed.noise_floor}
+
+    return _json(await run_in_threadpool(made))
+
+
+async def _folder(session: Session, request: Request) -> Response:
+    place = request.query_params.get("place", "")
+    return _json(await run_in_threadpool(session.places.listing, place))
+
+
+async def _take(session: Session, request: Request) -> Response:
+    what = request.path_params["what"]
+    name, kind, data = await run_in_threadpool(take_away, session.state, what)
+    # A report holds its style and its figures in itself: it is handed over as a file, never shown as our page.
+    headers = {"content-disposition": f'attachment; filename="{name}"'}
+    return Response(data, media_type=kind, headers=headers)
+
+
+async def _upload(session: Session, request: Request) -> Response:
+    path = await receive(session.state, request.query_params.get("name", ""), request)
+    return _json({"path": str(path)})
+
+
+async def _do(session: Session, request: Request) -> Response:
+    if request.headers.get("content-type", "").split(";")[0] != "application/json":
+        raise UserError("the body must be JSON", where=str(request.url.path))
+    try:
+        body = json.loads(await request.body())
+    except (ValueError, RecursionError):
+        raise UserError("the body is no JSON", where=str(request.url.path)) from None
+    action = ACTIONS.get(request.path_params["what"])
+    if action is None or not isinstance(body, dict):
+        raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
+    await run_in_threadpool(action, session, body)
+    return _json({"status": session.jobs.status.as_json()}, 202)
+
+
+def _text(body: Mapping[str, Any], key: str, longest: int = 4096) -> str:
+    value = body.get(key)
+    if not isinstance(value, str) or len(value) > longest:
+        raise UserError("a text is needed", where=key, found=repr(value)[:80])
+    return value
+
+
+def _texts(body: Mapping[str, Any], key: str) -> list[str]:
+    value = body.get(key)
+    if not isinstance(value, list) or not all(isinstance(x, str) for x in value) or len(value) > 2000:
+        raise UserError("a list of texts is needed", where=key, found=repr(value)[:80])
+    return value
+
+
+def _step(body: Mapping[str, Any]) -> int | None:
+    value = body.get("step")
+    if value is not None and (not isinstance(value, int) or isinstance(value, bool)):
+        raise UserError("the number of a step is needed", where="step", found=repr(value)[:40])
+    return value
+
+
+def _open(session: Session, body: Mapping[str, Any]) -> None:
+    model = session.places.inside(_text(body, "model")) if body.get("model") else None
+    flights = [session.places.inside(f) for f in _texts(body, "flights")] if body.get("flights") else []
+    session.open(model, flights)
+
+
+def _new(session: Session, body: Mapping[str, Any]) -> None:
+    sheet = session.places.inside(_text(body, "sheet")) if body.get("sheet") else None
+    session.new(session.places.inside(_text(body, "model")), sheet)
+
+
+def _leave(session: Session, body: Mapping[str, Any]) -> None:
+    flight, ends = body.get("flight"), [body.get(k) for k in ("from", "to")]
+    if not isinstance(flight, int) or isinstance(flight, bool):
+        raise UserError("the number of a flight is needed", where="flight", found=repr(flight)[:40])
+    if ends == [None, None]:
+        session.leave_out(flight, None)
+        return
+    first, last = (float(x) if isinstance(x, int | float) else math.nan for x in ends)
+    if not first < last:
+        raise UserError("a stretch of time is needed", where="from, to", found=repr(ends)[:80])
+    session.leave_out(flight, (first, last))
+
+
+def _edit(session: Session, body: Mapping[str, Any]) -> None:
+    found: dict[str, RawQuantity] = {}
+    values = body.get("values")
+    for name, given in values.items() if isinstance(values, dict) else ():
+        numbers = given.get("value") if isinstance(given, dict) else None
+        if (
+            not isinstance(numbers, list)
+            or len(numbers) != 4
+            or any(isinstance(x, bool) or not isinstance(x, int | float) for x in numbers)
+        ):
+            raise UserError("four numbers are needed", where=str(name)[:40], found=repr(numbers)[:80])
+        found[name] = RawQuantity(tuple(float(x) for x in numbers), _text(given, "unit", 80))
+    if not found:
+        raise UserError("no value was changed", remedy="change one, then save")
+    session.edit(found)
+
+
+def _try(session: Session, body: Mapping[str, Any]) -> None:
+    units = body.get("units")
+    if not isinstance(units, dict) or not all(isinstance(u, str) and len(u) < 80 for u in units.values()):
+        raise UserError("every parameter needs a unit", where="units", found=repr(units)[:80])
+    session.attempt(_text(body, "id", 80), _text(body, "add", 600), units)
+
+
+ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
+    "open": _open,
+    "new": _new,
+    "look": lambda session, body: session.look(),
+    "add": lambda session, body: session.add(_texts(body, "effects")),
+    "remove": lambda session, body: session.remove(_text(body, "effect", 80)),
+    "edit": _edit,
+    "leave": _leave,
+    "undo": lambda session, body: session.go("undo"),
+    "redo": lambda session, body: session.go("redo"),
+    "restore": lambda session, body: session.go("restore", _step(body)),
+    "beside": lambda session, body: session.beside(_step(body)),
+    "try": _try,
+    "keep": lambda session, body: session.keep(),
+    "cancel": lambda session, body: session.jobs.cancel(),
+}
+"""What the page can do, by the last part of the address."""

@@ -1,0 +1,306 @@
+"""What the studio has open, and what is known of it: one state, replaced whole, that every page shows."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.progress import PASSES
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence import foresee
+from ragg_runtime.evidence.foresee import Plain
+from ragg_runtime.evidence.selection import Field, field_of
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.glance import Glance, glance
+from ragg_runtime.instrument.edit_toml import set_parameters
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.studio.jobs import Jobs
+from ragg_runtime.studio.places import Places
+from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.studio.tracks import Tracks
+from ragg_runtime.workflow import loop, versions
+from ragg_runtime.workflow.loop import Added, Loaded
+
+Part = Callable[[str, float], None]
+
+
+@dataclass(frozen=True)
+class State:
+    """What is open and known; ``None`` and empty where it is not yet.
+
+    Attributes
+    ----------
+    loaded, paths, flights
+        The model directory, the files of the flights, and the flights themselves.
+    read, cuts
+        The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
+    glances
+        A first look at each file, and its output as it is drawn until the flight is compared.
+    compared, diagnosed, plain
+        Results for exactly these.
+    previous
+        The comparison before the last step, for before and after.
+    beside
+        A state of the history, by its step, and its comparison on the same flights.
+    trial
+        An effect of the user's own that was tried and is not kept yet: its id, expression, units, and the result.
+    """
+
+    loaded: Loaded | None = None
+    paths: tuple[Path, ...] = ()
+    flights: tuple[Flight, ...] = ()
+    read: tuple[Flight, ...] = ()
+    cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
+    glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
+    compared: Comparison | None = None
+    diagnosed: Diagnosis | None = None
+    plain: Plain | None = None
+    previous: Comparison | None = None
+    beside: tuple[int, Comparison] | None = None
+    trial: tuple[str, str, Mapping[str, str], Added] | None = None
+    tracks: Tracks = field(default_factory=Tracks)
+
+    @property
+    def field(self) -> Field | None:
+        """The testable effects, steps included, on the triangles of everything."""
+        d = self.diagnosed
+        return None if d is None else field_of(d.fitted, [r.effect for r in d.ranking])
+
+    @property
+    def model(self) -> Loaded:
+        """The model; UserError if none is open."""
+        if self.loaded is None:
+            raise UserError(
+                "no model is open", remedy="choose a model directory, or make one from a test sheet"
+            )
+        return self.loaded
+
+    @property
+    def samples(self) -> float:
+        return float(sum(map(len, self.flights)))
+
+
+class Session:
+    """The state and the only ways to change it; long ones run as jobs."""
+
+    def __init__(self, places: Places) -> None:
+        self.places = places
+        self.jobs = Jobs()
+        self._lock = threading.Lock()
+        self._state = State()
+
+    @property
+    def state(self) -> State:
+        return self._state
+
+    def _put(self, **changes: object) -> None:
+        with self._lock:
+            self._state = replace(self._state, **changes)  # type: ignore[arg-type]
+        self.jobs.changed()
+
+    def open(self, model: Path | None, flights: Sequence[Path]) -> None:
+        """Open a model directory and flights (``None``, none: those that are open stay), and look at them."""
+        self.jobs.start("opening", partial(self._open, model, tuple(flights)))
+
+    def _open(self, model: Path | None, flights: tuple[Path, ...], part: Part) -> None:
+        if model is not None:
+            self._put(**_nothing(), loaded=loop.load(model))
+        if flights:
+            part("reading the flights", 1.0)
+            g0 = self.state.model.instrument.g0
+            looks = tuple(_drawn(glance(p, g0)) for p in flights)
+            self._put(**_nothing(), paths=flights, flights=(), glances=looks)
+            part("reading and examining the flights", 1.0)
+            read = tuple(loop.read_flights(self.state.model, flights))
+            places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
+            self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
+        self._look(part)
+
+    def leave_out(self, flight: int, stretch: tuple[float, float] | None) -> None:
+        """Leave a stretch of a flight (from, to, s) out of everything; ``None``: take all of it back."""
+        self._idle()
+        s = self.state
+        if not 0 <= flight < len(s.read):
+            raise UserError("there is no such flight", found=str(flight + 1))
+        cuts = list(s.cuts)
+        cuts[flight] = () if stretch is None else (*cuts[flight], stretch)
+        flights = tuple(x.without(c) for x, c in zip(s.read, cuts, strict=True))
+        if not any(flights[flight].valid):
+            raise UserError("nothing of the flight would be left", where=s.read[flight].name)
+        self._put(**_nothing(), flights=flights, cuts=tuple(cuts))
+        self.look()
+
+    def new(self, model: Path, sheet: Path | None) -> None:
+        """Make a model directory from a test sheet, and open it."""
+        loop.new(model, sheet)
+        self.open(model, ())
+
+    def look(self) -> None:
+        """Compare and diagnose what is open."""
+        self.jobs.start("looking", self._look)
+
+    def _look(self, part: Part) -> None:
+        s = self.state
+        if s.loaded is None or not s.flights:
+            return
+        if s.compared is None:
+            part("calibrating and comparing", PASSES["compare"] * s.samples)
+            compared = loop.compare(s.loaded, s.flights)
+            self._put(compared=compared, tracks=Tracks.of(compared, s.previous))
+        s = self.state
+        part("testing every effect", PASSES["diagnose"] * s.samples)
+        d = loop.diagnose(s.model, s.flights, compared=s.compared)
+        part("preparing the preview", s.samples)
+        self._put(diagnosed=d, plain=foresee.plain(d.fitted), tracks=s.tracks.diagnosed(d))
+
+    def reread(self) -> None:
+        """Load the model directory again if someone else has changed it."""
+        s = self.state
+        if s.loaded is None or self.jobs.status.name:
+            return
+        path = s.loaded.directory.path
+        if load_model_dir(path).digest != s.loaded.directory.digest:
+            self._changed(loop.load(path))
+
+    def _changed(self, m: Loaded) -> None:
+        """Another model in the place of this one: what was known of it becomes the state before."""
+        self._put(**(_nothing() | {"previous": self.state.compared}), loaded=m)
+        self.look()
+
+    def add(self, effects: Sequence[str]) -> None:
+        """Derive effects into the model, one after the other, and calibrate."""
+        m = self.state.model
+        if not effects:
+            raise UserError("no effect is chosen", remedy="tick one or several")
+        self.jobs.start(f"deriving {effects[0]} into {m.name}", partial(self._add, tuple(effects)))
+
+    def _add(self, effects: tuple[str, ...], part: Part) -> None:
+        for e in effects:
+            s = self.state
+            part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
+            result = loop.add(s.model, e, s.flights)
+            self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
+        self._look(part)
+
+    def remove(self, effect: str) -> None:
+        """Take an effect out of the model."""
+        self._idle()
+        self._changed(loop.remove(self.state.model, effect))
+
+    def edit(self, values: Mapping[str, RawQuantity]) -> None:
+        """Change values of the test sheet."""
+        self._idle()
+        m = self.state.model
+        text = set_parameters(m.directory.text, values)
+        self._changed(versions.change(m, text, "edit", ", ".join(values)))
+
+    def go(self, action: str, step: int | None = None) -> None:
+        """Undo, redo, or go back to the state after a step of the history."""
+        self._idle()
+        m = self.state.model
+        past, future = branches(m.directory.history)
+        if action == "undo" and len(past) > 1:
+            to = past[-2]
+        elif action == "redo" and future:
+            to = future[-1]
+        elif action == "restore" and step is not None and 0 <= step < len(m.directory.history):
+            to = step
+        else:
+            raise UserError(f"there is nothing to {action}")
+        self._changed(versions.change(m, _text(m.directory.history, to), action, str(to)))
+
+    def beside(self, step: int | None) -> None:
+        """Compare the model as it was after a step with the same flights; ``None``: no longer."""
+        if step is None:
+            self._put(beside=None)
+            return
+        history = self.state.model.directory.history
+        if not 0 <= step < len(history):
+            raise UserError("there is no such step", found=step)
+        self.jobs.start("comparing an earlier model", partial(self._beside, step, _text(history, step)))
+
+    def _beside(self, step: int, text: str, part: Part) -> None:
+        s = self.state
+        part("comparing an earlier model", PASSES["compare"] * s.samples)
+        old = versions.as_of(s.model, text)
+        self._put(beside=(step, loop.compare(old, s.flights)))
+
+    def attempt(self, effect: str, add: str, units: Mapping[str, str]) -> None:
+        """Try an effect of the user's own: derived and calibrated, but not kept."""
+        listed = versions.with_own(self.state.model, effect, add, units)
+        if not self.state.flights:
+            raise UserError("no flight is open", remedy="choose one first")
+        self.jobs.start(f"trying {effect}", partial(self._attempt, listed, effect, add, dict(units)))
+
+    def _attempt(self, listed: Loaded, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
+        part(f"deriving {effect} and calibrating", PASSES["add"] * self.state.samples)
+        result = loop.add(listed, effect, self.state.flights, save=False)
+        self._put(trial=(effect, add, units, result))
+
+    def keep(self) -> None:
+        """Keep what was tried as an effect of the model."""
+        trial = self.state.trial
+        if trial is None:
+            raise UserError("nothing was tried", remedy="try an expression first")
+        self.jobs.start(f"keeping {trial[0]}", partial(self._keep, trial[0], trial[1], trial[2]))
+
+    def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
+        s = self.state
+        part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
+        result = loop.add(versions.with_own(s.model, effect, add, units), effect, s.flights)
+        self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
+        self._look(part)
+
+    def _idle(self) -> None:
+        from ragg_runtime.studio.jobs import Busy
+
+        if self.jobs.status.name:
+            raise Busy
+
+
+def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
+    if found is None:
+        return None
+    x = found.values
+    return found, pyramid(found.start, found.step, len(x), lambda s: x[s])
+
+
+def _nothing() -> dict[str, object]:
+    """Of another model or other flights nothing is known yet."""
+    names = ("compared", "diagnosed", "plain", "previous", "beside", "trial")
+    return dict.fromkeys(names) | {"tracks": Tracks()}
+
+
+def _text(history: Sequence[Step], step: int) -> str:
+    if not history[step].text:
+        raise UserError(
+            "that state was not kept: an older version made the step",
+            found=f"step {step + 1}",
+            remedy="remove effects one by one instead",
+        )
+    return history[step].text
+
+
+def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
+    """Steps on the present branch, and those that undo has left and redo would come back to (nearest last).
+
+    Undo and redo are steps themselves: nothing is ever taken out of a history.
+    """
+    past: list[int] = []
+    future: list[int] = []
+    for n, s in enumerate(history):
+        if s.action == "undo" and len(past) > 1:
+            future.append(past.pop())
+        elif s.action == "redo" and future:
+            past.append(future.pop())
+        else:
+            past.append(n)
+            future.clear()
+    return past, future

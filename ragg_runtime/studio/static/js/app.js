@@ -1,0 +1,185 @@
+// The page: tabs, keys, what the server is doing, and which view is open.
+import { act, ask, events, Refused } from "./api.js";
+import { fill, h } from "./dom.js";
+import { known, look, on, recall, server, view } from "./store.js";
+import { loopView } from "./views/loop.js";
+import { parametersView } from "./views/parameters.js";
+import { sheetView } from "./views/sheet.js";
+import { historyView } from "./views/history.js";
+import { filesView } from "./views/files.js";
+import { takeView } from "./views/take.js";
+import { help } from "./views/help.js";
+
+const VIEWS = [
+  ["loop", "Loop", loopView],
+  ["parameters", "Parameters", parametersView],
+  ["sheet", "Test sheet", sheetView],
+  ["history", "History", historyView],
+  ["files", "Files", filesView],
+  ["take", "Take away", takeView],
+];
+const $ = (id) => document.getElementById(id);
+let leave = null;
+
+/** Facts of an error, where everyone sees them. */
+export function trouble(facts) {
+  const box = $("trouble");
+  box.hidden = !facts;
+  if (!facts) return;
+  const rows = ["where", "found", "expected", "remedy"].filter((k) => facts[k]);
+  fill(
+    box,
+    h("p.first", {}, facts.what),
+    rows.length ? h("dl", {}, rows.map((k) => [h("dt", {}, k), h("dd", {}, facts[k])])) : null,
+    h("button.quiet", { type: "button", onclick: () => trouble(null), "aria-label": "Close this message" }, "Close"),
+  );
+}
+
+/** Do something; what goes wrong is told. */
+export async function doing(what, body) {
+  try {
+    trouble(null);
+    await act(what, body);
+    return true;
+  } catch (error) {
+    if (!(error instanceof Refused)) throw error;
+    trouble(error.facts);
+    return false;
+  }
+}
+
+function tabs() {
+  fill($("tabs"), VIEWS.map(([id, name], k) =>
+    h("button", { type: "button", "aria-current": view.view === id ? "page" : undefined, onclick: () => look({ view: id }), title: `${name} (${k + 1})` }, name)));
+}
+
+function tools() {
+  const { state } = server;
+  const history = state && state.history;
+  fill(
+    $("tools"),
+    h("button.icon", { type: "button", disabled: !(history && history.can_undo), onclick: () => doing("undo"), title: "Undo (u)", "aria-label": "Undo" }, "↶"),
+    h("button.icon", { type: "button", disabled: !(history && history.can_redo), onclick: () => doing("redo"), title: "Redo (r)", "aria-label": "Redo" }, "↷"),
+    h("button.icon", { type: "button", onclick: darker, title: "Light or dark (d)", "aria-label": "Light or dark" }, "◐"),
+    h("button.icon", { type: "button", onclick: help, title: "Keys (?)", "aria-label": "Keys" }, "?"),
+  );
+}
+
+function heading() {
+  const { state } = server;
+  const flights = state ? state.flights : [];
+  fill(
+    $("what"),
+    state && state.model ? h("strong", {}, state.model.name) : "no model",
+    flights.length ? [h("span.times", {}, " with "), flights.length > 1 ? `${flights.length} flights` : flights[0].name] : null,
+  );
+  document.title = state && state.model ? `${state.model.name} – ragg studio` : "ragg studio";
+}
+
+function job(status) {
+  const box = $("job");
+  const busy = Boolean(status.job);
+  box.hidden = !busy;
+  document.documentElement.toggleAttribute("data-busy", busy);
+  if (!busy) return;
+  if (box.dataset.job !== status.job) {
+    box.dataset.job = status.job;
+    fill(box, h("span.name", {}, status.job), h("progress", { max: 1, "aria-label": status.job }), h("span.left"), h("button.quiet", { type: "button", onclick: () => doing("cancel") }, "Cancel"));
+  }
+  const bar = box.querySelector("progress");
+  if (status.share > 0.02) bar.value = status.share;
+  const left = status.share > 0.05 ? (status.spent_s * (1 - status.share)) / status.share : null;
+  box.querySelector(".left").textContent = left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
+}
+
+function darker() {
+  const dark = document.documentElement.dataset.theme
+    ? document.documentElement.dataset.theme === "dark"
+    : matchMedia("(prefers-color-scheme: dark)").matches;
+  look({ theme: dark ? "light" : "dark" });
+}
+
+function themed() {
+  if (view.theme) document.documentElement.dataset.theme = view.theme;
+  else delete document.documentElement.dataset.theme;
+  document.dispatchEvent(new Event("themed"));
+}
+
+function opened() {
+  if (leave) leave();
+  const [, name, open] = VIEWS.find(([id]) => id === view.view) || VIEWS[0];
+  const main = $("main");
+  main.className = `view-${view.view}`;
+  main.setAttribute("aria-label", name);
+  leave = open(main);
+  tabs();
+}
+
+const KEYS = {
+  u: () => doing("undo"),
+  r: () => doing("redo"),
+  d: darker,
+  "?": help,
+  Escape: () => trouble(null),
+  ...Object.fromEntries(VIEWS.map(([id], k) => [String(k + 1), () => look({ view: id })])),
+};
+
+addEventListener("keydown", (e) => {
+  if (e.ctrlKey || e.metaKey || e.altKey || /^(input|textarea|select)$/i.test(e.target.tagName) || document.querySelector("dialog[open]")) return;
+  const key = KEYS[e.key];
+  if (!key) return;
+  e.preventDefault();
+  key();
+});
+
+let asked = 0;
+async function refresh() {
+  const mine = ++asked;
+  try {
+    const state = await ask("state");
+    if (mine === asked) known(state);
+  } catch (error) {
+    if (error instanceof Refused) trouble(error.facts);
+  }
+}
+
+let last = { job: "", count: -1 };
+let lost = false;
+function gone() {
+  lost = true;
+  trouble({ what: "the server does not answer", remedy: "if it was stopped, start it again: ragg studio; nothing is lost" });
+}
+function changed(status) {
+  if (lost) trouble(null);
+  lost = false;
+  const idle = !status.job;
+  job(status);
+  if (status.error && idle && last.count !== status.count) trouble(status.error);
+  const same = status.revision === last.revision && status.job === last.job;
+  last = status;
+  if (!same) refresh();
+}
+
+recall();
+themed();
+on("theme", themed);
+on("view", opened);
+on("server", () => (heading(), tools()));
+addEventListener("hashchange", () => recall());
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", themed);
+tabs();
+tools();
+await refresh();
+if (server.state && !server.state.model && view.view === "loop") look({ view: "files" });
+opened();
+// A browser keeps few connections to one server: a tab that is not seen must not hold one.
+let listening = null;
+function listen() {
+  if (document.hidden && listening) listening = void listening.close();
+  else if (!document.hidden && !listening) {
+    listening = events(changed, gone);
+  }
+}
+document.addEventListener("visibilitychange", listen);
+listen();
+document.documentElement.dataset.ready = "yes";

@@ -1,0 +1,96 @@
+// Elements without templates: text stays text, whatever a file or a channel is called.
+
+/** An element: h("p", {class: "note", onclick}, "text", child, [children]). */
+export function h(name, attributes = {}, ...children) {
+  const [tag, ...classes] = name.split(".");
+  const made = document.createElement(tag || "div");
+  if (classes.length) made.className = classes.join(" ");
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (key === "class") made.className = [made.className, value].filter(Boolean).join(" ");
+    else if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (key in made && typeof value !== "string") made[key] = value;
+    else made.setAttribute(key, value === true ? "" : value);
+  }
+  append(made, children);
+  return made;
+}
+
+export function append(to, children) {
+  for (const child of children.flat(Infinity)) {
+    if (child !== null && child !== undefined && child !== false) to.append(child);
+  }
+}
+
+export function fill(element, ...children) {
+  const made = document.createDocumentFragment();
+  append(made, children);
+  element.replaceChildren(made);
+  return element;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** The same for SVG. */
+export function s(tag, attributes = {}, ...children) {
+  const made = document.createElementNS(SVG, tag);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value !== undefined && value !== null) made.setAttribute(key, value);
+  }
+  append(made, children);
+  return made;
+}
+
+const MATHML = "http://www.w3.org/1998/Math/MathML";
+const MATHS = new Set(
+  "math mrow mi mo mn ms mtext mspace msub msup msubsup mfrac msqrt mroot mover munder munderover mstyle mtable mtr mtd mpadded mphantom".split(" "),
+);
+const ALLOWED = new Set(["display", "mathvariant", "stretchy", "width", "accent", "displaystyle", "scriptlevel", "fence", "form"]);
+
+/** MathML from the server, rebuilt from the elements it may hold; anything else is shown as text. */
+export function maths(text) {
+  const parsed = new DOMParser().parseFromString(text || "", "application/xml");
+  const root = parsed.documentElement;
+  if (root.localName === "code") return h("code", {}, root.textContent);
+  if (root.localName !== "math") return document.createTextNode(root.textContent.slice(0, 500));
+  return rebuilt(root);
+}
+
+function rebuilt(node) {
+  if (node.nodeType === Node.TEXT_NODE) return document.createTextNode(node.data);
+  if (node.nodeType !== Node.ELEMENT_NODE || !MATHS.has(node.localName)) return document.createTextNode(node.textContent);
+  const made = document.createElementNS(MATHML, node.localName);
+  for (const a of node.attributes) if (ALLOWED.has(a.name)) made.setAttribute(a.name, a.value);
+  for (const child of node.childNodes) made.append(rebuilt(child));
+  return made;
+}
+
+/** A symbol in pieces [text, lowered]. */
+export const symbol = (pieces) => h("i.symbol", {}, pieces.map(([text, low]) => (low ? h("sub", {}, text) : text)));
+
+/** Three significant digits, a true minus sign. */
+export function number(x, digits = 3) {
+  if (x === null || x === undefined || Number.isNaN(x)) return "–";
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  if (size >= 1e6 || size < 1e-3) {
+    const [m, e] = x.toExponential(digits - 1).split("e");
+    return `${m.replace("-", "−")}\u202f×\u202f10${superscript(Number(e))}`;
+  }
+  const places = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  let text = size.toFixed(places);
+  if (size >= 1e4) text = Number(x.toPrecision(digits)).toFixed(0).replace("-", "").replace(/\B(?=(\d{3})+$)/g, "\u202f");
+  return (x < 0 ? "−" : "") + text;
+}
+
+const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+export const superscript = (n) => String(n).replace(/./g, (c) => RAISED[c]);
+
+/** Runs f once things have been quiet for so long. */
+export function calm(f, wait) {
+  let timer = 0;
+  return (...args) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => f(...args), wait);
+  };
+}

@@ -1,0 +1,79 @@
+// What all curves share: colours from the style sheet, axes, sizes, zoom and pan.
+import uPlot from "../../vendor/uPlot.esm.js";
+import { number, superscript } from "../dom.js";
+
+/** A colour of the style sheet. */
+export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+const fonts = () => {
+  const size = parseFloat(getComputedStyle(document.documentElement).fontSize);
+  return `${Math.round(size * 0.75)}px system-ui, "Helvetica Neue", Arial, sans-serif`;
+};
+export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+
+const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−"));
+
+export function axis(label, more = {}) {
+  return {
+    label, labelSize: label ? rem() * 1.15 : 0, labelGap: 0, size: more.side === undefined ? rem() * 1.9 : rem() * 3.5, gap: 4,
+    font: fonts(), labelFont: fonts(),
+    stroke: () => colour("ink"), grid: { stroke: () => colour("grid"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 },
+    values: (u, found) => found.map(tick),
+    ...more,
+  };
+}
+
+/** Labels of a logarithmic axis: 1, 2, 5 where little is spanned, powers of ten where much. */
+export const logValues = (u, found) => {
+  const shown = found.filter((v) => v !== null);
+  const decades = Math.log10(shown.at(-1) / shown[0]) || 0;
+  return found.map((v) => {
+    if (v === null) return "";
+    const m = v / 10 ** Math.floor(Math.log10(v) + 1e-9);
+    const keep = decades > 3.2 ? m < 1.01 : m < 1.01 || Math.abs(m - 2) < 0.01 || Math.abs(m - 5) < 0.01;
+    if (!keep) return "";
+    return v >= 1e-3 && v < 1e5 ? String(Number(v.toPrecision(3))) : `10${superscript(Math.round(Math.log10(v)))}`;
+  });
+};
+
+/** A plot that fills its box and is drawn anew when that or the colours change. */
+export function mounted(box, options, data) {
+  const size = () => ({ width: Math.max(200, box.clientWidth), height: Math.max(60, box.clientHeight) });
+  const plot = new uPlot({ ...size(), ...options, legend: { show: false } }, data, box);
+  const watcher = new ResizeObserver(() => plot.setSize(size()));
+  watcher.observe(box);
+  const themed = () => plot.redraw(false);
+  document.addEventListener("themed", themed);
+  return {
+    plot,
+    gone() {
+      watcher.disconnect();
+      document.removeEventListener("themed", themed);
+      plot.destroy();
+    },
+  };
+}
+
+/** Wheel zooms about the pointer, Shift or a horizontal wheel pans; `moved` is given the new limits. */
+export function wheel(plot, moved) {
+  plot.over.addEventListener(
+    "wheel",
+    (e) => {
+      e.preventDefault();
+      const { min, max } = plot.scales.x;
+      if (min === null) return;
+      const width = max - min;
+      if (e.shiftKey || Math.abs(e.deltaX) > Math.abs(e.deltaY)) {
+        const by = (Math.sign(e.deltaX || e.deltaY) * width) / 12;
+        moved(min + by, max + by);
+        return;
+      }
+      const at = plot.posToVal(e.offsetX, "x");
+      const factor = 1.2 ** Math.sign(e.deltaY);
+      moved(at - (at - min) * factor, at + (max - at) * factor);
+    },
+    { passive: false },
+  );
+}
+
+

@@ -1,0 +1,259 @@
+"""The series that the page draws, each made when it is first asked for."""
+
+from __future__ import annotations
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence import foresee
+from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.observation import output_weights
+from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.lack_of_fit import heat
+from ragg_runtime.studio.pyramid import Pyramid, pyramid
+
+Array = NDArray[np.float64]
+
+KEPT = 48
+"""Most series that are kept: of a day at 100 Hz each takes 40 MB, of an hour at 16 Hz a quarter of one."""
+
+MOST_BYTES = 1 << 30
+"""Most memory that they may take together, bytes."""
+
+
+WIDEST = 8 * ROWS
+"""Most samples of a long flight for which the signature of an effect is computed while one waits."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Samples of a flight, and what effects would take out of the residual there, V."""
+
+    rows: slice
+    volts: Array
+
+
+@dataclass
+class Cache:
+    """Made things by name, the least used forgotten first."""
+
+    _found: OrderedDict[tuple[object, ...], object] = field(default_factory=OrderedDict)
+    _making: dict[tuple[object, ...], threading.Lock] = field(default_factory=dict)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def get(self, key: tuple[object, ...], make: Callable[[], object]) -> object:
+        """What belongs to ``key``; one thread makes it, those that want the same wait."""
+        with self._lock:
+            own = self._making.setdefault(key, threading.Lock())
+        with own:
+            with self._lock:
+                if key in self._found:
+                    self._found.move_to_end(key)
+                    return self._found[key]
+            made = make()
+            with self._lock:
+                self._found[key] = made
+                while len(self._found) > KEPT or (len(self._found) > 2 and self._bytes() > MOST_BYTES):
+                    self._found.popitem(last=False)
+            return made
+
+    def _bytes(self) -> int:
+        return sum(_size(x) for x in self._found.values())
+
+
+def _size(x: object) -> int:
+    if isinstance(x, Pyramid):
+        return x.values.nbytes
+    return x.nbytes if isinstance(x, np.ndarray) else sum(map(_size, x)) if isinstance(x, list) else 0
+
+
+@dataclass(frozen=True)
+class Tracks:
+    """Series of one comparison, and of the one before it."""
+
+    now: Comparison | None = None
+    before: Comparison | None = None
+    found: Diagnosis | None = None
+    cache: Cache = field(default_factory=Cache)
+
+    @staticmethod
+    def of(now: Comparison, before: Comparison | None) -> Tracks:
+        return Tracks(now=now, before=before)
+
+    def diagnosed(self, d: Diagnosis) -> Tracks:
+        """The same with what needs the columns of the candidates."""
+        return replace(self, found=d)
+
+    @property
+    def fitted(self) -> Fitted:
+        """UserError if there is none yet."""
+        if self.now is None:
+            raise UserError("there is nothing to draw yet", remedy="wait until the flights are compared")
+        return self.now.fitted
+
+    def volts(self, name: str, flight: int) -> Array:
+        """(N,) V of ``measured``, ``modelled``, ``residual`` or ``before``; zero where a sample is not valid."""
+        f = self.fitted
+        if not 0 <= flight < len(f.flown):
+            raise UserError("there is no such flight", found=flight + 1)
+        if name == "before":
+            old = self.before
+            same = old is not None and len(old.fitted.flown) == len(f.flown)
+            if old is None or not same:
+                raise UserError("there is no step before this one")
+            return self._of("before", lambda: old.residual)[flight]
+        now = self.now
+        assert now is not None
+        if name == "residual":
+            return self._of("residual", lambda: now.residual)[flight]
+        o = f.flown[flight].observation
+        if name == "measured":
+            r = o.record
+            made = sum(
+                w * np.where(r.valid, x, 0.0) for w, x in zip(output_weights(o), o.series, strict=True)
+            )
+            return np.asarray(made)
+        if name == "modelled":
+            return self.volts("measured", flight) - self.volts("residual", flight)
+        raise UserError("there is no such series", found=repr(name[:40]))
+
+    def _of(self, name: str, make: Callable[[], list[Array]]) -> list[Array]:
+        return self.cache.get((name,), make)  # type: ignore[return-value]
+
+    def effect(
+        self, effects: tuple[str, ...], flight: int, window: tuple[float, float] | None = None
+    ) -> Effect:
+        """What these effects would take out of the residual, of a long flight where ``window`` (s) lies alone."""
+        d = self.found
+        if d is None:
+            raise UserError("the effects are not tested yet", remedy="wait a moment")
+        if not 0 <= flight < len(d.fitted.flown):
+            raise UserError("there is no such flight", found=flight + 1)
+        r = d.fitted.flown[flight].observation.record
+        n, rows = len(r.time), slice(0, len(r.time))
+        if n > ROWS:
+            first, last = window or (0.0, float("inf"))
+            a, b = (int(np.clip((t - r.time[0]) * r.rate, 0, n)) for t in (first, last))
+            if b - a > WIDEST or b <= a:
+                raise UserError(
+                    "the signature of an effect is drawn of a part of so long a flight",
+                    remedy=f"zoom in to less than {WIDEST / r.rate:.0f} s",
+                )
+            rows = slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
+
+        def make() -> Effect:
+            known = field_of(d.fitted, [x.effect for x in d.ranking])
+            v = foresee.coefficients(d.fitted, known, effects)
+            return Effect(*foresee.signature(d.fitted, flight, v, rows))
+
+        return self.cache.get(("effect", effects, flight, rows.start, rows.stop), make)  # type: ignore[return-value]
+
+    def term(self, harmonic: str, product: str, flight: int) -> Array:
+        """(N,) V: a generic term as it would be fitted by itself."""
+        h = self.heat((), flight)
+        if harmonic not in h.harmonics or product not in h.products:
+            raise UserError("there is no such term", found=f"{harmonic} x {product}"[:80])
+        c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
+        if not np.isfinite(c):
+            raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
+        flown = self.fitted.flown[flight]
+        return self.cache.get(  # type: ignore[return-value]
+            ("term", harmonic, product, flight), lambda: heat.series(flown, harmonic, product, c)
+        )
+
+    def heat(self, effects: tuple[str, ...], flight: int) -> heat.Heat:
+        """Harmonic x motion term of what is left once these effects are in."""
+        d = self.found
+        f = self.fitted if d is None else d.fitted
+        known = field_of(f, [r.effect for r in d.ranking] if d else [])
+        given = foresee.columns_of(known, effects)
+        if not 0 <= flight < len(f.flown):
+            raise UserError("there is no such flight", found=flight + 1)
+
+        def make() -> heat.Heat:
+            return heat.heat(f.flown[flight], f.triangles[flight], f.n_base, given)
+
+        return self.cache.get(("heat", effects, flight, d is None), make)  # type: ignore[return-value]
+
+    def drawn(
+        self,
+        name: str,
+        unit: str,
+        flight: int,
+        effects: tuple[str, ...] = (),
+        window: tuple[float, float] | None = None,
+    ) -> Pyramid:
+        """A series in V, Eo, or demodulated (``inline``, ``cross``, Eo).
+
+        ``effect`` is what ``effects`` would take out of the residual, ``left`` what they would leave.
+        """
+        f = self.fitted
+        r = f.flown[flight if 0 <= flight < len(f.flown) else 0].observation.record
+        if name in ("effect", "left"):
+            e = self.effect(effects, flight, window)
+            if len(e.volts) < len(r.time):
+                return self._stretch(name, unit, flight, e)
+
+        def make() -> Pyramid:
+            x = self.series(name, flight, effects)
+            time = r.time
+            if unit in ("inline", "cross"):
+                found = comparison.demodulated_one(f, flight, x)
+                if not len(found[0]):
+                    raise UserError(
+                        "the flight is too short to be demodulated", where=f.observations[flight].name
+                    )
+                time, x = found[0], found[1 if unit == "inline" else 2]
+                return _pyramid_of_gaps(time, x, 1.0 / r.rate)
+            scale = 1.0 if unit == "V" else 1.0 / f.k_ggi
+            y = np.where(r.valid, x * scale, np.nan)
+            return pyramid(float(time[0]), 1.0 / r.rate, len(y), lambda s: y[s])
+
+        return self.cache.get(("drawn", name, unit, flight, effects), make)  # type: ignore[return-value]
+
+    def _stretch(self, name: str, unit: str, flight: int, e: Effect) -> Pyramid:
+        """The part of a long flight for which an effect's signature is known."""
+        if unit in ("inline", "cross"):
+            raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
+        r = self.fitted.flown[flight].observation.record
+        x = e.volts if name == "effect" else self.volts("residual", flight)[e.rows] - e.volts
+        y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / self.fitted.k_ggi), np.nan)
+        return pyramid(float(r.time[e.rows.start]), 1.0 / r.rate, len(y), lambda s: y[s])
+
+    def series(self, name: str, flight: int, effects: tuple[str, ...] = ()) -> Array:
+        """(N,) V of any series: ``effect``, ``left`` (the residual without them), ``term:h:p``, or one of volts."""
+        if name == "effect":
+            return self.effect(effects, flight).volts
+        if name == "left":
+            return self.volts("residual", flight) - self.effect(effects, flight).volts
+        if name.startswith("term:"):
+            _, harmonic, product = name.split(":", 2)
+            return self.term(harmonic, product, flight)
+        return self.volts(name, flight)
+
+    def channel(self, name: str, flight: int) -> Pyramid:
+        """A recorded channel in its own unit."""
+        r = self.fitted.flown[flight].observation.record
+        if name not in r.wide:
+            raise UserError("the flight has no such channel", found=repr(name[:40]))
+        y = np.where(r.valid, r.wide[name], np.nan)
+        made = lambda: pyramid(float(r.time[0]), 1.0 / r.rate, len(y), lambda s: y[s])  # noqa: E731
+        return self.cache.get(("channel", name, flight), made)  # type: ignore[return-value]
+
+
+def _pyramid_of_gaps(time: Array, x: Array, step: float) -> Pyramid:
+    """Of a series on a uniform grid some of whose samples are missing: NaN there."""
+    places = np.round((time - time[0]) / step).astype(np.intp)
+    y = np.full(int(places[-1]) + 1, np.nan)
+    y[places] = x
+    return pyramid(float(time[0]), step, len(y), lambda s: y[s])

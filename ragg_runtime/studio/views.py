@@ -1,0 +1,378 @@
+"""What the page shows, as JSON: results in the words and digits of the reports. No figure is computed here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.score import Error, finite
+from ragg_runtime.flight.glance import Glance
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.model.model import Effect
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.report import diagnose_page, panels, parameters
+from ragg_runtime.report.parameters import Piece, Row, Symbol
+from ragg_runtime.studio import maths
+from ragg_runtime.studio.pyramid import Pyramid
+from ragg_runtime.studio.session import State, branches
+from ragg_runtime.wording import numbers
+from ragg_runtime.workflow.loop import errors_of
+
+Json = dict[str, Any]
+
+
+def overview(s: State, status: Mapping[str, object], version: str) -> Json:
+    """Everything small, in one answer."""
+    return {
+        "status": dict(status),
+        "version": version,
+        "model": None if s.loaded is None else _model(s),
+        "flights": _flights(s),
+        "banner": _banner(s),
+        "effects": [] if s.diagnosed is None else effects(s.diagnosed),
+        "silent": [] if s.diagnosed is None else _silent(s.diagnosed),
+        "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
+        "next_motion": [] if s.diagnosed is None else [_motion(p) for p in s.diagnosed.next_motion],
+        "parameters": None if s.compared is None else _parameters(s.compared),
+        "sheet": None if s.loaded is None else _sheet(s.loaded.instrument, s.compared),
+        "history": None if s.loaded is None else _history(s.loaded.directory.history),
+        "beside": None if s.beside is None else _beside(*s.beside),
+        "trial": None if s.trial is None else _trial(s),
+        "before": s.previous is not None and s.compared is not None,
+    }
+
+
+def _model(s: State) -> Json:
+    m = s.model
+    return {
+        "name": m.name,
+        "path": str(m.directory.path),
+        "notes": list(m.notes),
+        "effects": [_about(e) for e in m.model.effects],
+        "spin_Hz": m.instrument.spin_frequency,
+    }
+
+
+def _about(e: Effect) -> Json:
+    return {
+        "id": e.id,
+        "title": numbers.clean(e.title),
+        "physics": numbers.clean(e.physics),
+        "source": numbers.clean(e.source),
+        "limits": numbers.clean(e.limits),
+        "equation": maths.mathml(e.equation, block=True),
+        "channels": list(e.channels),
+        "parameters": [
+            {
+                "symbol": maths.mathml(q.latex),
+                "unit": numbers.unit(q.unit),
+                "meaning": numbers.clean(q.meaning),
+            }
+            for q in e.parameters
+        ],
+    }
+
+
+def _flights(s: State) -> list[Json]:
+    if not s.flights:
+        return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
+    return [
+        {
+            "name": numbers.clean(x.name),
+            "path": str(p),
+            "samples": len(x),
+            "valid": int(x.valid.sum()),
+            "rate_Hz": x.rate,
+            "start_s": 0.0,  # figures count from the first sample
+            "duration_s": x.duration,
+            "notes": [numbers.clean(n) for n in x.notes],
+            "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
+            "outputs": list(x.outputs),
+            "cuts": [list(c) for c in cuts],
+        }
+        for x, p, cuts in zip(s.flights, s.paths, s.cuts, strict=True)
+    ]
+
+
+def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
+    """What is known of a flight at a first look."""
+    found = look[0]
+    n = len(found.values)
+    return {
+        "name": numbers.clean(found.name),
+        "path": str(path),
+        "samples": n,
+        "valid": n,
+        "rate_Hz": 1.0 / found.step,
+        "start_s": found.start,
+        "duration_s": n * found.step,
+        "notes": [],
+        "channels": [],
+        "outputs": ["G_out"],
+        "glanced": True,
+    }
+
+
+def error(e: Error) -> Json:
+    """The error object, as numbers and as text."""
+    return {"json": e.as_json(), "rms_Eo": finite(e.rms_Eo), "text": numbers.number(e.rms_Eo)}
+
+
+def _banner(s: State) -> Json | None:
+    c, d = s.compared, s.diagnosed
+    if c is None:
+        return None
+    state = "wait" if d is None else {"adequate": "good", "missing-effect": "found"}.get(d.verdict, "bad")
+    converged = c.as_json().get("converged")
+    return {
+        "state": state,
+        "verdict": None if d is None else d.verdict,
+        "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
+        "lead": [] if d is None else diagnose_page.lead(d),
+        "errors": [
+            {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
+            {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},
+            {
+                "label": "held out",
+                **error(c.holdout),
+                "about": "fitted on half of the blocks of time, scored on the rest",
+            },
+        ],
+        "noise": {"rms_Eo": c.noise_floor, "text": numbers.number(c.noise_floor)},
+        "converged": converged if isinstance(converged, bool) else None,
+        "adequate": c.adequate,
+        "k_ggi": c.fitted.k_ggi,
+        "kind": c.fitted.observations[0].kind,
+        "table": [
+            panels.error_row("nominal", c.nominal),
+            panels.error_row("calibrated", c.calibrated),
+            panels.error_row("held out", c.holdout),
+            panels.noise_row(c.fitted, c.noise_floor),
+        ],
+        "facts": panels.facts(c.fitted),
+    }
+
+
+def effects(d: Diagnosis) -> list[Json]:
+    """The ranking, best first, each with what the catalogue says of it."""
+    found = []
+    for row, r in zip(diagnose_page.ranking(d), d.ranking, strict=True):
+        e = d.fitted.model.effect(r.effect)
+        values = row["fitted"]
+        probability = r.as_json().get("probability")
+        found.append(
+            {
+                **({} if e is None else _about(e)),
+                "id": r.effect,
+                "found": row["found"],
+                "significant": row["significant"],
+                "p": row["p"],
+                "evidence": finite(-r.log_p / math.log(10.0)),
+                "probability": probability if isinstance(probability, float) else None,
+                "delta_bic": row["delta_bic"],
+                "after_Eo": finite(r.after.rms_Eo),
+                "holdout_Eo": finite(r.after_holdout.rms_Eo),
+                "testable": r.rank > 0 and r.effect in _linear(d),
+                "values": []
+                if values is None
+                else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
+                "twins": row["twins"],
+            }
+        )
+    return found
+
+
+def _linear(d: Diagnosis) -> set[str]:
+    """Effects whose columns are in the triangles, so that what they would do can be foreseen."""
+    return {e.id for e in d.fitted.model.candidates if e.kind in ("deterministic", "step")}
+
+
+def _silent(d: Diagnosis) -> list[Json]:
+    found = []
+    for n in d.not_testable:
+        e = d.fitted.model.effect(n.effect)
+        found.append({**({} if e is None else _about(e)), "id": n.effect, "why": numbers.clean(n.why)})
+    return found
+
+
+def _unexplained(d: Diagnosis) -> Json:
+    return {
+        "significant": d.remainder.significant,
+        "share": numbers.percent(d.remainder_share),
+        "p": numbers.probability(d.remainder.log_p),
+        "terms": [
+            {**shown, "harmonic": t["harmonic"], "product": t["term"], "how": t["how"]}
+            for shown, t in zip(panels.terms(d.terms(), d.after.rms_Eo), d.terms(), strict=True)
+        ],
+        "expression": d.expression(),
+        "needs": d.needs(),
+    }
+
+
+def _motion(p: Any) -> Json:
+    return {**p.as_json(), "words": numbers.clean(p.in_words())}
+
+
+def _symbol(s: Symbol) -> Json:
+    return {"pieces": [list(p) for p in s.pieces], "name": s.name, "meaning": numbers.clean(s.meaning)}
+
+
+def _rows(rows: Sequence[Row]) -> list[Json]:
+    return [
+        {
+            "symbol": _symbol(r.symbol),
+            "unit": r.unit,
+            "cells": [{"value": c.value, "nominal": c.nominal, "state": c.state} for c in r.cells],
+        }
+        for r in rows
+    ]
+
+
+def _piece(p: Piece) -> Json:
+    return {"sign": p.sign, "factor": p.factor, "pattern": p.pattern, "symbol": _symbol(p.symbol)}
+
+
+def _parameters(c: Comparison) -> Json:
+    f = c.fitted
+    v = parameters.visibility(f)
+    return {
+        "single": _rows(parameters.by_accelerometer(f)),
+        "combined": _rows(parameters.by_combination(f)),
+        "patterns": [name for name, _ in parameters.PATTERNS],
+        "determined": v.determined,
+        "total": v.total,
+        "unseen": [{"pattern": k, "symbols": [_symbol(s) for s in symbols]} for k, symbols in v.unseen],
+        "groups": [
+            {
+                "members": [_piece(p) for p in g.members],
+                "unseen": g.unseen,
+                "seen": [[_piece(p) for p in row] for row in g.seen],
+            }
+            for g in v.groups
+        ],
+        "correlations": _correlations(f),
+        "pull": [{"label": label, "sigma": sigma} for label, sigma in parameters.pulls(f, PULLED)],
+    }
+
+
+PULLED = 16
+"""Parameters whose pull is shown, the farthest from their sheet."""
+
+CORRELATED = 24
+"""Pairs of correlated parameters that are shown."""
+
+
+def _correlations(f: Fitted) -> list[Json]:
+    return [{"a": a, "b": b, "r": r} for a, b, r in parameters.correlations(f, CORRELATED)]
+
+
+def _sheet(i: Instrument, c: Comparison | None) -> list[Json]:
+    """The test sheet: value of each accelerometer in the display unit, and how far it may plausibly be off."""
+    known, rows = i.units, []
+    for q in PARAMETERS:
+        v = i.accelerometers[q.name]
+        shown = known.from_si(v, q.si_unit, q.display_unit)
+        off = known.from_si(q.plausible_si(v, i.g0), q.si_unit, q.display_unit)
+        rows.append(
+            {
+                "name": q.name,
+                "symbol": [list(p) for p in numbers.symbol(q.symbol)],
+                "meaning": q.description,
+                "unit": q.display_unit,
+                "values": [float(f"{x:.12g}") for x in shown],
+                "plausible": [float(f"{x:.4g}") for x in off],
+            }
+        )
+    return rows
+
+
+def _history(history: Sequence[Step]) -> Json:
+    past, future = branches(history)
+    return {
+        "steps": [
+            {
+                "n": n,
+                "action": s.action,
+                "effect": numbers.clean(s.effect),
+                "time": s.time,
+                "before": _rms(s.before, "calibrated"),
+                "after": _rms(s.after, "calibrated"),
+                "holdout": _rms(s.after, "holdout"),
+                "flights": sorted(s.flights),
+                "present": n in past,
+                "kept": bool(s.text),
+            }
+            for n, s in enumerate(history)
+        ],
+        "can_undo": len(past) > 1 and bool(history[past[-2]].text),
+        "can_redo": bool(future),
+    }
+
+
+def _rms(entry: Any, which: str) -> float | None:
+    value = entry.get(which) if isinstance(entry, Mapping) else None
+    found = value.get("rms_Eo") if isinstance(value, Mapping) else None
+    return float(found) if isinstance(found, int | float) else None
+
+
+def _beside(step: int, c: Comparison) -> Json:
+    return {
+        "step": step,
+        "effects": [e.id for e in c.fitted.model.effects],
+        "errors": errors_of(c),
+        "rms_Eo": c.calibrated.rms_Eo,
+        "holdout_Eo": c.holdout.rms_Eo,
+        "noise_Eo": c.noise_floor,
+        "adequate": c.adequate,
+    }
+
+
+def _trial(s: State) -> Json:
+    assert s.trial is not None
+    effect, add, units, a = s.trial
+    return {
+        "id": effect,
+        "add": add,
+        "units": dict(units),
+        "before_Eo": None if a.before is None else a.before.calibrated.rms_Eo,
+        "after_Eo": None if a.after is None else a.after.calibrated.rms_Eo,
+        "holdout_before_Eo": None if a.before is None else a.before.holdout.rms_Eo,
+        "holdout_Eo": None if a.after is None else a.after.holdout.rms_Eo,
+        "noise_Eo": None if a.after is None else a.after.noise_floor,
+        "adequate": a.after is not None and a.after.adequate,
+        "values": [
+            {
+                "name": p.name,
+                "of": f"A{p.accelerometer}" if p.accelerometer else "",
+                "text": numbers.with_unit(numbers.plus_minus(p.value, p.std), p.unit),
+            }
+            for p in (a.combinations or a.parameters)
+        ],
+    }
+
+
+def commands(s: State) -> list[str]:
+    """What does the same in a shell."""
+    import shlex
+
+    if s.loaded is None:
+        return []
+    model = shlex.quote(str(s.loaded.directory.path))
+    flights = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
+    found = [f"ragg history {model}"]
+    if s.paths:
+        found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
+        chosen = s.diagnosed.found if s.diagnosed is not None else ()
+        found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
+    cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
+    return [*cut, *found]
+
+
+def model_path(s: State) -> Path:
+    return s.model.directory.path

@@ -1,0 +1,259 @@
+"""What comes after a model, for the command line and for notebooks: calibrate, compare frozen, compensate, export."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation import calibrated as _calibrated
+from ragg_runtime.compensation import frozen as _frozen
+from ragg_runtime.compensation.calibrated import Calibrated
+from ragg_runtime.compensation.compensate import (
+    Compensated,
+    Kind,
+    meaning,
+    papers_only,
+    prepared,
+    without_gradients,
+)
+from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.compensation.output import writing
+from ragg_runtime.compensation.saved import Saved, with_another
+from ragg_runtime.compensation.series import Series
+from ragg_runtime.export.contents import Contents
+from ragg_runtime.export.document import json_files
+from ragg_runtime.export.folder import write_folder
+from ragg_runtime.export.numpy_folder import numpy_files
+from ragg_runtime.export.program import c_program
+from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.spool import settled
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.plausibility import examined
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.loop import Loaded
+
+
+@dataclass(frozen=True)
+class Kept:
+    """The result of ``calibrate``: the calibration, and the model directory as it is afterwards."""
+
+    loaded: Loaded
+    calibrated: Calibrated
+    saved: bool
+
+    def __repr__(self) -> str:
+        seen, of = self.calibrated.directions
+        return (
+            f"<calibration of {self.loaded.name}: {self.calibrated.error.rms_Eo:.4g} Eo rms, "
+            f"{seen} of {of} directions seen>"
+        )
+
+    def _repr_html_(self) -> str:
+        return notebook.calibration(self.as_json(), [o.name for o in self.calibrated.fitted.observations])
+
+    def as_json(self) -> dict[str, Any]:
+        return self.calibrated.as_json() | {"saved": self.saved}
+
+
+def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False) -> Kept:
+    """Fit the model's parameters to flights; ``save`` keeps them in the model directory, the older ones as history."""
+    c = _calibrated.calibrated(m.model, m.instrument, flights)
+    return Kept(loaded=_saved(m, c, flights) if save else m, calibrated=c, saved=save)
+
+
+def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight]) -> Loaded:
+    d = m.directory
+    new = _calibrated.to_save(c, flights, datetime.now(UTC).isoformat(timespec="seconds"))
+    digests = MappingProxyType(dict(new.flights))
+    step = Step(action="calibrate", time=new.time, after=new.error, flights=digests)
+    directory = replace_model_dir(
+        d,
+        d.text,
+        generated=_code(d),
+        history=(*d.history, step),
+        calibration=with_another(d.calibration, new, str(d.path / CALIBRATION)),
+    )
+    return Loaded(directory, m.model, m.notes)
+
+
+def _code(d: ModelDir) -> Any:
+    """The code of a model directory, unchanged if it is what is derived for it, else derived anew."""
+    if d.generated is not None and derive.departure(d.instrument, d.generated) is None:
+        return d.generated
+    return derive.files_of(d.instrument)
+
+
+def saved_calibration(m: Loaded) -> Saved:
+    """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
+    return _frozen.in_force(m.directory, m.model)
+
+
+def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
+    """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
+
+
+@dataclass(frozen=True)
+class Compensation:
+    """The result of ``compensate``.
+
+    ``series`` holds columns (name -> (N,), in the units of :data:`~ragg_runtime.compensation.output.UNITS`) of every
+    flight, unless they went to a file.
+    """
+
+    name: str
+    result: Mapping[str, Any]
+    series: tuple[Mapping[str, NDArray[Any]], ...]
+
+    def __repr__(self) -> str:
+        flights = ", ".join(x["flight"] for x in self.result["flights"])
+        return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
+
+    def _repr_html_(self) -> str:
+        return notebook.compensation(self.as_json())
+
+    def as_json(self) -> dict[str, Any]:
+        return dict(self.result)
+
+
+def compensate(
+    m: Loaded,
+    flights: Sequence[Flight],
+    calibration: Kind = "self",
+    demodulator: str = "fir",
+    output: Path | None = None,
+) -> Compensation:
+    """The gravity gradient as the instrument saw it: everything removed that the model explains, demodulated.
+
+    Parameters
+    ----------
+    calibration
+        ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
+        others; ``frozen``: as ``calibrate(..., save=True)`` kept them.
+    demodulator
+        ``fir``, ``butterworth`` or ``causal``.
+    output
+        A file for the series; without one they are in the result.
+    """
+    saved = saved_calibration(m) if calibration == "frozen" else None
+    p = prepared(m.model, m.instrument, flights, calibration, saved)
+    each = [Compensated(p, k, demodulator) for k in range(len(p.flights))]
+    kept: list[Mapping[str, NDArray[Any]]] = []
+    with contextlib.ExitStack() as stack:
+        several = len(each) > 1
+        samples = sum(len(x.time) for x in p.flights)
+        write = None if output is None else stack.enter_context(writing(output, samples, several=several))
+        for k, x in enumerate(each):
+            parts = []
+            for part in x.segments():
+                rows = columns(part, x.flight, k + 1)
+                if write is None:
+                    parts.append(rows)
+                else:
+                    write(rows)
+            if write is None:
+                kept.append(
+                    {n: np.concatenate([r[n] for r in parts]) for n in parts[0] if several or n != "flight"}
+                )
+    d = each[0].demodulator
+    result = {
+        "calibration": calibration,
+        "converged": p.converged,
+        "effects": [e.id for e in m.model.effects],
+        "demodulator": {
+            "name": d.name,
+            "what": d.description,
+            "latency_s": d.latency,
+            "bandwidth_Hz": d.bandwidth,
+        },
+        "flights": [x.as_json() for x in each],
+        "quality": meaning(),
+    }
+    if saved is not None:
+        result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+    return Compensation(name=m.name, result=result, series=tuple(kept))
+
+
+def contents(m: Loaded) -> Contents:
+    """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
+    papers_only(m.instrument)
+    saved, origin = None, "values of model.toml, not calibrated"
+    if m.directory.calibration is not None:
+        try:
+            saved = saved_calibration(m)
+            origin = f"calibrated {saved.time} on {', '.join(saved.flights)}"
+        except UserError as error:
+            origin = f"values of model.toml: {error.what}"
+    folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    return Contents(
+        name=m.name,
+        model=m.model,
+        instrument=m.instrument,
+        p=vector(m.model, m.instrument) if saved is None else saved.p,
+        sources=folded or derive.plain_c(m.instrument),
+        module=_chain(m),
+        origin=origin,
+        information=None if saved is None else _frozen.information(saved, m.model, m.instrument),
+        calibration=None if saved is None else saved.as_json(),
+    )
+
+
+def _chain(m: Loaded) -> str:
+    """The text of the chain in NumPy."""
+    files = derive.files_of(m.instrument)
+    return (
+        files["chain.py"] if files else resources.files("generated").joinpath("chain.py").read_text("utf-8")
+    )
+
+
+def export(m: Loaded, folder: Path, form: str) -> list[Path]:
+    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    if form not in FORMS:
+        raise UserError("there is no such form of an export", found=repr(form), expected=", ".join(FORMS))
+    return write_folder(folder, FORMS[form](contents(m)))
+
+
+FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
+    {"c": c_program, "numpy": numpy_files, "json": json_files}
+)
+"""Form of an export -> its files."""
+
+
+def columns(part: Series, flight: Flight, number: int) -> dict[str, NDArray[Any]]:
+    """The columns of the output of one segment."""
+    return {
+        "time": np.array(flight.time[part.rows]),
+        "inline": part.gradient.real,
+        "cross": part.gradient.imag,
+        "inline_std": part.std[0],
+        "cross_std": part.std[1],
+        "quality": part.quality,
+        "flight": np.full(len(part.quality), number, dtype=np.int64),
+    }
+
+
+def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
+    """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
+    found = []
+    for path in paths:
+        flight = without_gradients(read_flight(path, m.instrument.g0))
+        found.append(settled(examined(m.model, m.instrument, flight)))
+    return found
+
+
+def calibration_notes(m: Loaded) -> list[str]:
+    """What is odd about the calibration that is kept."""
+    return _frozen.notes(saved_calibration(m), m.model, m.directory)

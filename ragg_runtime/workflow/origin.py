@@ -1,0 +1,38 @@
+"""Where a result comes from: what makes it again, and what was done to what it was made of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.model_dir.provenance import provenance
+from ragg_runtime.workflow.loop import Loaded
+
+
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
+    has changed.
+    """
+    made = provenance(
+        command,
+        m.directory,
+        flights,
+        m.model.digest,
+        files=files,
+        before=None if before is None else before.directory,
+    )
+    return {"notes": notes(m, flights), "provenance": made}
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]

@@ -1,0 +1,1 @@
+"""Layouts for the tests, as a user writes them."""

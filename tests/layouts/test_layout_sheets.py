@@ -1,0 +1,110 @@
+"""[[disc]] in model.toml: read, written, and refused with one message that says what is wrong."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.instrument import layout as layouts
+from ragg_runtime.instrument.edit_toml import model_text
+from ragg_runtime.instrument.layout import scale
+from ragg_runtime.instrument.read_toml import parse_instrument
+from tests.layouts import sheets
+from tests.layouts.test_layouts_physics import LAYOUTS, instrument
+
+FOUR = sheets.sheet([sheets.disc("A", sheets.four("A", "G_out"))], 4)
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_written_and_read_again(name: str) -> None:
+    i = instrument(name, sheets.FULL)
+    again = parse_instrument(model_text(i))
+    assert again.layout.names == i.layout.names
+    assert again.layout.output_names == i.layout.output_names
+    assert again.layout.like_paper == i.layout.like_paper
+    for a, b in zip(again.layout.places, i.layout.places, strict=True):
+        assert (a.disc, a.sign, a.output) == (b.disc, b.sign, b.output)
+        assert [a.angle, a.radius, a.height, *a.direction] == pytest.approx(
+            [b.angle, b.radius, b.height, *b.direction]
+        )
+    for p, q in zip(again.layout.discs, i.layout.discs, strict=True):
+        assert [*p.axis, *p.zero] == pytest.approx([*q.axis, *q.zero], abs=1e-15)
+    for parameter, values in i.accelerometers.items():
+        assert np.array_equal(again.accelerometers[parameter], values)
+
+
+def test_the_papers_four_written_as_discs_are_the_papers_instrument() -> None:
+    i = parse_instrument(FOUR)
+    assert i.layout.like_paper
+    assert i.g0 == 9.8
+    k = i.accelerometers
+    plain = layouts.paper(0.1, 0.25)
+    k1, R = k["k_VI"] * k["K1"], i.radii + k["dR"]
+    assert scale(i.layout.outputs[0], k1, R) == scale(plain.outputs[0], k1, R) == float(np.sum(k1 * R))
+
+
+def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerometers() -> None:
+    text = sheets.sheet(sheets.complements(), 8)
+    i = parse_instrument(text)
+    assert i.accelerometers["k_VI"].shape == (8,)
+    shorter = re.sub(r"K0 = \{ value = \[[^,]*, ", "K0 = { value = [", text)
+    with pytest.raises(UserError) as told:
+        parse_instrument(shorter)
+    assert "7 values" in told.value.message
+    assert "one number, or 8 (A1 ... A8)" in told.value.message
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('name = "A2"', 'name = "A1"', "two of the same name"),
+        ("sign = 1", "sign = 2", "sign must be 1 or -1"),
+        ("sign = 1", "sign = true", "sign must be 1 or -1"),
+        ('angle = "0.0 deg"', "angle = 90", "unit"),
+        ('angle = "0.0 deg"\n', "", "angle is missing"),
+        ('output = "G_out"\n', "", "output is missing"),
+        ('output = "G_out"', 'output = ""', "output must be a word"),
+        ('radius = "0.1 m"\n', "", "radius is missing"),
+        ('radius = "0.1 m"', 'radius = "-0.1 m"', "out of range"),
+        ('radius = "0.1 m"', 'radius = "0.1 s"', "dimension"),
+        ('spin_frequency = "0.25 Hz"\n', "", "spin_frequency is missing"),
+        ("axis = [0, 0, 1]", "axis = [0, 0, 0]", "axis is no direction"),
+        ("axis = [0, 0, 1]", "axis = [0, 1]", "axis is no direction"),
+        ("axis = [0, 0, 1]", "axis = [0, 0, nan]", "axis is no direction"),
+        ("axis = [0, 0, 1]", "axis = [0, 0, 1]\nzero = [0, 0, 2]", "zero must not lie along the axis"),
+        ("axis = [0, 0, 1]", "axes = [0, 0, 1]", "did you mean 'axis'"),
+        ('output = "G_out"', 'output = "V_A2"', "has the name of a voltage"),
+        ('g0 = "9.8 m/s^2"', 'g0 = "9.8 g"', "g0 defines it"),
+        ('spin_frequency = "0.25 Hz"', 'spin_frequency = "0.25 Hz"\ng0 = "9.81 m/s^2"', "g0 is given twice"),
+    ],
+)
+def test_refused(old: str, new: str, words: str) -> None:
+    assert old in FOUR
+    with pytest.raises(UserError, match=re.escape(words)):
+        parse_instrument(FOUR.replace(old, new, 1))
+
+
+def test_an_output_across_discs_is_refused() -> None:
+    discs = [sheets.disc(n, [sheets.accelerometer(f"{n}1", 0.0, 1)]) for n in "AB"]
+    with pytest.raises(UserError, match="accelerometers of several discs"):
+        parse_instrument(sheets.sheet(discs, 2))
+
+
+def test_gain_and_phase_of_a_complement_turned_by_an_eighth() -> None:
+    i = parse_instrument(sheets.sheet(sheets.complements(), 8))
+    k1, R = np.ones(8), np.full(8, 0.1)
+    first, second = (layouts.gain(o, k1, R) for o in i.layout.outputs)
+    assert first == pytest.approx(0.4)
+    assert second == pytest.approx(0.4j)
+
+
+def test_harmonics_see_the_papers_combinations() -> None:
+    found = dict(layouts.PAPER.outputs[0].patterns)
+    assert found["cos 1"] == (1.0, -1.0, 0.0, 0.0)
+    assert np.abs(found["sin 1"]).tolist() == [0.0, 0.0, 1.0, 1.0]
+    assert found["cos 2"] == (1.0, 1.0, 1.0, 1.0)
+    assert found["const"] == (1.0, 1.0, -1.0, -1.0)
+    assert len(found) == 4

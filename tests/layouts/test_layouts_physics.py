@@ -1,0 +1,98 @@
+"""Derived models of other layouts against the numerical reference, which shares no equation with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.evaluate import EOTVOS, output, scale_factor, vector
+from ragg_runtime.model.record import record
+from ragg_runtime.model_dir import derive
+from ragg_runtime.reference import simulate
+from ragg_runtime.reference.scenario import draw_gradient, draw_motion
+from ragg_runtime.reference.turning import Turning
+from tests.layouts import sheets
+
+LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
+    "two": (sheets.two, 2),
+    "three": (sheets.three, 3),
+    "complements": (sheets.complements, 8),
+    "umbrella": (sheets.umbrella, 12),
+    "odd": (sheets.odd, 4),
+}
+
+
+def instrument(name: str, head: str = "", size: float = 1.0) -> Instrument:
+    discs, count = LAYOUTS[name]
+    return parse_instrument(sheets.sheet(discs(), count, head, size=size))
+
+
+def flown(
+    i: Instrument, kinematics: str, rotations: str, turning: dict[str, Turning] | None = None
+) -> Flight:
+    exact = rotations == "exact"
+    s = simulate(
+        i,
+        draw_motion(np.random.default_rng(3), 60.0),
+        60.0,
+        16.0,
+        gravity=draw_gradient(np.random.default_rng(4)),
+        rotations="exact" if exact else "first-order",
+        kinematics="full" if kinematics == "full" else "platform",
+        effects={} if exact else {"second-order-misalignment": {"kappa": 0.0}},
+        turning=turning,
+    )
+    return s.flight(voltages=True)
+
+
+def worst(i: Instrument, flight: Flight) -> float:
+    """Largest difference of any output, Eo."""
+    model, _ = derive.derived((), (), i.form, i.layout)
+    p = vector(model, i)
+    found = []
+    for k, o in enumerate(i.layout.outputs):
+        r = record(flight, i, k)
+        left = flight.outputs[o.name] - output(model.chain, r, p, o)
+        inner = slice(20, -20)  # the rate of a recorded angle is smoothed
+        found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
+    return max(found)
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+@pytest.mark.parametrize(("head", "kinematics", "rotations"), [
+    ("", "platform", "first-order"),
+    (sheets.FULL, "full", "first-order"),
+    (sheets.EXACT, "full", "exact"),
+])  # fmt: skip
+def test_derived_agrees_with_reference(name: str, head: str, kinematics: str, rotations: str) -> None:
+    i = instrument(name, head)
+    flight = flown(i, kinematics, rotations)
+    size = max(float(np.std(flight.outputs[n])) for n in i.layout.output_names)
+    gap = worst(i, flight)
+    assert gap < 1e-4, gap  # rounding of a single accelerometer's volt is 1e-6 Eo and more
+    assert size / (i.scale_factor * EOTVOS) > 1e3
+
+
+SWINGING = Turning(0.25, ((0.4, 0.05, 0.3), (0.02, 0.25, 1.0)))
+"""A spin rate that swings by half, and with the turn."""
+
+TO_AND_FRO = Turning(0.0, ((9.0, 0.02, 0.0),))
+"""One and a half turns to and fro in 50 s."""
+
+
+@pytest.mark.parametrize("turning", [SWINGING, TO_AND_FRO], ids=["swinging", "to and fro"])
+def test_spin_that_varies_or_reverses(turning: Turning) -> None:
+    i = instrument("complements")
+    assert worst(i, flown(i, "platform", "first-order", {"A": turning})) < 1e-4
+
+
+def test_discs_with_angles_of_their_own() -> None:
+    i = instrument("umbrella")
+    flight = flown(i, "platform", "first-order", {"A": SWINGING, "C": TO_AND_FRO})
+    assert {"spin_angle_A", "spin_angle_C"} <= set(flight.channels)
+    assert worst(i, flight) < 1e-4

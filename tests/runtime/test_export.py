@@ -1,0 +1,261 @@
+"""`ragg export`: a calibrated, extended model elsewhere: the same G_out, from a C17 compiler or NumPy and nothing else."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import read_flight, write_flight
+from ragg_runtime.model.evaluate import output, scale_factor, vector
+from ragg_runtime.model.record import record
+from ragg_runtime.workflow import after, loop
+from tests.runtime.flown_twice import files, flights, new_model, run
+
+Array = NDArray[np.float64]
+
+STRICT = (
+    "CFLAGS=-std=c17 -O1 -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -pedantic "
+    "-fsanitize=undefined,address -fno-sanitize-recover=all"
+)
+
+
+def make(folder: Path, *arguments: str) -> str:
+    done = subprocess.run(["make", "-C", folder, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def program(folder: Path, motion: bytes) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run([folder / "ragg_model"], input=motion, capture_output=True, check=False)
+
+
+def answer(text: bytes) -> tuple[Array, Array]:
+    lines = text.decode().splitlines()
+    assert lines[0] == "time,G_out"
+    rows = np.array([[float(x) for x in line.split(",")] for line in lines[1:]])
+    return rows[:, 0], rows[:, 1]
+
+
+@pytest.fixture(scope="module")
+def base(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
+    """A calibrated model, its program, and a flight as CSV in SI."""
+    folder = tmp_path_factory.mktemp("base")
+    model, (one, _) = new_model(folder), files(folder)
+    run("calibrate", model, one, "--save")
+    run("export", model, folder / "c", "--c")
+    assert "largest difference" in make(folder / "c", STRICT, "check")
+    write_flight(flights()[0], folder / "one.csv")
+    return model, folder / "c", folder / "one.csv"
+
+
+@pytest.fixture(scope="module")
+def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
+    """The same with a lag, which needs derivatives of the motion, and an effect of the temperature."""
+    folder = tmp_path_factory.mktemp("extended")
+    model = new_model(folder)
+    text = (model / "model.toml").read_text()
+    values = (
+        'effects = [{ id = "lag", tau = { value = [1e-8, 0, 2e-8, 0], unit = "s" } }, '
+        '{ id = "thermal-scale", dK1_dT = { value = [0, 0, 2e-4, 0], unit = "1/K" } }]'
+    )
+    assert "effects = []" in text
+    (folder / "extended.toml").write_text(text.replace("effects = []", values))
+    run("new", folder / "e", "--from", folder / "extended.toml")
+    run("export", folder / "e", folder / "c", "--c")
+    make(folder / "c", STRICT, "check")
+    write_flight(flights()[0], folder / "one.csv")
+    return folder / "e", folder / "c", folder / "one.csv"
+
+
+def expected(model: Path, flight: Path) -> tuple[Array, float]:
+    m = loop.load(model)
+    p = after.contents(m).p
+    x = read_flight(flight, m.instrument.g0)
+    return output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model.chain, p)
+
+
+@pytest.mark.parametrize("which", ["base", "extended"])
+def test_the_program_gives_what_python_gives(which: str, request: pytest.FixtureRequest) -> None:
+    model, folder, flight = request.getfixturevalue(which)
+    time, G = answer(program(folder, flight.read_bytes()).stdout)
+    found, k_ggi = expected(model, flight)
+    assert len(G) == len(found)
+    assert np.max(np.abs(G - found)) / k_ggi < 1e-6
+    assert np.std(G) / k_ggi > 1e4
+    if which == "extended":
+        assert np.max(np.abs(G - found)) / k_ggi < 1e-9
+    assert time[1] == flights()[0].time[1]
+
+
+def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> None:
+    model, folder, _ = base
+    m = loop.load(model)
+    saved = after.saved_calibration(m)
+    assert not np.array_equal(saved.p, vector(m.model, m.instrument))
+    told = subprocess.run(
+        [folder / "ragg_model", "--values"], capture_output=True, text=True, check=True
+    ).stdout
+    assert [float(line.split()[2]) for line in told.splitlines()] == saved.p.tolist()
+    assert "K1[1] = " in told
+    assert "calibrated" in (folder / "values.h").read_text()
+
+
+@pytest.mark.parametrize("which", ["base", "extended"])
+def test_angular_acceleration_is_derived_where_it_is_missing(
+    which: str, request: pytest.FixtureRequest
+) -> None:
+    model, folder, flight = request.getfixturevalue(which)
+    lines = flight.read_text().splitlines()
+    names = lines[0].split(",")
+    keep = [k for k, n in enumerate(names) if not n.startswith(("omegadot", "Gamma"))]
+    bare = flight.with_name("bare.csv")
+    bare.write_text("\r\n".join(",".join(line.split(",")[k] for k in keep) for line in lines) + "\r\n")
+    _, G = answer(program(folder, bare.read_bytes()).stdout)
+    found, k_ggi = expected(model, bare)
+    assert np.max(np.abs(G - found)) / k_ggi < 1e-6
+
+
+def test_missing_values_and_gaps(extended: tuple[Path, Path, Path]) -> None:
+    _, folder, flight = extended
+    lines = flight.read_text().splitlines()
+    whole = answer(program(folder, flight.read_bytes()).stdout)[1]
+    cells = lines[101].split(",")
+    cells[1] = ""
+    rows = [*lines[:101], ",".join(cells), *lines[102:300], *lines[400:]]
+    _, G = answer(program(folder, ("\ufeff# a note\n\n" + "\n".join(rows)).encode()).stdout)
+    assert np.isnan(G[100])
+    assert np.isfinite(np.delete(G, 100)).all()
+    assert np.array_equal(G[:80], whole[:80])
+    # after the gap the derivatives begin anew
+    assert np.max(np.abs(G[312:] - whole[412:])) < 1e-9 * np.std(whole)
+
+
+def header(flight: Path) -> list[str]:
+    return flight.read_text().splitlines()[:40]
+
+
+BAD = {
+    "a_x [m/s^2]": ("a_x [g]", "a_x: the column is not in SI units"),
+    "omega_y [rad/s]": ("omega_y [deg/h]", "omega_y: the column is not in SI units"),
+    "a_z [m/s^2]": ("a_zz [m/s^2]", "a_z: the column is missing"),
+    "time [s]": ("time [ms]", "time: the column is not in SI units"),
+    "a_y [m/s^2]": ("a_y", "a_y: the column has no unit"),
+    "omega_x [rad/s]": ("a_x [m/s^2]", "a_x: the column stands there twice"),
+}
+
+
+@pytest.mark.parametrize("what", sorted(BAD))
+def test_a_wrong_header_is_one_message(what: str, base: tuple[Path, Path, Path]) -> None:
+    _, folder, flight = base
+    lines = header(flight)
+    wrong, message = BAD[what]
+    assert what in lines[0]
+    done = program(folder, "\n".join([lines[0].replace(what, wrong), *lines[1:]]).encode())
+    assert done.returncode == 2
+    assert done.stdout == b""
+    said = done.stderr.decode()
+    assert message in said
+    assert said.count("ragg_model:") == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (b"", "the record is empty"),
+        (b"\xff\xfe\x00\x01", "missing"),
+        (b"[" * 5000, "missing"),
+        (b"," * 5000, "too many columns"),
+    ],
+)
+def test_what_is_no_table_is_one_message(text: bytes, message: str, base: tuple[Path, Path, Path]) -> None:
+    done = program(base[1], text)
+    assert done.returncode == 2
+    assert message in done.stderr.decode()
+
+
+def test_rows_that_are_no_numbers(base: tuple[Path, Path, Path]) -> None:
+    _, folder, flight = base
+    lines = header(flight)
+    done = program(folder, "\n".join([*lines[:3], "x" + lines[3]]).encode())
+    assert (done.returncode, b"row 3 after the header, column time" in done.stderr) == (2, True)
+    done = program(folder, "\n".join([*lines[:3], "1,2"]).encode())
+    assert (done.returncode, b"wrong number of values" in done.stderr) == (2, True)
+    done = program(folder, lines[0].encode())
+    assert (done.returncode, b"no rows" in done.stderr) == (2, True)
+
+
+def test_units_may_be_spelled_as_people_do(base: tuple[Path, Path, Path]) -> None:
+    _, folder, flight = base
+    lines = header(flight)
+    other = lines[0].replace("m/s^2", "m/s2").replace("s^-2", "1/s^2").replace(",", " ; ")
+    text = "\n".join([other, *(line.replace(",", ";") for line in lines[1:])])
+    assert program(folder, text.encode()).stdout == program(folder, "\n".join(lines).encode()).stdout != b""
+
+
+def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path: Path) -> None:
+    model, _, flight = extended
+    run("export", model, tmp_path / "n", "--numpy")
+    command = [sys.executable, "-I", "-c", _ALONE, str(tmp_path / "n")]
+    short = "\n".join(flight.read_text().splitlines()[:2000])
+    done = subprocess.run(command, input=short, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    _, G = answer(done.stdout.encode())
+    found, k_ggi = expected(model, flight)
+    assert (
+        np.max(np.abs(G[:1900] - found[:1900])) / k_ggi < 1e-6
+    )  # the derivative at the cut's end is another
+
+
+_ALONE = """
+import runpy, sys
+folder = sys.argv[1]
+sys.path.insert(0, folder)
+class Only:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in ("scipy", "pandas", "sympy", "ragg_runtime", "derive", "generated"):
+            raise ImportError(name)
+sys.meta_path.insert(0, Only())
+runpy.run_path(folder + "/ragg_model.py", run_name="__main__")
+"""
+
+
+def test_the_document_holds_everything(extended: tuple[Path, Path, Path], tmp_path: Path) -> None:
+    model, _, _ = extended
+    run("export", model, tmp_path / "j", "--json")
+    d = json.loads((tmp_path / "j" / "model.json").read_text())
+    assert [e["id"] for e in d["effects"]] == ["lag", "thermal-scale"]
+    p = np.concatenate([q["values"] for q in d["parameters"]])
+    m = loop.load(model)
+    assert np.array_equal(p, vector(m.model, m.instrument))
+    assert all(q["unit"] and q["meaning"] for q in d["parameters"])
+    assert len(d["example"]["G_out"]) == len(d["example"]["columns"]["time"])
+    before = (tmp_path / "j" / "model.json").read_bytes()
+    run("export", model, tmp_path / "j", "--json")  # over its own
+    assert (tmp_path / "j" / "model.json").read_bytes() == before
+
+
+def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path], tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine")
+    with pytest.raises(UserError, match="not empty"):
+        after.export(loop.load(base[0]), tmp_path, "c")
+    assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
+    with pytest.raises(UserError, match="no such form"):
+        after.export(loop.load(base[0]), tmp_path / "x", "fortran")
+
+
+def test_a_calibration_of_another_model_is_not_exported(
+    base: tuple[Path, Path, Path], tmp_path: Path
+) -> None:
+    model, _, _ = base
+    copy = new_model(tmp_path)
+    text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
+    (copy / "calibration.json").write_text(text)
+    told = run("export", copy, tmp_path / "c", "--c")
+    assert "values of model.toml: the saved calibration is of another model" in told

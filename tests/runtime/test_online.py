@@ -1,0 +1,175 @@
+"""The recursive form: the batch fit sample by sample, in Python and in C, following what drifts."""
+
+from __future__ import annotations
+
+import dataclasses
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ragg_runtime.compensation.recursive import UNKNOWN_EO, Online, Tuning
+from ragg_runtime.export.online import table
+from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.model import model as load
+from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.workflow import after, loop
+from tests.runtime.flown_twice import files, new_model, run
+from tests.runtime.test_export import STRICT, make
+
+Array = NDArray[np.float64]
+
+RATE, DENSITY = 16.0, 2.0
+
+
+@cache
+def flown(duration: float = 450.0, gradient: float = 0.0) -> tuple[Scenario, Observation]:
+    s = scenario(5, duration=duration, gradient_rms=gradient * 1e-9)
+    return s, observe(s.simulate({}).flight(), s.sheet)
+
+
+def noise(s: Scenario) -> float:
+    """Of a sample of G_out, V: white, of the density of the scenario in the cross channel (see eotvos_noise)."""
+    return DENSITY / np.sqrt(2) * s.sheet.scale_factor * 1e-9 * np.sqrt(RATE / 2)
+
+
+def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
+    s, o = flown()
+    f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s)))
+    rows = f._rows(o)
+    n = len(f.columns)
+    prior = np.zeros((n + 2, n + 3))
+    prior[:n, :n] = np.eye(n)
+    prior[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
+    batch = np.linalg.qr(np.vstack([prior, rows]), mode="r")
+    x = np.linalg.solve(batch[:-1, :-1], batch[:-1, -1])
+    for size in (777, 4000):  # in parts of any length
+        f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s)))
+        for start in range(0, len(o.record.time), size):
+            f.feed(o.part(slice(start, min(start + size, len(o.record.time)))))
+        found = np.linalg.solve(f.R[:, :-1], f.R[:, -1])
+        assert (
+            np.linalg.norm(batch[:-1, :-1] @ (found - x)) < 1e-3
+        )  # in standard deviations: eps times a dynamic of 1e11
+    p, root = f.parameters()
+    assert np.max(np.abs(p[f.index] - f.p[f.index] - found[:n] * f.scale) / f.scale) < 1e-9
+    # the information of the parameters is what is left whatever the gradient may be
+    std, whole = (np.linalg.norm(np.linalg.inv(R), axis=1) for R in (root, batch[:-1, :-1]))
+    assert std == pytest.approx(whole[:n], rel=1e-4)
+
+
+def test_the_gradient_is_followed_within_its_uncertainty() -> None:
+    s, o = flown(900.0, 30.0)
+    size = 2 * np.pi / 150.0 * 30.0 * np.sqrt(2)  # Eo/s: the largest slope of the terms that were drawn
+    f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=1.5))
+    got = f.feed(o)
+    c = s.simulate({}).flight().channels
+    true = np.interp(got.time, o.record.time, (c["Gamma_xx"] - c["Gamma_yy"]) / 1e-9)
+    late = got.time > 400
+    error = (got.inline - true)[late]
+    assert np.std(error) < 2.0 * np.mean(got.inline_std[late]) + size
+    assert abs(np.mean(error)) < 3.0
+
+
+def test_a_drift_is_followed_with_the_stated_lag() -> None:
+    """A scale factor that grows steadily: what the filter believes lags by the time constant of its memory."""
+    s, o = flown(1200.0)
+    forget, rate = 100.0, 1e-8  # s; of A1's own, a second
+    model = load.packaged()
+    filters = [Online(model, s.sheet, Tuning(noise=noise(s), walk=0.3, forget=forget)) for _ in range(2)]
+    rows = filters[0]._rows(o)
+    k = next(n for n, q in enumerate(filters[0].columns) if q.label == "K1[1]")
+    step = rate * s.sheet.accelerometers["K1"][0] / filters[0].columns[k].scale  # scales a second
+    drift = o.record.time * step * rows[:, k] * noise(s)
+    filters[0].feed(o)
+    filters[1].feed(dataclasses.replace(o, series=(o.series[0] + drift,)))
+    a, b = (np.linalg.solve(f.R[:, :-1], f.R[:, -1]) for f in filters)
+    believed = rows[-1600:, :-1] @ (b - a)
+    true = rows[-1600:, k]
+    size = float(believed @ true / (true @ true))  # scales of K1[1]
+    lag = o.record.time[-1] - size / step
+    assert lag == pytest.approx(forget, rel=0.25)
+
+
+def test_gaps_and_missing_samples_are_passed_over() -> None:
+    s, o = flown()
+    r = o.record
+    G = o.series[0].copy()
+    G[100:110] = np.nan
+    valid = r.valid.copy()
+    valid[100:110] = valid[2000:4000] = False
+    holed = dataclasses.replace(o, record=dataclasses.replace(r, valid=valid), series=(G,))
+    f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=0.5))
+    got = f.feed(holed)
+    assert np.isfinite(got.inline).all()
+    inside, ahead = (np.searchsorted(got.time, r.time[i]) for i in (3999, 1999))
+    assert got.inline_std[inside] > 3 * got.inline_std[ahead]  # it wanders meanwhile
+    whole = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=0.5)).feed(o)
+    last = np.abs(got.inline[-1] - whole.inline[-1]) / whole.inline_std[-1]
+    assert last < 3
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
+    folder = tmp_path_factory.mktemp("online")
+    model, (one, two) = new_model(folder), files(folder)
+    run("calibrate", model, one, "--save")
+    run("export", model, folder / "c", "--c")
+    make(folder / "c", STRICT, "ragg_online")
+    return model, folder / "c", two
+
+
+@pytest.mark.parametrize("walk", [0.0, 1.0])
+def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Path]) -> None:
+    model, folder, two = exported
+    m = loop.load(model)
+    x = after.read_for_compensation(m, [two])[0].part(slice(0, 3000))
+    o = observe(x, m.instrument)
+    valid = o.record.valid.copy()
+    valid[500:700] = False
+    o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid))
+    c = after.contents(m)
+    inputs = o.record.inputs(m.model.chain)
+    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
+    columns["G_out"] = np.where(valid, o.series[0], np.nan)
+    sigma, forget = 4 * c.scale_factor, 60.0
+    done = subprocess.run(
+        [folder / "ragg_online", f"{sigma:.17g}", str(walk), str(forget)],
+        input=table(columns), capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    found = np.array([[float(y) for y in line.split(",")] for line in lines[1:] if line[0] != "#"])
+    f = Online(m.model, m.instrument, Tuning(noise=sigma, walk=walk, forget=forget), c.p, c.information)
+    got = f.feed(o)
+    assert np.array_equal(found[:, 0], got.time)
+    assert np.max(np.abs(found[:, 1] - got.inline) / got.inline_std) < 1e-4
+    assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
+    assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
+    p = np.array([float(line[2:]) for line in lines if line[0] == "#"])
+    assert np.max(np.abs(p - f.parameters()[0])[f.index] / f.scale) < 1e-4
+
+
+def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> None:
+    """A million samples leave a finite filter that still knows what it knew."""
+    model, folder, two = exported
+    m = loop.load(model)
+    x = after.read_for_compensation(m, [two])[0].part(
+        slice(0, 2048)
+    )  # 32 turns of the disc: it goes on where it began
+    o = observe(x, m.instrument)
+    inputs = o.record.inputs(m.model.chain)
+    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
+    make(folder, "CFLAGS=-std=c17 -O3", "-B", "ragg_online")
+    sigma = 4 * after.contents(m).scale_factor
+    done = subprocess.run(
+        [folder / "ragg_online", f"{sigma:.17g}", "1", "300", "100"],
+        input=table(columns | {"G_out": o.series[0]}), capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    p = np.array([float(line[2:]) for line in done.stdout.splitlines()])
+    f = Online(m.model, m.instrument, Tuning(noise=sigma))
+    assert np.max(np.abs(p - f.nominal)[f.index] / f.scale) < 6
+    assert "microseconds a sample" in done.stderr

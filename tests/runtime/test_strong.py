@@ -1,0 +1,151 @@
+"""Strong effects: the calibration arrives, the right effect is named, and what has not arrived says so."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ragg_runtime.workflow.loop as ragg
+from ragg_runtime.cli.terminal import added as added_text
+from ragg_runtime.diagnosis import strong
+from ragg_runtime.diagnosis.comparison import compare
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit import calibrate
+from ragg_runtime.flight import Flight
+from ragg_runtime.model import model as load
+from ragg_runtime.model_dir import derive as extend
+from ragg_runtime.reference.scenario import Scenario, scenario
+
+G0 = 9.8
+
+
+def diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
+    def extended(m: load.Model, ids: Sequence[str], /, *, candidates: bool = False) -> load.Model:
+        return extend.with_effects(s.sheet, m, ids, candidates=candidates)
+
+    return diagnose(load.packaged(), s.sheet, [flight], extended)
+
+
+STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
+    "time-offset": ({"time-offset": {"delta_t": 8e-4}}, {"time-offset"}),
+    "gain-drift": ({"gain-drift": {"dK1_dt": [1e-9, -1e-9, 5e-10, 0]}}, {"gain-drift"}),
+    "gain-step": ({"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 350.0}}, {"gain-step"}),
+    "unequal pair": (
+        {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}, "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}},
+        {"thermal-scale", "cubic-input"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(STRONG))
+def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
+    hidden, right = STRONG[name]
+    s = scenario(57, duration=600.0)
+    run = s.simulate(hidden)
+    d = diagnosed(s, run.flight())
+    assert d.staged
+    assert d.converged
+    assert (d.verdict, set(d.found)) == ("missing-effect", right)
+    assert [r.effect for r in d.ranking[: len(right)]] == list(d.found)
+    truth = np.std(run.G_out - run.G_out_noise_free) / d.target.k_ggi
+    assert d.before.rms_Eo > 20 * truth
+    assert d.after.rms_Eo == pytest.approx(truth, rel=0.02)
+    assert d.noise_floor == pytest.approx(truth, rel=0.03)
+
+
+@pytest.mark.parametrize("name", sorted(STRONG))
+def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str) -> None:
+    s = scenario(57, duration=600.0)
+    c = compare(load.packaged(), s.sheet, [s.simulate(STRONG[name][0]).flight()])
+    assert c.converged
+    assert not c.adequate
+    assert c.calibrated.rms_Eo < c.nominal.rms_Eo
+    # however the fit is weighted, and wherever it begins, there is no lower point
+    task = calibrate._Task.of(c.fitted.model, c.fitted.instrument, c.fitted.observations)
+    plain = calibrate._Plain(task)
+    rng = np.random.default_rng(1)
+    for start in (np.zeros(len(task.index)), rng.standard_normal(len(task.index))):
+        for share in (0.3, 0.1):
+            x = plain.fit(start, share * c.calibrated.rms_V).x
+            assert c.calibrated.rms_V < 1.01 * plain.left(x)
+
+
+def sheet_of_a_mems(s: Scenario) -> dict[str, Any]:
+    arcsec = np.pi / 180 / 3600
+    angles = dict.fromkeys(("beta_x", "beta_z", "vartheta_y", "vartheta_z"), 1800 * arcsec)
+    squares = dict.fromkeys(("K2", "K4", "K5", "K6", "K7", "K8"), 1e-3 / G0)
+    return {"dR": 5e-4, "K0": 1e-3 * G0, "K1": 1e-2 * 1e-2 / G0} | angles | squares
+
+
+@pytest.mark.parametrize("density", [2e-9, 1e-5])
+def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(density: float) -> None:
+    s = scenario(1, duration=600.0, noise_density=density)
+    rng = np.random.default_rng(77)
+    sigmas = sheet_of_a_mems(s)
+    a = s.sheet.accelerometers
+    true = s.sheet.replace(**{k: a[k] + v * rng.standard_normal(4) for k, v in sigmas.items()})
+    sheet = dataclasses.replace(
+        s.sheet, sigmas=MappingProxyType({k: np.full(4, v) for k, v in sigmas.items()})
+    )
+    run = dataclasses.replace(s, instrument=true).simulate()
+    c = compare(load.packaged(), sheet, [run.flight()])
+    truth = np.std(run.G_out - run.G_out_noise_free) / c.fitted.k_ggi
+    assert c.nominal.rms_Eo > 1e3 * truth
+    assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
+    assert c.noise_floor == pytest.approx(truth, rel=0.03)
+    assert c.converged
+    assert c.adequate
+    assert c.off_sheet == ()  # by the sheet's own word
+
+
+def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
+    s = scenario(3, duration=600.0)
+    K1 = s.instrument.accelerometers["K1"] * np.array([1.0, 1.04, 1.0, 1.0])
+    c = compare(
+        load.packaged(),
+        s.sheet,
+        [dataclasses.replace(s, instrument=s.instrument.replace(K1=K1)).simulate().flight()],
+    )
+    worst = c.off_sheet[0]
+    assert worst.name == "K1"
+    assert "sigma off its sheet" in worst.in_words()
+    assert c.calibrated.rms_Eo < 1.05 * c.noise_floor
+    assert c.as_json()["off_sheet"]
+
+
+@pytest.fixture
+def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = calibrate.minimise
+
+    def stopped(*arguments: Any) -> Any:
+        return dataclasses.replace(found(*arguments), converged=False, reason="it was stopped")
+
+    monkeypatch.setattr(calibrate, "minimise", stopped)
+
+
+def test_what_has_not_converged_says_so_and_adds_nothing(tmp_path: Path, never_arrives: None) -> None:
+    m = ragg.new(tmp_path / "m")
+    s = scenario(5, duration=600.0)
+    flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
+    c, d = ragg.compare(m, [flight]), ragg.diagnose(m, [flight])
+    for result in (c.as_json(), d.as_json()):
+        assert result["converged"] is False
+        assert "not converged: it was stopped" in str(result["reason"])
+    assert not c.adequate
+    assert (d.verdict, d.found) == ("unexplained", ())
+    before = {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()}
+    added = ragg.add(m, "cubic-input", [flight])
+    assert added.as_json()["converged"] is False
+    assert "was NOT added" in added_text(added)
+    assert {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()} == before
+
+
+def test_strong_is_beyond_what_a_linearisation_tells() -> None:
+    assert strong.STRONG >= 30**2

@@ -1,0 +1,56 @@
+"""Lines of one file in a survey: each is a flight of its own, told apart by name, read by the survey's mapping."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ragg_runtime.flight.files import write_tables
+from ragg_runtime.flight.source import Column, Written
+from ragg_runtime.survey import journal
+from ragg_runtime.survey.task import divided, examine, expanded, job
+from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
+
+MAPPING = '[time]\ncolumn = "T"\nunit = "s"\n[columns]\n'
+
+
+def made(tmp_path: Path) -> tuple[Path, str, Path]:
+    """Two simulated flights as lines of one XYZ file under other names; the mapping; model.toml."""
+    m = loop.new(tmp_path / "model")
+    tables, entries = [], []
+    for seed in (1, 2):
+        x = simulated(m.instrument, [], seed=seed, duration=120.0, rate=16.0)
+        columns = {**x.channels, **x.outputs}
+        names = {n: f"C{k}" for k, n in enumerate(columns)}
+        entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]
+        rows = [(Column("T", ""), np.asarray(x.time))]
+        rows += [(Column(names[n], ""), np.asarray(v)) for n, v in columns.items()]
+        tables.append(Written(rows, str(10 * seed)))
+    write_tables(tmp_path / "s.xyz", lambda: tables)
+    return tmp_path / "s.xyz", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
+
+
+def test_lines_are_flights(tmp_path: Path) -> None:
+    path, text, toml = made(tmp_path)
+    given = job(toml.read_text(), toml, mapping=(text, "mapping.toml", False))
+    files = expanded(given, [str(path), str(tmp_path / "none.csv")])
+    assert files == [f"{path}::10", f"{path}::20", str(tmp_path / "none.csv")]
+    assert divided(files[0]) == (path, "10")
+    record = examine(given, files[1])
+    assert record["flight"] == "s.xyz::20"
+    assert record["verdict"] == "adequate"
+    assert record["sha256"] == journal.sha256(Path(files[1])) == journal.sha256(path)
+    assert "several lines" in examine(given, str(path))["error"]["message"]
+    assert "no unit" in examine(job(toml.read_text(), toml), files[0])["error"]["message"]
+
+
+def test_a_results_file_of_another_mapping_is_refused(tmp_path: Path) -> None:
+    _, text, toml = made(tmp_path)
+    plain, mapped = (job(toml.read_text(), toml, mapping=x) for x in (None, (text, "m.toml", False)))
+    assert "mapping" not in journal.head(plain)
+    assert (
+        journal.head(mapped)["mapping"]
+        != journal.head(job(toml.read_text(), toml, mapping=("", "m", True)))["mapping"]
+    )

@@ -1,0 +1,113 @@
+"""The trust region finds minima, never goes up, and says whether it has arrived."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy import optimize
+
+from ragg_runtime.fit.square_root import with_prior
+from ragg_runtime.fit.trust_region import SETTLED, VALLEY, Linear, minimise, settled
+
+Array = NDArray[np.float64]
+Residual = Callable[[Array], Array]
+
+
+def problem(residual: Residual, costs: list[float]) -> Callable[[Array], Linear]:
+    """A sum of squares as a linearised problem about a point, its Jacobian by differences."""
+
+    def linearise(x: Array) -> Linear:
+        r = residual(x)
+        J = np.stack([(residual(x + h) - residual(x - h)) / 2e-6 for h in 1e-6 * np.eye(len(x))], axis=1)
+        T = np.linalg.qr(np.column_stack([J, -r]), mode="r")
+        costs.append(float(r @ r))
+        n = len(x)
+        return Linear(T[:n, :n], T[:n, n], float(r @ r) - float(T[:n, n] @ T[:n, n]))
+
+    return linearise
+
+
+def rosenbrock(x: Array) -> Array:
+    return 30.0 * np.array([100.0 * (x[1] - x[0] ** 2), 1.0 - x[0], 0.3])
+
+
+def powell(x: Array) -> Array:
+    """Powell's badly scaled function, with a prior that keeps it regular."""
+    return np.array([1e4 * x[0] * x[1] - 1.0, np.exp(-x[0]) + np.exp(-x[1]) - 1.0001, *(1e-3 * x)])
+
+
+@pytest.mark.parametrize(
+    ("residual", "start"),
+    [(rosenbrock, [-1.2, 1.0]), (rosenbrock, [8.0, -5.0]), (powell, [0.5, 1.0])],
+)
+def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(
+    residual: Residual, start: list[float]
+) -> None:
+    costs: list[float] = []
+    found = minimise(problem(residual, costs), np.array(start), most=400)
+    best = min(
+        float(2 * optimize.least_squares(residual, start, method=m, max_nfev=2000).cost)
+        for m in ("lm", "trf")
+    )
+    assert found.converged
+    assert found.at.cost <= best + VALLEY
+    assert found.at.cost <= costs[0]
+
+
+def test_the_step_within_a_radius_is_the_best_of_its_length() -> None:
+    rng = np.random.default_rng(4)
+    R = np.triu(rng.standard_normal((6, 6))) * np.logspace(0, -4, 6)[:, None]
+    at = Linear(R, rng.standard_normal(6), 1.0)
+    free = at.within(np.inf)
+    np.testing.assert_allclose(R @ free, at.y, rtol=1e-6)
+    assert at.promised(free) == pytest.approx(at.decrement)
+    for radius in np.linalg.norm(free) * np.array([0.9, 0.1, 1e-4]):
+        step = at.within(float(radius))
+        assert np.linalg.norm(step) == pytest.approx(radius, rel=1e-4)
+        for _ in range(200):
+            other = step + 0.05 * radius * rng.standard_normal(6)
+            other *= radius / np.linalg.norm(other)
+            assert at.promised(other) <= at.promised(step) * (1 + 1e-6)
+
+
+def test_a_rise_that_was_promised_as_a_fall_is_not_settled() -> None:
+    """What ended fits far from their optimum: a step that gains less than nothing counted as the last."""
+
+    def wall(x: Array) -> Array:
+        return np.array([10.0 - x[0] + 3.0 * np.maximum(x[0] - 1.0, 0.0) ** 2, 0.1 * x[0]])
+
+    costs: list[float] = []
+    found = minimise(problem(wall, costs), np.zeros(1))
+    best = optimize.minimize_scalar(
+        lambda x: float(np.sum(wall(np.array([x])) ** 2)), bounds=(0, 3), method="bounded"
+    )
+    assert found.converged
+    assert found.at.cost == pytest.approx(float(best.fun), abs=2 * SETTLED)
+    assert max(costs) > costs[0]  # it was tried, and refused
+
+
+def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
+    def liar(x: Array) -> Linear:
+        return Linear(np.eye(2), np.array([5.0, 0.0]), float(np.sum(np.abs(x))))
+
+    found = minimise(liar, np.zeros(2))
+    assert not found.converged
+    assert "however small" in found.reason
+    assert not settled(found.at)
+
+
+def test_a_point_where_the_model_has_no_output_is_left_alone() -> None:
+    def edge(x: Array) -> Linear:
+        r = np.sqrt(1.0 - x[0]) if x[0] < 1.0 else np.inf
+        if not np.isfinite(r):
+            return Linear(np.eye(1), np.zeros(1), np.inf)
+        slope = np.array([[-0.5 / r]])
+        T = with_prior(np.array([[slope[0, 0], -r], [0.0, 0.0]]), [0], 0.0 - x)
+        return Linear(T[:1, :1], T[:1, 1], float(T[1, 1] ** 2))
+
+    found = minimise(edge, np.zeros(1))
+    assert np.isfinite(found.at.cost)
+    assert found.x[0] < 1.0

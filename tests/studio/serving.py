@@ -1,0 +1,95 @@
+"""The real command, started as a user starts it, for tests that talk to it."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import httpx
+
+from ragg_runtime.workflow import loop
+
+DEMO = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
+PATIENCE = 120.0  # s; a busy machine is no failure
+
+
+@dataclass
+class Served:
+    """A server: its address with the token, and the process."""
+
+    address: str
+    process: subprocess.Popen[str]
+
+    @property
+    def origin(self) -> str:
+        return self.address.split("/?")[0]
+
+    @property
+    def port(self) -> int:
+        return int(self.origin.rsplit(":", 1)[1])
+
+    @contextmanager
+    def client(self) -> Iterator[httpx.Client]:
+        """One that has exchanged the token for the cookie."""
+        with httpx.Client(base_url=self.origin, timeout=PATIENCE, headers={"origin": self.origin}) as c:
+            assert c.get(self.address.removeprefix(self.origin)).status_code == 303
+            yield c
+
+
+def new(model: Path) -> None:
+    """The instrument that the shipped flight was made with: the example's sheet, with the kinematics of Eq. 9."""
+    text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+    sheet = model.with_name("sheet.toml")
+    sheet.write_text(re.sub(r"\[model\]\n(?:[^\[\n].*\n|\n)*", "", text), "utf-8")
+    loop.new(model, sheet)
+
+
+def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "ragg_runtime", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@contextmanager
+def served(*arguments: object) -> Iterator[Served]:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "ragg_runtime", "studio", *map(str, arguments), "--no-browser"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+    )
+    assert process.stdout is not None
+    assert process.stderr is not None
+    try:
+        line = process.stdout.readline()
+        assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}\n", line), process.stderr.read()
+        yield Served(line.strip(), process)
+    finally:
+        process.terminate()
+        process.wait(10)
+        process.stdout.close()
+        process.stderr.close()
+
+
+def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
+    """The state once nothing is being worked on."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        state: dict[str, Any] = client.get("/api/state").json()
+        if not state["status"]["job"] and (state["effects"] or not diagnosed or state["status"]["error"]):
+            return state
+        time.sleep(0.05)
+    raise AssertionError("the server does not come to an end")

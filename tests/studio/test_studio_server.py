@@ -1,0 +1,345 @@
+"""The studio's server: who may ask it, what it touches, and what becomes of a model directory that several change."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+
+import httpx
+import numpy as np
+import pytest
+from serving import DEMO, Served, new, ragg, served, settled
+
+from ragg_runtime.model_dir.directory import load_model_dir
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("open")
+
+
+@pytest.fixture(scope="module")
+def server(folder: Path) -> Iterator[Served]:
+    model = folder / "model"
+    new(model)
+    flight = folder / "demo-flight.parquet"
+    flight.write_bytes(DEMO.read_bytes())
+    with served(model, flight) as s:
+        yield s
+
+
+@pytest.fixture(scope="module")
+def client(server: Served) -> Iterator[httpx.Client]:
+    with server.client() as c:
+        yield c
+
+
+def raw(port: int, text: str) -> str:
+    """What comes back for bytes that no well-behaved client would send."""
+    with socket.create_connection(("127.0.0.1", port), timeout=30) as s:
+        s.sendall(text.replace("\n", "\r\n").encode("latin-1"))
+        found = b""
+        while part := s.recv(65536):
+            found += part
+    return found.decode("latin-1")
+
+
+def test_the_token_serves_once_and_the_cookie_keeps_to_its_site(tmp_path: Path) -> None:
+    with served("--port", 0) as s, httpx.Client(base_url=s.origin) as c:
+        path = s.address.removeprefix(s.origin)
+        assert c.get("/?token=" + "x" * 43).status_code == 403
+        first = c.get(path)
+        assert first.status_code == 303
+        assert first.headers["location"] == "/"
+        cookie = first.headers["set-cookie"]
+        assert "HttpOnly" in cookie
+        assert "SameSite=strict" in cookie
+        page = c.get("/")
+        assert page.status_code == 200
+        assert "token" not in page.text
+        with httpx.Client(base_url=s.origin) as other:
+            assert other.get(path).status_code == 403
+            assert other.get("/api/state").status_code == 403
+        s.process.send_signal(signal.SIGINT)
+        assert s.process.wait(20) in (0, 130)
+
+
+def test_it_listens_to_this_machine_alone(server: Served) -> None:
+    ports = [line.split() for line in Path("/proc/net/tcp").read_text().splitlines()[1:]]
+    listening = [row[1] for row in ports if row[3] == "0A" and int(row[1].split(":")[1], 16) == server.port]
+    assert [struct.pack("<I", int(x.split(":")[0], 16)) for x in listening] == [b"\x7f\x00\x00\x01"]
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "127.0.0.1.evil:{port}", ""]
+)
+def test_a_name_that_is_made_to_point_here_is_refused(
+    server: Served, client: httpx.Client, host: str
+) -> None:
+    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
+    ask = f"GET /api/state HTTP/1.1\nHost: {host.format(port=server.port)}\nCookie: {cookie}\nConnection: close\n\n"
+    assert raw(server.port, ask).split()[1] in ("400", "421")
+
+
+def test_two_hosts_or_none_are_refused(server: Served, client: httpx.Client) -> None:
+    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
+    good = f"Host: 127.0.0.1:{server.port}\n"
+    for hosts in (good + "Host: evil.example\n", ""):
+        text = f"GET /api/state HTTP/1.1\n{hosts}Cookie: {cookie}\nConnection: close\n\n"
+        assert raw(server.port, text).split()[1] in ("400", "421")
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"origin": "http://evil.example"},
+        {"origin": "null"},
+        {"origin": ""},
+        {"origin": "http://127.0.0.1:1"},
+        {"sec-fetch-site": "cross-site"},
+        {"sec-fetch-site": "same-site"},
+    ],
+)
+def test_a_post_from_another_site_changes_nothing(
+    server: Served, client: httpx.Client, folder: Path, headers: dict[str, str]
+) -> None:
+    before = load_model_dir(folder / "model").digest
+    answer = client.post("/api/do/remove", json={"effect": "lag"}, headers=headers)
+    assert answer.status_code == 403
+    assert load_model_dir(folder / "model").digest == before
+
+
+def test_a_post_without_origin_or_as_a_form_is_refused(server: Served, client: httpx.Client) -> None:
+    with httpx.Client(base_url=server.origin, cookies=client.cookies) as c:
+        assert c.post("/api/do/undo", json={}).status_code == 403
+    assert client.post("/api/do/undo", data={"a": "b"}).status_code == 400
+    text = {"content-type": "text/plain"}
+    assert client.post("/api/do/undo", content="{}", headers=text).status_code == 400
+    assert client.get("/api/do/undo").status_code == 405
+
+
+def test_no_answer_may_be_framed_sniffed_or_run_code_from_elsewhere(client: httpx.Client) -> None:
+    for path in ("/", "/static/js/app.js", "/api/state", "/nothing"):
+        headers = client.get(path).headers
+        policy = headers["content-security-policy"]
+        assert "default-src 'none'" in policy
+        assert "script-src 'self'" in policy
+        assert "unsafe" not in policy
+        assert "frame-ancestors 'none'" in policy
+        assert headers["x-content-type-options"] == "nosniff"
+        assert headers["referrer-policy"] == "no-referrer"
+        assert "access-control-allow-origin" not in headers
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "/etc",
+        "/",
+        "..",
+        "{folder}/..",
+        "{folder}/model/../../..",
+        "{folder}/link",
+        "\0",
+        "~",
+        "/proc/self/root",
+    ],
+)
+def test_no_folder_beside_those_named_is_shown(client: httpx.Client, folder: Path, place: str) -> None:
+    if not (folder / "link").is_symlink():
+        (folder / "link").symlink_to("/etc")
+    answer = client.get("/api/folder", params={"place": place.format(folder=folder)})
+    assert answer.status_code == 400
+    assert "not open to the studio" in answer.json()["error"]["what"]
+
+
+def test_nothing_is_opened_made_or_served_from_elsewhere(
+    client: httpx.Client, folder: Path, server: Served
+) -> None:
+    for body in ({"model": "/etc"}, {"flights": ["/etc/passwd"]}, {"flights": [f"{folder}/link/passwd"]}):
+        assert client.post("/api/do/open", json=body).status_code == 400
+    assert client.post("/api/do/new", json={"model": f"{folder}/../stolen"}).status_code == 400
+    assert not (folder.parent / "stolen").exists()
+    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
+    for path in (
+        "/static/../serve.py",
+        "/static/%2e%2e/serve.py",
+        "/static/..%2fserve.py",
+        "/static//etc/passwd",
+    ):
+        ask = f"GET {path} HTTP/1.1\nHost: 127.0.0.1:{server.port}\nCookie: {cookie}\nConnection: close\n\n"
+        assert raw(server.port, ask).split()[1] in ("403", "404")
+
+
+def test_uploads_keep_to_their_folder_their_kinds_and_their_size(
+    client: httpx.Client, folder: Path, server: Served
+) -> None:
+    for name in ("x.exe", "", ".csv", "model.toml", "a" * 200 + ".csv", "..", "x.csv/.."):
+        assert client.post("/api/upload", params={"name": name}, content=b"x").status_code == 400, name
+    assert client.post("/api/upload", params={"name": "empty.csv"}, content=b"").status_code == 400
+    found = [
+        client.post("/api/upload", params={"name": name}, content=b"time [s]\n0\n").json()["path"]
+        for name in ("../../evil.csv", "..\\evil.csv", "evil.csv")
+    ]
+    inside = folder / "model" / "flights"
+    assert sorted(found) == sorted(str(inside / n) for n in ("evil.csv", "evil-2.csv", "evil-3.csv"))
+    assert sorted(p.name for p in inside.iterdir()) == ["evil-2.csv", "evil-3.csv", "evil.csv"]
+    cookie = "; ".join(f"{k}={v}" for k, v in client.cookies.items())
+    ask = (
+        f"POST /api/upload?name=big.csv HTTP/1.1\nHost: 127.0.0.1:{server.port}\nOrigin: {server.origin}\n"
+        f"Cookie: {cookie}\nContent-Length: 99999999999999\nConnection: close\n\nx"
+    )
+    assert raw(server.port, ask).split()[1] == "400"
+    assert not (inside / "big.csv").exists()
+
+
+def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
+    head = {"content-type": "application/json"}
+    assert client.post("/api/do/edit", content=b"[" * 2_000_000, headers=head).status_code == 413
+    for text in (b"[", b"[" * 50_000, b"3", b'{"effects": 3}', b'{"effects": [3]}', b"\xff"):
+        assert client.post("/api/do/add", content=text, headers=head).status_code == 400
+    assert client.post("/api/do/restore", json={"step": True}).status_code == 400
+    assert client.post("/api/do/unheard-of", json={}).status_code == 400
+
+
+@pytest.mark.parametrize(
+    "add",
+    [
+        "__import__('os').system('true')",
+        "K_x*f_i**99",
+        "K_x.real",
+        "K_x*exp(exp(exp(f_i)))*(",
+        "",
+        "K_x*" * 400,
+    ],
+)
+def test_a_hostile_expression_is_told_what_is_wrong(client: httpx.Client, folder: Path, add: str) -> None:
+    settled(client)
+    before = load_model_dir(folder / "model").digest
+    answer = client.post("/api/do/try", json={"id": "mine", "add": add, "units": {"K_x": "1"}})
+    assert answer.status_code == 400
+    assert "expression" in json.dumps(answer.json()) or "text is needed" in json.dumps(answer.json())
+    assert load_model_dir(folder / "model").digest == before
+
+
+def test_figures_of_strange_questions_are_refused_in_words(client: httpx.Client) -> None:
+    settled(client)
+    for question in ("series?flight=99", "series?what=nothing", "series?from=nan", "series?unit=ft", "heat?flight=-1",
+                     "spectrum?from=5&to=5", "series?what=channel:nothing", "series?what=term:cos%201:nothing",
+                     "take/nothing", "spectrogram?from=1&to=2"):  # fmt: skip
+        answer = client.get(f"/api/{question}")
+        assert answer.status_code == 400, question
+        assert answer.json()["error"]["what"]
+
+
+def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> None:
+    state = settled(client)
+    assert state["banner"]["verdict"] == "missing-effect"
+    assert state["effects"][0]["id"] == "thermal-scale"
+    preview = client.get("/api/preview", params={"effects": "thermal-scale"}).json()
+    assert preview["rms_Eo"] == pytest.approx(state["effects"][0]["after_Eo"], rel=1e-9)
+    assert preview["holdout_Eo"] == pytest.approx(state["effects"][0]["holdout_Eo"], rel=1e-9)
+    rms = {}
+    for what in ("residual", "left", "effect"):
+        data = client.get(
+            "/api/series", params={"what": what, "effects": "thermal-scale", "points": 20000}
+        ).content
+        mark, count, _, step, kind = struct.unpack_from("<4sIddI", data)
+        assert (mark, count, kind) == (b"RAGG", 11520, 0)
+        assert step == pytest.approx(1 / 16)
+        rms[what] = float(np.sqrt(np.mean(np.frombuffer(data[28:], "<f4").astype(float) ** 2)))
+    assert rms["residual"] == pytest.approx(state["banner"]["errors"][1]["rms_Eo"], rel=1e-5)
+    assert rms["left"] == pytest.approx(preview["rms_Eo"], rel=1e-5)
+    report = client.get("/api/take/diagnosis.html")
+    assert report.headers["content-disposition"].startswith("attachment")
+    assert "thermal-scale" in report.text
+
+
+def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
+    before = settled(client)["banner"]["errors"][1]["rms_Eo"]
+    for body in (
+        {"flight": 7, "from": 1, "to": 2},
+        {"flight": 0, "from": 2, "to": 1},
+        {"flight": 0, "from": -1, "to": 1e9},
+    ):
+        assert client.post("/api/do/leave", json=body).status_code == 400
+    assert client.post("/api/do/leave", json={"flight": 0, "from": 0.0, "to": 150.0}).status_code == 202
+    state = settled(client)
+    assert state["flights"][0]["valid"] == 11520 - 2401
+    assert state["banner"]["errors"][1]["rms_Eo"] != before
+    assert any("left out by hand" in line for line in state["commands"])
+    assert client.post("/api/do/leave", json={"flight": 0}).status_code == 202
+    assert settled(client)["banner"]["errors"][1]["rms_Eo"] == before
+
+
+def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
+    model, flight = tmp_path / "model", tmp_path / "flight.parquet"
+    flight.write_bytes(DEMO.read_bytes())
+    new(model)
+    with (
+        served(model, flight) as s,
+        s.client() as one,
+        httpx.Client(base_url=s.origin, cookies=one.cookies, headers=one.headers, timeout=60) as two,
+    ):
+        settled(one)
+        # a shell adds an effect while the page shows the old state: the page's change is refused, not laid over it
+        assert ragg("add", model, "bias-drift").returncode == 0
+        row = next(r for r in one.get("/api/state").json()["sheet"] if r["name"] == "K0")
+        change = {"values": {"K0": {"value": [1.0, 2.0, 3.0, 4.0], "unit": row["unit"]}}}
+        refused = two.post("/api/do/edit", json=change)
+        if refused.status_code != 202:
+            assert "meanwhile" in refused.json()["error"]["what"] or refused.status_code == 409
+        assert "bias-drift" in [e.id for e in load_model_dir(model).instrument.effects]
+        with one.stream("GET", "/api/events") as events:  # whoever listens makes the server look
+            for _ in events.iter_lines():
+                state = one.get("/api/state").json()
+                if [e["id"] for e in state["model"]["effects"]] == ["bias-drift"]:
+                    break
+        settled(one)
+        answers = [c.post("/api/do/edit", json=change) for c in (one, two)]
+        assert {a.status_code for a in answers} <= {202, 409}
+        settled(two)
+        assert one.post("/api/do/undo", json={}).status_code == 202
+        settled(one)
+    actions = [x.action for x in load_model_dir(model).history]
+    assert actions[:2] == ["new", "add"]
+    assert actions[-1] == "undo"
+
+
+def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
+    model, flight = tmp_path / "model", tmp_path / "flight.parquet"
+    flight.write_bytes(DEMO.read_bytes())
+    new(model)
+    with served(model, flight) as s, s.client() as c:
+        settled(c)
+        assert c.post("/api/do/add", json={"effects": ["thermal-scale"]}).status_code == 202
+        assert c.post("/api/do/add", json={"effects": ["lag"]}).status_code == 409
+        with c.stream("GET", "/api/events") as events:
+            for line in events.iter_lines():
+                if "deriving" in line:
+                    break
+        s.process.kill()
+        s.process.wait(10)
+    state = load_model_dir(model)
+    assert [e.id for e in state.instrument.effects] in ([], ["thermal-scale"])
+    assert len(state.history) == 1 + len(state.instrument.effects)
+    assert [p.name for p in tmp_path.iterdir() if p.name.startswith(".")] == []
+
+
+def test_work_is_cancelled_without_loss(tmp_path: Path) -> None:
+    model, flight = tmp_path / "model", tmp_path / "flight.parquet"
+    flight.write_bytes(DEMO.read_bytes())
+    new(model)
+    with served(model, flight) as s, s.client() as c:
+        settled(c)
+        before = load_model_dir(model).digest
+        c.post("/api/do/add", json={"effects": ["thermal-scale"]})
+        c.post("/api/do/cancel", json={})
+        state = settled(c)
+        if load_model_dir(model).digest == before:
+            assert "cancelled" in state["status"]["error"]["what"]
+            assert state["banner"]["verdict"] == "missing-effect"
