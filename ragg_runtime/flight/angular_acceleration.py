@@ -31,7 +31,7 @@ ROUGH = 1e-4
 """Error of a shorter window over the rms of the acceleration from which it is not relied upon. An unmatched instrument
 sees a tenth of the acceleration times its radius: of some 1e-3 rad/s^2 that is 1e-9 s^-2 times ten, about its noise."""
 
-NOISIER = 4.0
+NOISIER = 2.0
 """Noise of a shorter window over that of the long one up to which it is relied upon."""
 
 HEAD = 32768
