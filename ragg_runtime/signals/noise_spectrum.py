@@ -32,6 +32,9 @@ SMOOTH = 0.7
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
 
+LOOSE = 0.05
+"""How much a finer spline is held back where it is fine, over elsewhere."""
+
 FINE = 12
 """Intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it:
 what is left of a derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so
@@ -153,11 +156,14 @@ def _corrected(
     knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
     X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
     roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
-    penalty = 20.0 * roughness.T @ roughness + 2.0 * np.eye(X.shape[1])
-    b = np.zeros(X.shape[1])
+    b, held = np.zeros(X.shape[1]), np.ones(X.shape[1])
     if dense is not None:
-        # What asks for it may be steep by decades: little is held back, and the search begins near its end.
-        penalty = penalty / 20.0
+        # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
+        # few bins tell and a fit has taken some, are held to their base as ever.
+        centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
+        held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
+    penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
+    if dense is not None:  # the search begins near its end
         b = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
     for _ in range(50):
         ratio = p / (level * np.exp(X @ b))
