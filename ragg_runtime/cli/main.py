@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -36,6 +37,16 @@ _json = click.option(
 _report = click.option(
     "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
 )
+
+
+class _Finite(click.FloatRange):
+    """A number in a range: neither infinite nor none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        found = super().convert(value, param, ctx)
+        if not math.isfinite(found):
+            self.fail(f"{value!r} is no finite number", param, ctx)
+        return found
 
 
 class _Group(click.Group):
@@ -529,13 +540,13 @@ def history(model_dir: Path, json_file: str | None) -> None:
     help="Hide an effect in the flight; VALUE in the effect's units, four values joined by /.",
 )
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True)
-@click.option("--duration", type=click.FloatRange(1.0), default=1800.0, show_default=True, help="s")
-@click.option("--rate", type=click.FloatRange(1.0), default=16.0, show_default=True, help="Hz")
-@click.option("--noise", type=click.FloatRange(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
+@click.option("--duration", type=_Finite(1.0), default=1800.0, show_default=True, help="s")
+@click.option("--rate", type=_Finite(1.0), default=16.0, show_default=True, help="Hz")
+@click.option("--noise", type=_Finite(0.0), default=2.0, show_default=True, help="Eo/sqrt(Hz)")
 @click.option(
     "--shape", type=click.Choice(["flat", "dryden", "kolmogorov", "resonant"]), help="Spectrum of the motion."
 )
-@click.option("--sheet-error", type=click.FloatRange(0.0), default=1.0, show_default=True,
+@click.option("--sheet-error", type=_Finite(0.0), default=1.0, show_default=True,
               help="How far the true instrument lies from the test sheet (0: not at all).")  # fmt: skip
 @click.option(
     "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."

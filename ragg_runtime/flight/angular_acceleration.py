@@ -2,8 +2,8 @@
 
 Motion has power up to the Nyquist frequency, if little. A derivative that is wrong there by a percent is wrong by
 more than the noise of an instrument whose accelerometers are not matched, in a narrow band and beside every gap; so
-the window is long and the band wide. Where the upper part of the spectrum of the rate is flat it holds the noise
-of the gyroscope, which a derivative would raise in proportion to the frequency: there the band ends below.
+the window is long and the band wide. (A band that ends where the rate holds only the noise of the gyroscope would
+be quieter, but noise that falls by decades beside it gives the frequencies above it all the weight in a fit.)
 """
 
 from __future__ import annotations
@@ -24,20 +24,14 @@ Mask = NDArray[np.bool_]
 REACH = 64
 """Samples on either side that enter a derivative."""
 
-BANDS = (0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-"""Ends of the band, of the Nyquist frequency, from which one is chosen."""
-
-FALL = 0.12
-"""Width, of the Nyquist frequency, in which the response falls to zero beyond the band."""
-
-FLAT = 2.0
-"""Power over that of the flat top of the spectrum up to which it counts as noise: motion there is smaller than noise."""
+BAND = 0.9
+"""End of the band, of the Nyquist frequency."""
 
 ROUGH = 1e-4
 """Error of a shorter window over the rms of the acceleration from which it is not relied upon. An unmatched instrument
 sees a tenth of the acceleration times its radius: of some 1e-3 rad/s^2 that is 1e-9 s^-2 times ten, about its noise."""
 
-NOISIER = 4.0
+NOISIER = 2.0
 """Noise of a shorter window over that of the long one up to which it is relied upon."""
 
 HEAD = 32768
@@ -50,13 +44,10 @@ class Derivative:
 
     Attributes
     ----------
-    band
-        End of the band, of the Nyquist frequency.
     unsure
         Samples next to an end or a gap that are not relied upon (an eighth of a short run at most).
     """
 
-    band: float = BANDS[-1]
     unsure: int = 0
 
     def of(self, omega: Array, rate: float) -> tuple[Array, Mask]:
@@ -67,7 +58,7 @@ class Derivative:
             n = run.stop - run.start
             if n > 2 * REACH:
                 x = omega[run] - omega[run.start]
-                inner = ndimage.correlate1d(x, _wide(self.band), mode="nearest")[REACH : n - REACH]
+                inner = ndimage.correlate1d(x, _wide(), mode="nearest")[REACH : n - REACH]
                 result[run.start + REACH : run.stop - REACH] = inner * rate
             unsure = min(self.unsure, n // 8)
             sure[run.start + unsure : run.stop - unsure] = n > 1
@@ -75,9 +66,7 @@ class Derivative:
 
     @property
     def note(self) -> str:
-        text = f"omegadot_x, omegadot_y, omegadot_z are derived from omega, good to {100 * self.band:.0f} % of the Nyquist frequency"
-        if self.band < BANDS[-1]:
-            text += " (above it omega holds noise alone)"
+        text = f"omegadot_x, omegadot_y, omegadot_z are derived from omega, good to {100 * BAND:.0f} % of the Nyquist frequency"
         if self.unsure:
             text += f"; {self.unsure} samples next to an end or a gap, where they are poor, are not used"
         return text
@@ -91,28 +80,17 @@ def planned(omegas: Sequence[Array], rate: float) -> Derivative:
     if longest.stop - longest.start < 8 * REACH:
         return Derivative()
     series = [x[longest] - x[longest.start] for x in omegas]
-    found = [_band(x) for x in series]
-    band = max(b for b, _ in found)
-    return Derivative(band, max(_unsure(x, band, noise) for x, (_, noise) in zip(series, found, strict=True)))
+    return Derivative(max(_unsure(x) for x in series))
 
 
-def _band(x: Array) -> tuple[float, float]:
-    """The narrowest band above which the spectrum is flat, and the rms of noise that its top stands for."""
-    f, p = signal.welch(x, 2.0, window="hann", nperseg=min(256, len(x) // 4), detrend="constant")
-    floor = float(np.median(p[f > BANDS[-1]][:-1]))
-    above = f[p > FLAT * floor]
-    top = float(above[above < 0.99].max(initial=0.0))
-    return next((b for b in BANDS if b >= top), BANDS[-1]), float(np.sqrt(floor))
-
-
-def _unsure(x: Array, band: float, noise: float) -> int:
+def _unsure(x: Array) -> int:
     """Samples next to an end at which the short windows are not good enough, by what they do amidst the record."""
     n = len(x)
     inner = slice(REACH, n - REACH)
-    best = ndimage.correlate1d(x, _wide(band), mode="nearest")[inner]
-    limit = ROUGH * float(np.std(best))
-    if band < BANDS[-1]:
-        limit = max(limit, NOISIER * noise * float(np.linalg.norm(_wide(band))))
+    best = ndimage.correlate1d(x, _wide(), mode="nearest")[inner]
+    f, p = signal.welch(x, 2.0, window="hann", nperseg=min(256, n // 4), detrend="constant")
+    noise = np.sqrt(np.median(p[f > BAND][:-1]))
+    limit = max(ROUGH * float(np.std(best)), NOISIER * float(noise * np.linalg.norm(_wide())))
     for at in range(WINDOW // 2, -1, -1):
         short = ndimage.correlate1d(x, weights(WINDOW, at), mode="nearest", origin=at - WINDOW // 2)[inner]
         if np.sqrt(np.mean((short - best) ** 2)) > limit:
@@ -121,19 +99,15 @@ def _unsure(x: Array, band: float, noise: float) -> int:
 
 
 @cache
-def _wide(band: float) -> Array:
-    """Weights (2 REACH + 1,) of a derivative, per sample, up to ``band`` and of nothing above ``band + FALL``.
+def _wide() -> Array:
+    """Weights (2 REACH + 1,) of a derivative, per sample, at the middle one.
 
-    Least squares of the relative error below, of the response above, exact for polynomials up to the fourth degree.
+    Least squares of the relative error of the response in the band, exact for polynomials up to the fourth degree.
     """
     m = np.arange(1, REACH + 1)
-    theta = (np.arange(4000) + 0.5) / 4000 * np.pi
-    passed, stopped = theta <= band * np.pi, theta >= (band + FALL) * np.pi
-    weight = np.where(passed, 1 / np.maximum(theta, 0.05 * np.pi), np.where(stopped, 1.0, 0.0)) / np.sqrt(
-        4000
-    )
-    response = 2 * np.sin(np.outer(theta, m)) * weight[:, None]
-    wanted = np.where(passed, theta, 0.0) * weight
+    theta = (np.arange(4000) + 0.5) / 4000 * BAND * np.pi
+    scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))
+    response, wanted = 2 * np.sin(np.outer(theta, m)) * scale[:, None], theta * scale
     moments = 2 * np.stack([(m / REACH) ** d for d in (1, 3)])
     q, r = np.linalg.qr(moments.T, mode="complete")
     fixed = q[:, :2] @ np.linalg.solve(r[:2].T, np.array([1 / REACH, 0.0]))

@@ -12,6 +12,7 @@ from pathlib import Path
 import h5py
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.source import MOST_COLUMNS, too_many_columns
 
 MOST = 200_000
 """Objects of a file up to which it is looked through: a survey of 2,000 lines has some 30 columns in each."""
@@ -37,6 +38,7 @@ def leads_elsewhere(path: Path) -> str | None:
         seen: set[int] = set()
         while waiting:
             group, place = waiting.pop()
+            columns = 0
             for name in group:
                 here = f"{place}/{name.decode('utf-8', 'replace')}"
                 kind = group.links.get_info(name).type
@@ -54,6 +56,9 @@ def leads_elsewhere(path: Path) -> str | None:
                 if isinstance(thing, h5py.h5g.GroupID):
                     waiting.append((thing, here))
                 elif isinstance(thing, h5py.h5d.DatasetID):
+                    columns += 1
+                    if columns > MOST_COLUMNS:
+                        raise too_many_columns(path)
                     found = _stored_elsewhere(thing)
                     if found is not None:
                         return f"{here} {found}"

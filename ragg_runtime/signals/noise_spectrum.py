@@ -32,6 +32,9 @@ SMOOTH = 0.7
 KNOTS = 9
 """Coefficients of the log-spectrum: enough for red, white and a broad resonance, too few for a line."""
 
+LOOSE = 0.05
+"""How much a finer spline is held back where it is fine, over elsewhere."""
+
 FINE = 12
 """Intervals of a finer spline between zero and the Nyquist frequency, taken where the spectrum plainly asks for it:
 what is left of a derived angular acceleration stands in a narrow band near the top. Hundreds of bins lie in each, so
@@ -103,16 +106,16 @@ def estimate(
     as a gamma generalised linear model. Neither bends to a single line.
     """
     f, p, count = _periodogram(residuals, rate, without)
-    red = _red_and_white(f, p, count)
-    coarse, fine = (_corrected(f, p, count, red(f), w) for w in (np.log, _dense(rate)))
+    coarse = _corrected(f, p, count, _red_and_white(f, p, count), None)
+    fine = _corrected(f, p, count, _red_and_white(*_lower(f, p, count)), rate)
     # Twice the gain in log likelihood against the number of coefficients (BIC).
     gain = coarse.cost - fine.cost
-    correction = fine if gain > (fine.size - coarse.size) * np.log(len(f)) else coarse
+    chosen = fine if gain > (fine.size - coarse.size) * np.log(len(f)) else coarse
     x = np.log(f)
     grid = np.linspace(x[0] - BELOW, x[-1], 513)
     near = np.abs(np.clip(grid, x[0], x[-1])[:, None] - x[None, :]) < SMOOTH
     spread = 1 / np.sqrt(np.maximum(near @ count, 1.0))
-    log_psd = np.asarray(np.log(red(np.exp(grid))) + correction.at(np.exp(np.clip(grid, x[0], x[-1]))))
+    log_psd = np.asarray(np.log(chosen.base(np.exp(grid))) + chosen.at(np.exp(np.clip(grid, x[0], x[-1]))))
     model = NoiseModel(rate, grid, log_psd, spread)
     # the level once more by itself: the penalties must not bias it
     level = float(np.sum(count * p / model.psd(f)) / np.sum(count))
@@ -121,39 +124,58 @@ def estimate(
 
 @dataclass(frozen=True)
 class _Correction:
-    """A spline of the log-spectrum's departure from red and white; ``cost`` is minus twice the log likelihood."""
+    """A spline of the logarithm of a spectrum's departure from ``base``; ``cost`` is minus twice the log likelihood."""
 
+    base: Callable[[Array], Array]
     at: Callable[[Array], Array]
     size: int
     cost: float
 
 
-def _dense(rate: float) -> Callable[[Array], Array]:
-    """A scale of frequency that is logarithmic for low ones and even for high ones, FINE intervals to the Nyquist frequency."""
-    return lambda f: np.asarray(np.log(f) + f * (2 * FINE / rate))
+def _lower(f: Array, p: Array, count: Array) -> tuple[Array, Array, Array]:
+    """The lower half, in the logarithm, of the frequencies: what a steep end does to the rest is none of its matter."""
+    low = f <= np.sqrt(f[0] * f[-1])
+    return f[low], p[low], count[low]
 
 
-def _corrected(f: Array, p: Array, count: Array, base: Array, scale: Callable[[Array], Array]) -> _Correction:
-    """The correction of ``base`` to the periodogram p (n,) at f (n,), knots evenly spaced on a scale of frequency."""
-    x = scale(f)
-    size = max(KNOTS, round(float(x[-1] - x[0]))) if scale is not np.log else KNOTS
+def _corrected(
+    f: Array, p: Array, count: Array, base: Callable[[Array], Array], dense: float | None
+) -> _Correction:
+    """The correction of ``base`` to the periodogram p (n,) at f (n,).
+
+    Knots are evenly spaced in the logarithm of the frequency, or, for a ``dense`` sampling rate, Hz, in that for low
+    frequencies and in the frequency itself for high ones, FINE intervals to the Nyquist frequency.
+    """
+
+    def scale(g: Array) -> Array:
+        return np.asarray(np.log(g) + (0.0 if dense is None else g * (2 * FINE / dense)))
+
+    x, level = scale(f), base(f)
+    size = KNOTS if dense is None else max(KNOTS, round(float(x[-1] - x[0])))
     inner = np.linspace(x[0], x[-1], size - 2)
     knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
     X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
     roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
-    penalty = 20.0 * roughness.T @ roughness + 2.0 * np.eye(X.shape[1])
-    b = np.zeros(X.shape[1])
+    b, held = np.zeros(X.shape[1]), np.ones(X.shape[1])
+    if dense is not None:
+        # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
+        # few bins tell and a fit has taken some, are held to their base as ever.
+        centre = np.array([np.mean(knots[k + 1 : k + 4]) for k in range(len(b))])
+        held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
+    penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
+    if dense is not None:  # the search begins near its end
+        b = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
     for _ in range(50):
-        ratio = p / (base * np.exp(X @ b))
+        ratio = p / (level * np.exp(X @ b))
         step = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ (ratio - 1) - penalty @ b)
         step *= min(1.0, 2.0 / max(float(np.max(np.abs(step))), 1e-300))
         b = b + step
         if np.max(np.abs(step)) < 1e-8:
             break
     fitted = X @ b
-    cost = 2 * float(np.sum(count * (fitted + p / (base * np.exp(fitted)))))
+    cost = 2 * float(np.sum(count * (np.log(level) + fitted + p / (level * np.exp(fitted)))))
     spline = interpolate.BSpline(knots, b, 3)
-    return _Correction(lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
+    return _Correction(base, lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
 
 
 def _periodogram(

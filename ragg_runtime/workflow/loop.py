@@ -155,12 +155,7 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
-        try:
-            text = Path(source).read_text("utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise UserError(
-                "the test sheet cannot be read", where=source, found=str(error), remedy="name a model.toml"
-            ) from None
+        text = read_text(Path(source))
     instrument = parse_instrument(text, Path(source) if source else None)
     if instrument.effects_folder is not None:
         text = set_effects_folder(text, instrument.effects_folder.resolve())

@@ -1,0 +1,54 @@
+"""Numbers that are none, files that never end and tables without end: one message, at once."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli.main import main
+from ragg_runtime.flight import read_flight
+from ragg_runtime.flight.source import MOST_COLUMNS
+from ragg_runtime.workflow import loop
+
+
+@pytest.mark.parametrize("option", ["--duration", "--rate", "--noise", "--sheet-error"])
+@pytest.mark.parametrize("value", ["nan", "inf"])
+def test_a_number_must_be_one(
+    option: str, value: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["simulate", str(tmp_path / "m"), "-o", str(tmp_path / "x.csv"), option, value])
+    assert ended.value.code == 2
+    assert "no finite number" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices of Unix")
+def test_a_test_sheet_that_never_ends(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for source in (tmp_path / "pipe", Path("/dev/zero")):
+        with pytest.raises(UserError, match="not a pipe or a device"):
+            loop.new(tmp_path / "m", source)
+
+
+@pytest.mark.parametrize("suffix", [".parquet", ".nc", ".csv"])
+def test_more_columns_than_a_flight_has(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"wide{suffix}"
+    names = ["time", *(f"c{k}" for k in range(MOST_COLUMNS))]
+    if suffix == ".parquet":
+        pq.write_table(pa.table({n: np.ones(2) for n in names}), path)
+    elif suffix == ".nc":
+        with h5py.File(path, "w") as file:
+            for n in names:
+                file[n] = np.ones(2)
+    else:
+        path.write_text(",".join(f"{n} [1]" for n in names) + "\n")
+    with pytest.raises(UserError, match="too many columns for a flight"):
+        read_flight(path, 9.8)
