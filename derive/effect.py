@@ -47,6 +47,8 @@ class EffectParameter:
         Recorded channel without which this parameter alone has no influence (``None``: none).
     fitted
         False for what is set (or scanned), not calibrated by least squares.
+    physical
+        The one value, beside the neutral one, that nature knows; it holds where no value is given (``None``: any).
     """
 
     name: str
@@ -58,6 +60,7 @@ class EffectParameter:
     neutral: float = 0.0
     channel: str | None = None
     fitted: bool = True
+    physical: float | None = None
 
 
 class Values(Mapping[str, sp.Expr]):

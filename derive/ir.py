@@ -291,6 +291,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "neutral": q.neutral if math.isfinite(q.neutral) else None,
                 "channel": q.channel,
                 "fitted": q.fitted,
+                **({} if q.physical is None else {"physical": q.physical}),
             }
             for q in e.parameters
         ],

@@ -141,7 +141,7 @@ def sizes() -> tuple[str, str, dict[str, tuple[Error, Error]]]:
     for case, title in CASES.items():
         without, with_spin = plain_and_full(case)
         r = record(without.flight(), without.instrument)
-        k = scale_factor(packaged().chain, vector(packaged(), without.instrument))
+        k = scale_factor(packaged(), vector(packaged(), without.instrument))
         change = with_spin.G_out - without.G_out
         absorbed = Calibration(r, without.instrument)
         rows.append([title, *_figures(error(change, r, k)), *_figures(error(absorbed.leaves(change), r, k))])
@@ -192,7 +192,7 @@ def story(folder: Path, sheet: Instrument) -> tuple[str, list[tuple[Array, Array
         step = loop.add(m, "disc-spin", [flight])
         assert step.after is not None
         r = record(flight, sheet)
-        k = scale_factor(packaged().chain, vector(packaged(), sheet))
+        k = scale_factor(packaged(), vector(packaged(), sheet))
         before = flight.outputs["G_out"] - output(packaged().chain, r, vector(packaged(), sheet))
         best = error(Calibration(r, sheet).leaves(before), r, k)
         (share,) = step.parameters

@@ -38,7 +38,9 @@ EFFECT = Effect(
         '2 pi spin_frequency where it is not recorded. A model with kinematics = "full" has all of it.'
     ),
     parameters=(
-        EffectParameter("share", "share", "1", "share of the spin in the kinematics", 1.0, shared=True),
+        EffectParameter(
+            "share", "share", "1", "share of the spin in the kinematics", 1.0, shared=True, physical=1.0
+        ),
     ),
     field=field,
     moot=lambda order, kinematics: kinematics == "full",

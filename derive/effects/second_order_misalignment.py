@@ -32,7 +32,13 @@ EFFECT = Effect(
     ),
     parameters=(
         EffectParameter(
-            "kappa", r"\kappa", "1", "share of the angles in the second-order terms", 1.0, shared=True
+            "kappa",
+            r"\kappa",
+            "1",
+            "share of the angles in the second-order terms",
+            1.0,
+            shared=True,
+            physical=1.0,
         ),
     ),
     second_order=second_order,

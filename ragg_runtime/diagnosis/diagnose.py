@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage
@@ -85,8 +86,14 @@ def diagnose_fitted(
     steps, last = strong.taken(first, extend)
     f, field, choice = last.fitted, last.field, last.choice
     chosen = list(choice.chosen)
-    given = [n for e in chosen for n, _ in field.candidates[e]]
     final = _confirmed(f, chosen, extend)
+    while final is not None and (wrong := impossible(final, chosen)):
+        left = {e: c for e, c in field.candidates.items() if e not in wrong}
+        field = replace(field, candidates=left)
+        choice = selection.choose(field)
+        chosen = list(choice.chosen)
+        final = _confirmed(f, chosen, extend)
+    given = [n for e in chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
         rem = simpler

@@ -17,6 +17,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
@@ -108,10 +109,13 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
     return found, stage
 
 
-def _strongest(stage: Stage, extend: Extend) -> Taken:
-    """The effect that explains most once it is in the model; of those that do equally well, the linear test's choice."""
+def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> Taken:
+    """The effect that explains most once it is in the model; of those that do equally well, the linear test's choice.
+
+    ``without`` are effects that turned out to be no possible ones: at sizes that they cannot have.
+    """
     f = stage.fitted
-    tests = {e: t for e, t in stage.choice.tests.items() if t.rank}
+    tests = {e: t for e, t in stage.choice.tests.items() if t.rank and e not in without}
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
@@ -124,6 +128,8 @@ def _strongest(stage: Stage, extend: Extend) -> Taken:
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
     after = fit(model, instrument, f.observations)
+    if len(tests) > 1 and impossible(after, (effect,)):
+        return _strongest(stage, extend, (*without, effect))
     instant = stage.instants.get(effect)
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
 

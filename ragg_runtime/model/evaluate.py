@@ -49,7 +49,10 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 
 
 def vector(model: Model, instrument: Instrument) -> Array:
-    """The parameter vector of ``model.chain``, SI, from model.toml's values; neutral where none is given."""
+    """The parameter vector of ``model.chain``, SI, from model.toml's values.
+
+    Where none is given, effects' parameters are neutral, or the only value that nature knows.
+    """
     known = units(instrument.g0)
     layout = instrument.layout
     discs = [layout.discs[q.disc] for q in layout.places]
@@ -67,7 +70,7 @@ def vector(model: Model, instrument: Instrument) -> Array:
             size = 1 if q.shared else layout.size
             given = setting.values.get(q.name) if setting else None
             if given is None:
-                values[q.symbol] = np.full(size, (q.neutral or 0.0) * unit_factor(q.unit, known))
+                values[q.symbol] = np.full(size, q.default * unit_factor(q.unit, known))
             else:
                 si = known.base_unit(q.unit)
                 value = known.to_si(np.asarray(given.value), given.unit, si, f"effect {e.id}, {q.name}")

@@ -44,7 +44,10 @@ class Chain(Protocol):
 
 @dataclass(frozen=True)
 class EffectParameter:
-    """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector."""
+    """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector.
+
+    ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any).
+    """
 
     name: str
     symbol: str
@@ -56,6 +59,12 @@ class EffectParameter:
     neutral: float | None
     channel: str | None
     fitted: bool
+    physical: float | None = None
+
+    @property
+    def default(self) -> float:
+        """Where no value is given, in display units: the only physical one, if there is but one."""
+        return self.physical if self.physical is not None else self.neutral or 0.0
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,8 @@ def _corrected(
     knots = np.concatenate([[x[0]] * 4, inner[1:-1], [x[-1]] * 4])
     X = interpolate.BSpline.design_matrix(np.clip(x, x[0], x[-1]), knots, 3).toarray()
     roughness = np.diff(np.eye(X.shape[1]), 2, axis=0)
-    b, held = np.zeros(X.shape[1]), np.ones(X.shape[1])
+    b: Array = np.zeros(X.shape[1])
+    held = np.ones(X.shape[1])
     if dense is not None:
         # What asks for it may be steep by decades near the top, and is held back little there. Low frequencies, of which
         # few bins tell and a fit has taken some, are held to their base as ever.

@@ -189,6 +189,8 @@ def test_a_paper_model_lacks_the_spin_and_adding_it_brings_the_error_to_the_nois
     flight = simulated(replace(m.instrument, form=Form(kinematics="full")), (), seed=4, duration=600.0)
     same = simulated(m.instrument, ["disc-spin:share=1"], seed=4, duration=600.0)
     np.testing.assert_array_equal(flight.outputs["G_out"], same.outputs["G_out"])
+    d = loop.diagnose(m, [flight])
+    assert (d.verdict, d.found) == ("missing-effect", ("disc-spin",))
     added = loop.add(m, "disc-spin", [flight])
     assert added.after is not None
     assert added.after.calibrated.rms_Eo < 1.02 * added.after.noise_floor
