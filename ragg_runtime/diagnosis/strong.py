@@ -122,7 +122,11 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     near = sorted(near, key=lambda e: (tests[e].log_p, e))[:CONTENDERS]
     scores = dict.fromkeys(near, 0.0)
     if len(near) > 1:
-        scores = {e: _score(f, tests[e], _derived(f, [e], stage.instants, extend)) for e in near}
+        held = {
+            e: frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
+            for e in near
+        }
+        scores = {e: _score(f, tests[e], held[e], _derived(f, [e], stage.instants, extend)) for e in near}
     best = min(scores.values())
     equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
     effect = equal[0]
@@ -147,8 +151,12 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, test: Test, derived: tuple[Model, Instrument]) -> float:
-    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC)."""
+def _score(f: Fitted, test: Test, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
+    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC).
+
+    Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
+    the fit: an effect of many would otherwise explain some of the noise for nothing.
+    """
     model, instrument = derived
     c = calibrate.fit(
         model,
@@ -156,7 +164,10 @@ def _score(f: Fitted, test: Test, derived: tuple[Model, Instrument]) -> float:
         f.observations,
         noise=f.calibration.noise,
     )
-    return c.chi2 + test.rank * float(np.log(c.rows))
+    others = [n for n, q in enumerate(c.columns) if q.label in held]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
+    cost = float(values @ np.linalg.solve(c.covariance[np.ix_(others, others)], values)) if others else 0.0
+    return c.chi2 + cost + test.rank * float(np.log(c.rows))
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

@@ -165,7 +165,7 @@ def _corrected(
         held[centre > scale(np.array(dense / (2 * FINE)))] = LOOSE
     penalty = 20.0 * (roughness.T * held[1:-1]) @ roughness + 2.0 * np.diag(held)
     if dense is not None:  # the search begins near its end
-        b = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
+        b[:] = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ np.log(p / level))
     for _ in range(50):
         ratio = p / (level * np.exp(X @ b))
         step = np.linalg.solve((count * X.T) @ X + penalty, (count * X.T) @ (ratio - 1) - penalty @ b)

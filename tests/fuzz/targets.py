@@ -12,10 +12,13 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from derive.chain import recorded_motion
+from derive.context import Context
 from derive.emit.printers import to_c, to_numpy
 from derive.expression import ExpressionError, from_expression
 from derive.stages import SensedForce
 from derive.symbols import symbol
+from derive.tape import Tape
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import read_flight
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect, set_parameters
@@ -26,11 +29,8 @@ from ragg_runtime.model_dir import derive
 Outcome = str
 """``read`` or ``refused``."""
 
+_CONTEXT = Context(Tape(), recorded_motion())
 _FORCE = SensedForce(*(symbol(f"f_{axis}") for axis in "iop"))
-
-
-class _Context:
-    cos_phi, sin_phi, time = symbol("cos_phi"), symbol("sin_phi"), symbol("time")
 
 
 def expression(data: bytes) -> Outcome:
@@ -46,7 +46,7 @@ def expression(data: bytes) -> Outcome:
         str(error).encode("utf-8", "backslashreplace")
         return "refused"
     assert effect.transducer is not None
-    formula = effect.transducer(symbol("f_i"), _FORCE, effect.values, _Context())  # type: ignore[arg-type]
+    formula = effect.transducer(symbol("f_i"), _FORCE, effect.values, _CONTEXT)
     source = to_numpy(formula)
     compile(source, "<formula>", "eval", dont_inherit=True)
     assert "\n" not in source + effect.equation + effect.title
