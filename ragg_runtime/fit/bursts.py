@@ -44,20 +44,23 @@ class Burst:
 
 
 def quiet_estimate(
-    residual: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+    residual: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None = None,
+    kept: Sequence[Array] | None = None,
 ) -> tuple[NoiseModel, list[list[Burst]]]:
     """The spectrum of the noise from contiguous stretches of residual, bursts left out, and those of each stretch.
 
-    ``without``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
+    ``without``, ``kept``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
     """
-    model = estimate(residual, rate, without)
+    model = estimate(residual, rate, without, kept)
     bursts: list[list[Burst]] = [[] for _ in residual]
     for _ in range(ROUNDS):
         found = _bursts(residual, model)
         if [len(b) for b in found] == [len(b) for b in bursts]:
             break
         bursts = found
-        model = _estimated(residual, bursts, rate, without)
+        model = _estimated(residual, bursts, rate, without, kept)
     return model, bursts
 
 
@@ -66,6 +69,7 @@ def _estimated(
     bursts: Sequence[Sequence[Burst]],
     rate: float,
     without: tuple[float, float] | None,
+    kept: Sequence[Array] | None,
 ) -> NoiseModel:
     left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
@@ -78,7 +82,7 @@ def _estimated(
             e[b.start : b.stop] = weight[b.start : b.stop] = 0.0
         left.append(e)
         heard += float(np.sum(weight))
-    model = estimate(left, rate, without)
+    model = estimate(left, rate, without, kept)
     return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / heard), model.spread)
 
 
