@@ -18,7 +18,11 @@ SPELLS = 48
 """Spells into which the residual is divided."""
 
 LOUD = 4.0
-"""Power of a spell over the median spell's from which it is loud."""
+"""Power of a spell over the median's of those before it, and of those after it, from which it is loud: louder than one side
+alone is a noise that has changed its level."""
+
+BESIDE = 16
+"""Spells on either side with which one is compared: twice as many as may be bursts, so that they do not shift a median."""
 
 FEW = 1 / 6
 """Largest share of spells that are bursts: more of them are noise whose level changes, which the estimate averages."""
@@ -103,12 +107,14 @@ def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
     if not power:
         return found
     median = float(np.median(power))
-    loud = [n for n, v in enumerate(power) if v > LOUD * median]
+    beside = [(power[max(0, n - BESIDE) : n], power[n + 1 : n + 1 + BESIDE]) for n in range(len(power))]
+    near = [max(float(np.median(side)) for side in sides if side) for sides in beside]
+    loud = [n for n, v in enumerate(power) if v > LOUD * near[n]]
     if len(loud) > FEW * len(power) or np.mean(power) < MATTERS * median:
         return found
     for n in loud:
         k, start, stop = spells[n]
-        found[k].append(Burst(start, stop, power[n] / median))
+        found[k].append(Burst(start, stop, power[n] / near[n]))
     return found
 
 

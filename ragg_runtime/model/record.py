@@ -115,6 +115,14 @@ class Record:
         found = self._wide(name)
         return None if found is None else self._inner(found)
 
+    def quantity(self, name: str) -> Array:
+        """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), or ``abs(CHANNEL)``."""
+        if name == "time":
+            return self.time
+        if name == "phi":
+            return np.asarray(np.mod(self.phi, 2 * np.pi))
+        return np.abs(self.channels[name[4:-1]])
+
     def part(self, rows: slice) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours."""
         n = len(self.time)

@@ -12,11 +12,13 @@ perfectly white.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate, optimize, signal
+
+from ragg_runtime.signals.noise_level import Level
 
 Array = NDArray[np.float64]
 
@@ -213,7 +215,9 @@ def _periodogram(
         share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
     f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
     which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
-    n, power, free, log_f = (np.bincount(which, x) for x in (np.ones(len(f)), p, left, np.log(f)))
+    n, power, free, log_f = (
+        np.asarray(np.bincount(which, x), dtype=np.float64) for x in (np.ones(len(f)), p, left, np.log(f))
+    )
     told = np.flatnonzero((n > 0) & (free >= LEFT * np.maximum(n, 1)))
     if len(told) < KNOTS:  # so many columns that nothing is left of most: all the same
         told = np.flatnonzero(n > 0)
@@ -275,10 +279,12 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 @dataclass(frozen=True)
 class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
-    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either.
+    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
+    ``level`` how loud the noise is from sample to sample.
     """
 
     models: tuple[NoiseModel, ...]
     filters: tuple[Array, ...]
     bursts: tuple[tuple[int, int, float], ...] = ()
     disturbed: str | None = None
+    level: Level = field(default_factory=Level)
