@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.explained import explained
 from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -107,15 +108,16 @@ def diagnose_fitted(
     half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
+    output_explained = explained(target, after)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
-    loud = after.whole.rms_Eo > comparison.LOUD * noise and not random_found
-    if complaint is not None or rem.significant or loud:
+    loud = after.whole.rms_Eo > comparison.LOUD * noise * fitted_.swell(target) and not random_found
+    if complaint is not None or output_explained.complaint is not None or rem.significant or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
-    explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    by_terms = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
     whitened = sum(s.square for s in rem.searches)
     ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     ranking += _ranked_random(f, random, before)
@@ -132,7 +134,7 @@ def diagnose_fitted(
         found=tuple(found),
         not_testable=tuple(_not_testable(first.fitted, first.field)),
         remainder=rem if rem.significant else _without_terms(rem),
-        remainder_share=explained / whitened if whitened else 0.0,
+        remainder_share=by_terms / whitened if whitened else 0.0,
         before=before,
         scored=after,
         noise_floor=noise,
@@ -143,7 +145,8 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=comparison.disturbed(target),
+        remark=comparison.remark(output_explained, target),
+        explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),

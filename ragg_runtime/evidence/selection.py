@@ -13,6 +13,7 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.model.record import missing_channels
 
 Array = NDArray[np.float64]
 
@@ -196,5 +197,5 @@ def testable_effects(f: Fitted) -> list[str]:
     return [
         e.id
         for e in f.model.candidates
-        if e.kind == "deterministic" and all(c in h for c in e.channels for h in have)
+        if e.kind == "deterministic" and not any(missing_channels(e, h) for h in have)
     ]

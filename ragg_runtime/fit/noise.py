@@ -74,7 +74,9 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     if level.parts:
         noise = _of_level(parts, o, level)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
-    return replace(noise, disturbed="; ".join(w for w in said if w is not None) or None)
+    words = "; ".join(w for w in said if w is not None) or None
+    loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
+    return replace(noise, disturbed=words, level=loud)
 
 
 def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
@@ -156,6 +158,7 @@ def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
     """How loud the noise is from sample to sample, bursts left out: they have been said."""
     names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in o.record.wide)]
     names += ["phi"] if o.record.turning else []
+    names += [] if o.record.valid.all() else ["gap"]
     quiet = np.array(o.record.valid)
     for start, stop, _ in noise.bursts:
         quiet[start:stop] = False

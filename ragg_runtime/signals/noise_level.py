@@ -9,8 +9,8 @@ against groups of samples, with their own fourth moment, so that heavy tails are
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ GROUPS = 8
 
 SECTORS = 16
 """Sectors of the disc's angle: a level that swells twice a turn takes eight for each time."""
+
+NEAR = (1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5)
+"""Samples from a gap between which groups are divided: what is derived there is poorer, and a filter starts anew."""
 
 FEWEST = 20
 """Samples that a group must have."""
@@ -123,11 +126,14 @@ def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
 def _edges(name: str, x: Array) -> Array:
     if name == "time":
         spells = min(SPELLS, len(x) // (2 * FEWEST))
-        return np.asarray(np.quantile(x, np.arange(1, spells) / spells)) if spells > 1 else np.empty(0)
+        return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, spells + 1)[1:-1]), dtype=np.float64)
+    if name == "gap":
+        fewest = np.array([min(np.sum(x <= edge), np.sum(x > edge)) for edge in NEAR])
+        return np.array(NEAR)[fewest >= 2 * FEWEST]
     if name == "phi":
         return np.arange(1, SECTORS) * (2 * np.pi / SECTORS)
-    edges = np.unique(np.quantile(x, np.arange(1, GROUPS) / GROUPS))
-    return np.asarray(edges[(edges > np.min(x)) & (edges <= np.max(x))])
+    edges: Array = np.unique(np.quantile(x, np.arange(1, GROUPS) / GROUPS)).astype(np.float64)
+    return edges[(edges > np.min(x)) & (edges <= np.max(x))]
 
 
 def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[Array, Array]:
@@ -152,10 +158,34 @@ def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[
     return np.asarray(edges[cuts[1:-1] - 1]), np.asarray(np.diff(S[cuts]) / np.diff(C[cuts]))
 
 
+def with_bursts(level: Level, bursts: Sequence[tuple[int, int, float]], time: Array) -> Level:
+    """The level with bursts in it: first and last sample of each and its power over the noise's; ``time`` (N,) s.
+
+    Its mean square is one outside of them.
+    """
+    if not bursts:
+        return level
+    edges: list[float] = []
+    values = [1.0]
+    for start, stop, factor in sorted(bursts):
+        if edges and edges[-1] == time[start]:
+            values[-1] = float(np.sqrt(factor))
+        else:
+            edges.append(float(time[start]))
+            values.append(float(np.sqrt(factor)))
+        edges.append(float(time[stop]) if stop < len(time) else np.inf)
+        values.append(1.0)
+    return replace(level, parts=(*level.parts, Part("time", np.array(edges), np.array(values))))
+
+
 def in_words(level: Level) -> str | None:
     """What the level follows, in one sentence; ``None`` if it is constant."""
     if not level.parts:
         return None
-    names = {"time": "in the course of the record", "phi": "with the angle of the disc"}
+    names = {
+        "time": "in the course of the record",
+        "phi": "with the angle of the disc",
+        "gap": "next to gaps",
+    }
     said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]
     return f"the noise changes its level {' and '.join(said)}; every sample is weighed by it"

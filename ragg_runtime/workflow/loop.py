@@ -40,6 +40,7 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity, read_quantity
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import missing_channels
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import (
     MAPPING,
@@ -312,7 +313,7 @@ def add(
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = [c for c in symbolic.channels if c not in x.channels]
+        missing = missing_channels(symbolic, x.channels)
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",
