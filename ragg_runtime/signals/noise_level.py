@@ -131,7 +131,7 @@ def _edges(name: str, x: Array) -> Array:
         fewest = np.array([min(np.sum(x <= edge), np.sum(x > edge)) for edge in NEAR])
         return np.array(NEAR)[fewest >= 2 * FEWEST]
     if name == "phi":
-        return np.arange(1, SECTORS) * (2 * np.pi / SECTORS)
+        return np.linspace(0.0, 2 * np.pi, SECTORS + 1)[1:-1]
     edges: Array = np.unique(np.quantile(x, np.arange(1, GROUPS) / GROUPS)).astype(np.float64)
     return edges[(edges > np.min(x)) & (edges <= np.max(x))]
 
