@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +10,12 @@ from scipy import linalg, signal
 
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
 from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.noise_spectrum import estimate
 
 Array = NDArray[np.float64]
 
-ROUNDS = 3
+ROUNDS = 6
 """Most times that lines and jumps are looked for in what is left beside those before."""
 
 
@@ -31,12 +33,16 @@ class Left:
         Share of white noise that they leave at each frequency of the periodogram; empty where that is not asked for.
     found
         Lines and jumps that were fitted beside them.
+    columns, directions
+        All that was fitted (n, rows), and (n, n): columns times it are orthonormal.
     """
 
     rest: Array
     rank: float
     kept: Array
     found: list[Disturbance]
+    columns: Array = field(repr=False)
+    directions: Array = field(repr=False)
 
 
 def left_over(
@@ -46,21 +52,96 @@ def left_over(
 
     No line is looked for in ``band``. Without ``rate`` (of a demodulated channel) neither they nor ``kept`` are looked for.
     """
-    found: list[Disturbance] = []
-    time = np.flatnonzero(valid) / (rate or 1.0)
-    wide = flat
-    for n in range(ROUNDS + 1):
-        fit = _least_squares(wide)
-        rest = flat[-1] - fit.solution @ wide[:-1]
-        e = np.zeros(len(valid))
-        e[valid] = rest
-        more = disturbances(e, valid, rate, band) if rate and n < ROUNDS else []
-        if not more:
-            break
-        found += more
+    left = _fitted(flat, flat, valid, rate, [])
+    if rate is None:
+        return replace(left, columns=np.empty(0), directions=np.empty(0))
+    time = np.flatnonzero(valid) / rate
+
+    def beside(found: list[Disturbance]) -> Left:
         wide = np.vstack([*(d.columns(time) for d in found), flat])
-    kept = _kept(wide[:-1], fit.directions, valid) if rate else np.empty(0)
-    return Left(rest=rest, rank=fit.rank, kept=kept, found=found)
+        return _fitted(wide, flat, valid, rate, found)
+
+    for _ in range(ROUNDS):
+        seen = disturbances(_placed(left.rest, valid), valid, rate, band)
+        lines = [d for d in seen if d.kind == "line"]
+        jump = None if lines else _jump(left, valid, rate)
+        if jump is not None:  # to the sample; those that a mean shows are of no use beside it
+            without = beside([*left.found, jump])
+            if _told(left, without, valid, rate, band):
+                left = without
+                continue
+        if not seen:
+            break
+        left = beside([*left.found, *(lines or seen)])
+    return replace(left, columns=np.empty(0), directions=np.empty(0))
+
+
+def _placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
+    """(N,): what is left, zero where a sample is not valid."""
+    e = np.zeros(len(valid))
+    e[valid] = rest
+    return e
+
+
+def _fitted(
+    wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
+) -> Left:
+    fit = _least_squares(wide)
+    return Left(
+        rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
+        rank=fit.rank,
+        kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
+        found=found,
+        columns=wide[:-1],
+        directions=fit.directions,
+    )
+
+
+JUMP = 50.0
+"""Chi-square, in the noise that is estimated beside it, of a jump that the columns hide: the largest of some hundred chance
+ones of noise, red or white, stays below 25."""
+
+INSTANTS = 96
+"""Instants among which it is sought, and again about the best of them, to the sample."""
+
+
+def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do.
+
+    Columns that are slow bend to a jump until no difference of means shows it; what it explains beside them does.
+    """
+    n = len(left.rest)
+    low, high = 0, n
+    while True:
+        edges = np.unique(np.linspace(low, high, INSTANTS + 1).astype(np.intp))[1:-1]
+        starts = np.concatenate([[0], edges])
+        spanned = left.directions.T @ np.add.reduceat(left.columns, starts, axis=1)
+        after, shared = (
+            np.cumsum(x[..., ::-1], axis=-1)[..., ::-1][..., 1:]
+            for x in (np.add.reduceat(left.rest, starts), spanned)
+        )
+        own = (n - edges) - np.sum(shared**2, axis=0)
+        own = np.where(own > 1e-3 * np.minimum(edges, n - edges), own, np.inf)
+        best = int(np.argmax(after**2 / own))
+        if high - low <= INSTANTS:
+            break
+        reach = -(-(high - low) // INSTANTS)
+        low, high = max(0, int(edges[best]) - reach - 1), min(n, int(edges[best]) + reach + 1)
+    variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
+    if not float(after[best] ** 2 / own[best]) > JUMP * variance:
+        return None
+    size = abs(float(after[best] / own[best])) / float(np.sqrt(variance))
+    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate), size)
+
+
+def _told(
+    before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
+) -> bool:
+    """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
+    model = estimate([_placed(after.rest, valid)], rate, band, [after.kept])
+    taps = model.whitening_filter(len(valid))
+    gone = filtered(_placed(before.rest - after.rest, valid)[None], taps)[0][valid]
+    return float(gone @ gone) > JUMP
 
 
 EVERY = 1024
