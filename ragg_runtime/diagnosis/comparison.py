@@ -236,9 +236,8 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
     choice = selection.choose(field_of(f, available)) if available else None
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
-    quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise * swell(f)
     output_explained = explained(f, calibrated)
-    quiet = quiet and output_explained.complaint is None
+    quiet = complaint is None and output_explained.complaint is None and not loud(f, calibrated, noise)
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
@@ -254,6 +253,16 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         explained=output_explained,
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
+
+
+def loud(f: Fitted, scored: Scored, noise: float) -> bool:
+    """Whether an error stands above the noise (rms, Eo), whatever the tests of what is left say.
+
+    Allowed for: what bursts add, and three standard errors of a noise that few samples tell.
+    """
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
+    return scored.whole.rms_Eo > LOUD * noise * swell(f) * known
 
 
 def remark(e: Explained, f: Fitted) -> str | None:

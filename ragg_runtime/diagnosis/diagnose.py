@@ -116,7 +116,7 @@ def diagnose_fitted(
     output_explained = explained(target, after)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
-    loud = after.whole.rms_Eo > comparison.LOUD * noise * fitted_.swell(target) and not random_found
+    loud = comparison.loud(target, after, noise) and not random_found
     if complaint is not None or output_explained.complaint is not None or remains or loud:
         verdict, found = "unexplained", []
     else:

@@ -46,6 +46,8 @@ class Field:
         Effect id -> logarithm of the number of variants (instants of a step) it was chosen from.
     norms
         Whitened norm of every candidate column before projection.
+    freedom
+        Degrees of freedom from which the noise is known.
     """
 
     T: Array
@@ -53,6 +55,7 @@ class Field:
     candidates: Mapping[str, tuple[tuple[int, Column], ...]]
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
+    freedom: float = np.inf
     norms: Array = field(init=False)
     P: Array = field(init=False)
 
@@ -89,7 +92,7 @@ class Field:
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
         return {
-            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0))
+            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
             if e not in given
         }
@@ -188,7 +191,8 @@ def field_of(f: Fitted, available: Sequence[str]) -> Field:
     """The candidates among ``available`` effects, on the triangle of everything."""
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
-    return Field(f.whole, f.n_base, kept, f.calibration.rows)
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    return Field(f.whole, f.n_base, kept, f.calibration.rows, freedom=freedom)
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -76,7 +76,8 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
     loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
-    return replace(noise, disturbed=words, level=loud)
+    free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
+    return replace(noise, disturbed=words, level=loud, freedom=free)
 
 
 def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:

@@ -280,7 +280,7 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
     sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
-    ``level`` how loud the noise is from sample to sample.
+    ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
     """
 
     models: tuple[NoiseModel, ...]
@@ -288,3 +288,4 @@ class Noise:
     bursts: tuple[tuple[int, int, float], ...] = ()
     disturbed: str | None = None
     level: Level = field(default_factory=Level)
+    freedom: float = np.inf
