@@ -40,7 +40,7 @@ def test_every_symbol_of_the_page_is_a_name_of_the_code() -> None:
 
 
 def test_every_file_of_the_page_is_there() -> None:
-    places = {p for p in re.findall(r"`((?:[a-z_]+/)*[a-z_0-9]+\.py)`", TEXT)}
+    places = set(re.findall(r"`((?:[a-z_]+/)*[a-z_0-9]+\.py)`", TEXT))
     assert len(places) > 12
     files = {p.relative_to(ROOT).as_posix() for p in PYTHON}
     assert [p for p in sorted(places) if not any(f == p or f.endswith(f"/{p}") for f in files)] == []
