@@ -56,12 +56,7 @@ def survey(
     UserError
         For bad input to the survey as a whole. A single flight that fails has its error in its record.
     """
-    if not flights:
-        raise UserError("a survey needs flights", expected="one file or more")
-    if jobs is not None and scheduler is not None:
-        raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
-    if jobs is not None and jobs < 1:
-        raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
+    _check(flights, jobs, scheduler)
     given = job(text, path, cluster=scheduler is not None, mapping=mapping)
     files = expanded(given, ordered(flights))
     names = distinct_names(files)
@@ -82,6 +77,15 @@ def survey(
                         progress(len(records), len(files), record)
     # what was kept may have been named among other files
     return Survey(tuple(_once([records[f] | {"flight": names[f]} for f in files])))
+
+
+def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | None) -> None:
+    if not flights:
+        raise UserError("a survey needs flights", expected="one file or more")
+    if jobs is not None and scheduler is not None:
+        raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
+    if jobs is not None and jobs < 1:
+        raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
 
 
 def _once(records: Sequence[Record]) -> Iterator[Record]:
