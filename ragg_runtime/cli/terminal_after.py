@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.cli.terminal import compared, errors_table
+from ragg_runtime.cli.terminal import command, compared, errors_table
 from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
 from ragg_runtime.wording import notebook
@@ -39,16 +39,17 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
         ]
     if k.saved:
         d = k.loaded.directory.path
-        lines += ["", f"kept in {d}; use it with: ragg compensate {d} FLIGHT -o OUT --calibration frozen"]
+        use = f"{command('compensate', d, flights)} -o compensated.csv --calibration frozen"
+        lines += ["", f"kept in {d}; use it with: {use}"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
-def held(h: Held, flights: Sequence[Flight]) -> str:
+def held(h: Held, flights: Sequence[Flight], model_dir: Path) -> str:
     """The result of ``compare --frozen``."""
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
     moved = [r for r in rows if abs(r["z"]) > MOVED]
-    lines = [compared(h.comparison, flights), "", sentence(h)]
+    lines = [compared(h.comparison, flights, model_dir), "", sentence(h)]
     if moved:
         lines.append("what moved since (frozen, now):")
         lines += [
