@@ -58,15 +58,18 @@ class Context:
 
         These are those of the disc at rest, z along its axis; of a disc as the paper's they are the same.
         """
-        if self.axes is None:
-            return v
-        return self.axes.T * v if v.shape[1] == 1 else self.axes.T * v * self.axes
+        return v if self.axes is None else self._turned(self.axes.T, v, "in_disc")
 
     def in_measurement_frame(self, v: sp.Matrix) -> sp.Matrix:
         """The other way round."""
-        if self.axes is None:
-            return v
-        return self.axes * v if v.shape[1] == 1 else self.axes * v * self.axes.T
+        return v if self.axes is None else self._turned(self.axes, v, "in_measurement")
+
+    def _turned(self, by: sp.Matrix, v: sp.Matrix, name: str) -> sp.Matrix:
+        """A turned vector or tensor, each component with a name of its own: what follows may differentiate it often."""
+        turned = by * v if v.shape[1] == 1 else by * v * by.T
+        at = ["x", "y", "z"] if v.shape[1] == 1 else [f"{i}{k}" for i in "xyz" for k in "xyz"]
+        named = [self.tape.let(f"{name}_{a}", e) for a, e in zip(at, turned, strict=True)]
+        return sp.Matrix(*turned.shape, named)
 
     @property
     def case(self) -> Motion:

@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from ragg_runtime.base import false_alarms
+
 Array = NDArray[np.float64]
 
-CHANGES = 1e-4
-"""p-value, over all that is asked, from which the level follows something: a false one changes weights by a few per cent."""
+CHANGES = false_alarms.LEVEL
+"""p-value, over all that is asked, from which the level follows something."""
 
 SPELLS = 48
 """Stretches of time whose levels are compared."""
