@@ -308,7 +308,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
 
 
-def _log_p(z: Array, tried: int, freedom: float) -> float:
+def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
     """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
     top = float(np.max(np.abs(z), initial=0.0))
     return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))
