@@ -261,7 +261,7 @@ def without_lines(p: Array) -> Array:
 
 def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
     """alpha f^-b + omega_T by maximum (Whittle) likelihood, with a weak prior that the noise is white."""
-    white = float(np.median(p[f > np.sqrt(f[0] * f[-1])]))
+    white = float(np.median(p[f >= np.sqrt(f[0] * f[-1])]))
 
     def density(theta: Array, f: Array) -> Array:
         return np.asarray(white * (np.exp(theta[0]) + np.exp(theta[1]) * (f / 0.1) ** (-theta[2])))
