@@ -1,4 +1,4 @@
-"""What the commands share: kinds of arguments, options, and how a result is told."""
+"""What the commands share: kinds of arguments, options, and how a result is written."""
 
 from __future__ import annotations
 
@@ -81,12 +81,12 @@ def write_report(file: str | None, make: Callable[[], str]) -> None:
 
 @contextlib.contextmanager
 def telling() -> Iterator[None]:
-    """While a result is told on which the change of a model waits: it must not be lost on the way."""
+    """While a result is written on which the change of a model waits: it must not be lost on the way."""
     try:
         yield
     except OSError as error:
         raise UserError(
-            "the result cannot be told, so the model is left as it was",
+            "the result cannot be written, so the model is left as it was",
             where=error.filename or "stdout",
             found=error.strerror,
             remedy="make room, or send the result to another file",
