@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -60,6 +59,8 @@ def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
 
 def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+    import json
+
     if json_file is not None and "provenance" not in result:
         from ragg_runtime.model_dir.provenance import provenance
 
