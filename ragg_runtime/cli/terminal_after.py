@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -78,7 +78,7 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
     if not r["converged"]:
         lines.append("The calibration has NOT converged: do not rely on these values.")
     for x in r["flights"]:
-        lines += ["", f"{x['flight']}: {x['good']} of {x['samples']} samples good"]
+        lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
         lines.append(
             f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
         )
@@ -97,3 +97,8 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
             lines.append(f"  quality: {', '.join(told)} samples")
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
+
+
+def _output(x: Mapping[str, Any], r: Mapping[str, Any]) -> str:
+    """Which output it is, if there are several."""
+    return f": {x['output']}" if len({y["output"] for y in r["flights"]}) > 1 else ""
