@@ -27,11 +27,13 @@ from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import sync
+from ragg_runtime.base.form_version import Form, NewerFormError
 from ragg_runtime.base.folder import Folder, NotPlainError, is_plain
 
 WORK = ".ragg"
 _NEXT, _COMMIT, _JOURNAL, _OLD = "next", "commit", "journal.json", "old"
 _LONGEST = 1 << 20  # bytes of a journal
+FORM = Form("the record of an unfinished change")
 _DEEPEST = 8  # folders in folders
 
 
@@ -70,7 +72,7 @@ def switch(root: Path, folders: Sequence[str], *, removed: Sequence[str] = ()) -
         for path in files:  # what cannot be done is said before the change is made
             _way(top, path)
     inodes = {name: staged.joinpath(name).stat().st_ino for name in folders}
-    journal = {"folders": inodes, "files": files, "removed": list(removed)}
+    journal = {**FORM.stamp(), "folders": inodes, "files": files, "removed": list(removed)}
     (staged / _JOURNAL).write_text(json.dumps(journal), "utf-8")
     sync(staged / _JOURNAL)
     sync(staged)
@@ -190,6 +192,7 @@ def _journal(commit: Folder, among: Collection[str]) -> _Journal:
     """The journal of a change; UserError if it is damaged, or asks for more than this program ever does."""
     try:
         content = json.loads(commit.read(_JOURNAL, _LONGEST))
+        FORM.check(content, commit.path / _JOURNAL)
         found = _Journal(
             folders={str(n): int(i) for n, i in content["folders"].items()},
             files=tuple(content["files"]),
@@ -197,7 +200,9 @@ def _journal(commit: Folder, among: Collection[str]) -> _Journal:
         )
         odd = [n for n in (*found.folders, *found.removed) if not is_plain(n) or n not in among]
         odd += [f for f in found.files if not _is_below(f, among)]
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except NewerFormError:
+        raise
+    except (UserError, OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise _refused(commit, str(error)) from None
     if odd:
         raise _refused(commit, f"it is about {', '.join(repr(n)[:60] for n in odd[:3])}")
