@@ -27,8 +27,8 @@ from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import sync
-from ragg_runtime.base.form_version import Form, NewerFormError
 from ragg_runtime.base.folder import Folder, NotPlainError, is_plain
+from ragg_runtime.base.form_version import Form, NewerFormError
 
 WORK = ".ragg"
 _NEXT, _COMMIT, _JOURNAL, _OLD = "next", "commit", "journal.json", "old"

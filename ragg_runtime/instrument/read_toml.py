@@ -20,7 +20,6 @@ from ragg_runtime.instrument.layout_toml import read_layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
 
-
 FORM = Form("model.toml")
 
 
