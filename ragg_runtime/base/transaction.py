@@ -93,7 +93,10 @@ def finish(root: Path, among: Collection[str]) -> None:
         if is_committing(root):
             with top.below(WORK) as work:
                 with work.below(_COMMIT) as commit:
-                    _complete(top, commit, _journal(commit, among))
+                    journal = _journal(commit, among)
+                    for path in journal.files:  # nothing is moved if anything cannot be
+                        _way(top, path)
+                    _complete(top, commit, journal)
                 sync(root)
                 # From here on nothing is left to be moved.
                 work.move(_COMMIT, work, f"done-{os.getpid()}-{time.monotonic_ns()}")
@@ -200,9 +203,20 @@ def _journal(commit: Folder, among: Collection[str]) -> _Journal:
         )
         odd = [n for n in (*found.folders, *found.removed) if not is_plain(n) or n not in among]
         odd += [f for f in found.files if not _is_below(f, among)]
+        for path in found.files if not odd else ():
+            _way(commit, path)
     except NewerFormError:
         raise
-    except (UserError, OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (
+        UserError,
+        OSError,
+        ArithmeticError,
+        ValueError,
+        LookupError,
+        TypeError,
+        AttributeError,
+        RecursionError,
+    ) as error:
         raise _refused(commit, str(error)) from None
     if odd:
         raise _refused(commit, f"it is about {', '.join(repr(n)[:60] for n in odd[:3])}")

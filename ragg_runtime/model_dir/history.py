@@ -75,6 +75,7 @@ def calibrated_rms(error: Mapping[str, Any] | None) -> float | None:
 def _error(found: Any) -> Mapping[str, Any] | None:
     """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
     calibrated_rms(found)
+    json.dumps(found, allow_nan=False)  # it is written again with the next step
     return None if found is None else dict(found)
 
 

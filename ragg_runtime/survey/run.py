@@ -78,10 +78,10 @@ def survey(
                         kept.append(record)
                     if progress is not None:
                         progress(len(records), len(files), record)
-    return Survey(tuple(_once([records[f] for f in files])))
+    return Survey(tuple(once([records[f] for f in files])))
 
 
-def _once(records: Sequence[Record]) -> Iterator[Record]:
+def once(records: Sequence[Record]) -> Iterator[Record]:
     """The records; of those that are of one and the same record of an instrument the first, the others in error."""
     seen: list[Landmarks] = []
     for r in records:

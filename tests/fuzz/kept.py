@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import shutil
@@ -15,12 +14,17 @@ from ragg_runtime.compensation import saved
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.model_dir.directory import MODEL, NAMES
 from ragg_runtime.model_dir.history import history_text, read_history
+from ragg_runtime.report import survey_text
 from ragg_runtime.survey import journal, task
+from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.run import once
 
 from .places import Outcome, place, shown
 
 JOB = task.Job("effects = []\n", "/model/model.toml", (("ragg", "fuzzed"),))
-FLIGHTS = ["/flights/a.csv", "/flights/b.csv"]
+FLIGHTS = ("a.csv", "b.csv")
+HERE = b"/flights"
+"""What the inputs say for the folder of the flights, whose content is their names."""
 
 
 def history(data: bytes) -> Outcome:
@@ -62,20 +66,23 @@ def unfinished(data: bytes) -> Outcome:
 
 
 def resume(data: bytes) -> Outcome:
-    """The results file of a survey: what is none stays as it is, what is one can be added to."""
-    path = place("results.jsonl", data)
+    """The results file of a survey: what is none stays as it is; of what is one, the records that hold are summed up."""
+    path = place("results.jsonl", data.replace(HERE, bytes(place("", None))))
+    for name in FLIGHTS:
+        place(name, name.encode())
+    files = [str(place(name, None)) for name in FLIGHTS]
+    before = path.read_bytes()
     try:
         with journal.journal(path) as kept:
-            records = kept.read(JOB, FLIGHTS)
-            assert records == {}  # the flights are not there: no record holds
+            records = kept.read(JOB, files)
+        found = Survey(tuple(once([records[f] for f in files if f in records])))
     except UserError as error:
-        assert path.read_bytes() == data
+        assert path.read_bytes() == before
         return shown(error)
+    json.dumps(found.as_json(), allow_nan=False)
+    survey_text.surveyed(found, "model")
     lines = path.read_bytes().splitlines()
     assert json.loads(lines[0])["kind"] == journal.KIND
-    for line in lines[1:]:
-        with contextlib.suppress(ValueError):
-            assert isinstance(json.loads(line), dict)
     return "read"
 
 

@@ -7,6 +7,8 @@ they were.
 from __future__ import annotations
 
 import gzip
+import hashlib
+import json
 import tempfile
 from pathlib import Path
 
@@ -91,10 +93,14 @@ STEPS = """{"version": 1, "written_by": "ragg 0.1.0", "steps": [
 """
 CHANGE = """{"version": 1, "written_by": "ragg 0.1.0", "folders": {"generated": 7}, "files": ["model.toml", "history.json"],
 "removed": ["calibration.json"]}"""
-RESULTS = """{"kind":"ragg survey","version":1,"model":"%s","program":{"ragg":"fuzzed"}}
-{"flight":"a.csv","file":"/flights/a.csv","sha256":"00","samples":9,"verdict":"adequate","found":[],"ranking":[]}
-{"flight":"b.csv","file":"/flights/b.csv","error":{"kind":"input","message":"none"}}
-"""
+HEAD = '{"kind":"ragg survey","version":1,"model":"%s","program":{"ragg":"fuzzed"}}'
+LANDMARKS = {
+    "rate": 8.0,
+    "rows": [100, 300],
+    "columns": {"a_x": [1.0, 2.0], "a_y": [0.5, None]},
+    "digit": {"a_x": 0.0, "a_y": 1e-3},
+    "spread": {"a_x": 0.5, "a_y": 0.25},
+}
 JOB = "a3b2388f1cc32ea82e2b6528d1f3fd558b178f703cfe77fd8a3b30c978b0c375"
 """SHA-256 of the model.toml of ``kept.JOB``."""
 SAVED = """{"version": 1, "written_by": "ragg 0.1.0", "calibrations": [
@@ -118,11 +124,7 @@ def make() -> dict[str, dict[str, bytes]]:
         "mapping": {"seed-0": MAPPING.encode(), "seed-1": SECONDS.encode()},
         "history": {"seed-0": STEPS.encode(), "seed-1": b'{"steps": []}'},
         "unfinished": {"seed-0": CHANGE.encode(), "seed-1": b'{"folders": {}, "files": [], "removed": []}'},
-        "resume": {
-            "seed-0": (RESULTS % JOB).encode(),
-            "seed-1": (RESULTS % JOB).encode()[:-40],
-            "seed-2": b"",
-        },
+        "resume": {"seed-0": _results(), "seed-1": _results()[:-40], "seed-2": b""},
         "calibration": {"seed-0": SAVED.encode()},
         "generated_model": {f"seed-{n}": str(n).encode() for n in range(3)},
         "flight_csv": {
@@ -134,6 +136,20 @@ def make() -> dict[str, dict[str, bytes]]:
         "flight_parquet": {"seed-0": _table("flight.parquet")},
         "flight_netcdf": {"seed-0": _table("flight.nc")},
     }
+
+
+def _results() -> bytes:
+    """A results file: the records of 0.1.0 in short, with what later versions put there, and one in error."""
+    kept = Path(__file__).parents[1] / "fixtures" / "0.1.0" / "results.jsonl"
+    lines = [HEAD % JOB]
+    for name, line in zip(("a.csv", "b.csv"), kept.read_text("utf-8").splitlines()[2:], strict=True):
+        digest = hashlib.sha256(name.encode()).hexdigest()
+        record = json.loads(line) | {"flight": name, "file": f"/flights/{name}", "sha256": digest}
+        record["parameters"], record["ranking"] = record["parameters"][:3], record["ranking"][:2]
+        record["terms"], record["landmarks"] = [{"harmonic": "cos 2", "term": "a_x"}], LANDMARKS
+        lines.append(json.dumps(record, separators=(",", ":")))
+    lines.append('{"flight":"c.csv","file":"/flights/c.csv","error":{"kind":"input","message":"none"}}')
+    return ("\n".join(lines) + "\n").encode()
 
 
 def _table(name: str) -> bytes:
