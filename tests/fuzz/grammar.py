@@ -105,7 +105,9 @@ def generated_model(data: bytes) -> Outcome:
     except UserError as error:
         return shown(error)
     draw = np.random.default_rng(1)
-    t = np.arange(SAMPLES) / 8.0
+    t = 0.137 + 0.1171 * np.arange(
+        SAMPLES
+    )  # off the poles that formulas have where sin(phi) or cos(phi) is 0
     inputs = 0.1 * draw.standard_normal((len(model.chain.INPUTS), SAMPLES))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of NumPy: 1/0 and the like are the user's formula
