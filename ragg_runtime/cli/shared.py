@@ -61,10 +61,11 @@ def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
     import json
 
-    if json_file is not None and "provenance" not in result:
-        from ragg_runtime.model_dir.provenance import provenance
+    if json_file is not None:
+        from ragg_runtime.model_dir.provenance import provenance, versioned
 
-        result = result | {"provenance": provenance(command_line())}
+        made = {} if "provenance" in result else {"provenance": provenance(command_line())}
+        result = versioned(result | made)
     if json_file in STDOUT:
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return
