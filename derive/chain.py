@@ -6,14 +6,14 @@ place (cos_j, sin_j); the four of them and G_out follow from it (Eq. 15).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
 from derive import stages
 from derive.context import OMEGA, Context
-from derive.effect import Effect
+from derive.effect import Effect, Values
 from derive.layout import AXES, HEIGHT, TURN, Layout
 from derive.layout import PAPER as FOUR
 from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
@@ -55,111 +55,167 @@ def accelerometer(
     tape: Tape | None = None,
     kinematics: Kinematics = "platform",
     layout: Layout = FOUR,
+    candidates: Sequence[Effect] = (),
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
 
-    From the end of the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    Of ``candidates`` among them only the first order in their parameters is kept where these are zero. From the end of
+    the stage ``sensing`` on, everything stands by the axes of the disc at rest.
     """
     tape = Tape() if tape is None else tape
     let = tape.let
     hooked = [(e, e.values) for e in effects]
-
-    # 1 sensing
     c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
+    c.small = frozenset(s for e in candidates for s in _fitted(e) if e.at_zero)
+    c.enter(frozenset())
+    _sensing(hooked, c, layout)
+    _turn_disc(hooked, c, let)
+    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
+    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
+    cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
+    sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
+    at = _Place(
+        hooked=hooked, c=c, let=let, order=order, layout=layout, M=M, cos_psi=cos_psi, sin_psi=sin_psi
+    )
+    k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
+    c.parameters = dict(k)
+    if any(e.instrument for e in effects):
+        c.geometry, c.sensed, c.force = at.forces(k, "b")
+        for e, p in _one_by_one(hooked, c):
+            if e.instrument:
+                changed = e.instrument(k, p, c)
+                k |= {n: let(f"{n}_{e.id}".replace("-", "_"), v) for n, v in changed.items()}
+    c.geometry, f, c.force = at.forces(k, "f")
+    c.sensed, c.parameters = f, dict(k)
+    q = f if order.second_order_angles else at.forces(k, "q")[1]
+    i = _transducer(hooked, c, let, f, q, k)
+    return Accelerometer(tape, let("V", k["k_VI"] * k["K1"] * i), f)
+
+
+Let = Callable[[str, sp.Expr], sp.Expr]
+Hooked = Sequence[tuple[Effect, Values]]
+
+
+def _fitted(e: Effect) -> frozenset[sp.Symbol]:
+    return frozenset(e.symbol(q) for q in e.parameters if q.fitted)
+
+
+def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
+    """Effect after effect; the context knows whose hook is called."""
     for e, p in hooked:
+        c.enter(_fitted(e))
+        yield e, p
+    c.enter(frozenset())
+
+
+def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
+    """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
+    let = c.tape.let
+    for e, p in _one_by_one(hooked, c):
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
     if layout.has(AXES[0, 0]):
         c.axes = AXES
         c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
 
-    # 2 geometry
-    increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
-    if increment != 0:
-        d = let("delta_phi", increment)
-        cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
-        c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
-        c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
-        swing = let("rate_delta_phi", c.rate(d))
-        c.spin = Spin(
-            let("spin_rate_true", SPIN_RATE + swing),
-            let("spin_acceleration_true", SPIN_ACCELERATION + c.rate(swing)),
-        )
-    M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
-    M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
-    cos_psi = let("cos_psi", c.cos_phi * COS_J - c.sin_phi * SIN_J)
-    sin_psi = let("sin_psi", c.sin_phi * COS_J + c.cos_phi * SIN_J)
-    k: dict[str, sp.Expr] = {q.name: q.symbol for q in ACCELEROMETER}
-    height = HEIGHT if layout.has(HEIGHT) else sp.Integer(0)
-    turn = TURN if layout.has(TURN[0, 0]) else None
-    rigid, lifted = symbol("dR"), (0, 0, height)
 
-    def forces(k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
-        angles = {n: k[n] for n in ("beta_x", "beta_z")}
-        if label == "q":  # second-order terms, whose angles the order counting drops
-            angles = {n: sp.Integer(0) for n in angles}
-        g = stages.mounting(
-            symbol("radius") + k["dR"], order=order, height=height, turn_of_triad=turn, **angles
-        )
-        g = _named_geometry(let, f"{label}_disc", g)
-        g = _named_geometry(let, label, stages.to_measurement_frame(g, cos_psi, sin_psi))
-        for e, p in hooked:
-            if e.geometry:
-                g = _named_geometry(let, f"{label}_{e.id}", e.geometry(g, p, c))
-        # 3 specific force
-        f = c.motion.a + M * g.r
-        for e, p in hooked:
-            if e.field:
-                f = f + e.field(g.r, p, c)
-        if k["dR"] != rigid:
-            arm = sp.Matrix(
-                [
-                    let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / (symbol("radius") + k["dR"]))
-                    for n in range(3)
-                ]
-            )
-            growth = c.rate(k["dR"])
-            f = f + stages.of_growing_arm(c.case, arm, growth, c.rate(growth))
-        f = sp.Matrix([let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
+def _turn_disc(hooked: Hooked, c: Context, let: Let) -> None:
+    """The true disc angle and its rates, where effects change them."""
+    increment = sp.Add(*(e.disc_angle(p, c) for e, p in _one_by_one(hooked, c) if e.disc_angle))
+    if increment == 0:
+        return
+    d = let("delta_phi", increment)
+    cos_d, sin_d = let("cos_delta_phi", sp.cos(d)), let("sin_delta_phi", sp.sin(d))
+    c.cos_phi = let("cos_phi_true", COS_PHI * cos_d - SIN_PHI * sin_d)
+    c.sin_phi = let("sin_phi_true", SIN_PHI * cos_d + COS_PHI * sin_d)
+    swing = let("rate_delta_phi", c.rate(d))
+    c.spin = Spin(
+        let("spin_rate_true", SPIN_RATE + swing),
+        let("spin_acceleration_true", SPIN_ACCELERATION + c.rate(swing)),
+    )
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where an accelerometer is, and stages 2 and 3 there.
+
+    Attributes
+    ----------
+    M
+        Eq. 10, named.
+    cos_psi, sin_psi
+        Of the angle of its place.
+    """
+
+    hooked: Hooked
+    c: Context
+    let: Let
+    order: Order
+    layout: Layout
+    M: sp.Matrix
+    cos_psi: sp.Expr
+    sin_psi: sp.Expr
+
+    def forces(self, k: Mapping[str, sp.Expr], label: str) -> tuple[Geometry, SensedForce, Force]:
+        """Geometry, sensed force and force along the nominal triad, with parameters k; names begin with ``label``."""
+        let = self.let
+        g = self._geometry(k, label)
+        f = self._force(g, k, label)
         resolved = Force(*(let(f"{label}_f_{'xyz'[n]}j", g.tau[n, :].dot(f)) for n in range(3)))
         if label == "q":
             return g, SensedForce(*resolved), resolved
         vartheta = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
-        sensed = stages.sensed_force(resolved, vartheta, order)
-        return (
-            g,
-            SensedForce(*(let(f"{label}_f_{n}", v) for n, v in zip("iop", sensed, strict=True))),
-            resolved,
-        )
+        sensed = stages.sensed_force(resolved, vartheta, self.order)
+        named = (let(f"{label}_f_{n}", v) for n, v in zip("iop", sensed, strict=True))
+        return g, SensedForce(*named), resolved
 
-    c.parameters = dict(k)
-    if any(e.instrument for e in effects):
-        c.geometry, c.sensed, c.force = forces(k, "b")
-        for e, p in hooked:
-            if e.instrument:
-                changed = e.instrument(k, p, c)
-                k |= {n: let(f"{n}_{e.id}".replace("-", "_"), v) for n, v in changed.items()}
-    c.geometry, f, c.force = forces(k, "f")
-    c.sensed, c.parameters = f, dict(k)
-    q = f if order.second_order_angles else forces(k, "q")[1]
+    def _geometry(self, k: Mapping[str, sp.Expr], label: str) -> Geometry:
+        angles = {n: k[n] for n in ("beta_x", "beta_z")}
+        if label == "q":  # second-order terms, whose angles the order counting drops
+            angles = {n: sp.Integer(0) for n in angles}
+        turn = TURN if self.layout.has(TURN[0, 0]) else None
+        arm = symbol("radius") + k["dR"]
+        g = stages.mounting(arm, order=self.order, height=self._height, turn_of_triad=turn, **angles)
+        g = _named_geometry(self.let, f"{label}_disc", g)
+        g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
+        for e, p in _one_by_one(self.hooked, self.c):
+            if e.geometry:
+                g = _named_geometry(self.let, f"{label}_{e.id}", e.geometry(g, p, self.c))
+        return g
 
-    # 4 transducer
-    for e, p in hooked:
-        if e.second_order:
-            q = SensedForce(
-                *(
-                    let(f"q_{n}_{e.id}".replace("-", "_"), v)
-                    for n, v in zip("iop", e.second_order(q, f, p, c), strict=True)
-                )
+    @property
+    def _height(self) -> sp.Expr:
+        return HEIGHT if self.layout.has(HEIGHT) else sp.Integer(0)
+
+    def _force(self, g: Geometry, k: Mapping[str, sp.Expr], label: str) -> sp.Matrix:
+        """Eq. 11 with what effects add, in the measurement frame, named."""
+        f = self.c.motion.a + self.M * g.r
+        for e, p in _one_by_one(self.hooked, self.c):
+            if e.field:
+                f = f + e.field(g.r, p, self.c)
+        if k["dR"] != symbol("dR"):  # an arm that changes its length
+            lifted, length = (0, 0, self._height), symbol("radius") + k["dR"]
+            arm = sp.Matrix(
+                [self.let(f"{label}_arm_{'xyz'[n]}", (g.r[n] - lifted[n]) / length) for n in range(3)]
             )
+            growth = self.c.rate(k["dR"])
+            f = f + stages.of_growing_arm(self.c.case, arm, growth, self.c.rate(growth))
+        return sp.Matrix([self.let(f"{label}_f_{'xyz'[n]}", f[n]) for n in range(3)])
+
+
+def _transducer(
+    hooked: Hooked, c: Context, let: Let, f: SensedForce, q: SensedForce, k: dict[str, sp.Expr]
+) -> sp.Expr:
+    """Stage 4: I_j/K_j1; the second-order terms see q."""
+    for e, p in _one_by_one(hooked, c):
+        if e.second_order:
+            changed = zip("iop", e.second_order(q, f, p, c), strict=True)
+            q = SensedForce(*(let(f"q_{n}_{e.id}".replace("-", "_"), v) for n, v in changed))
     i = let("i_sensed", stages.transducer(f, q, k))
-    for e, p in hooked:
+    for e, p in _one_by_one(hooked, c):
         if e.transducer:
             i = let(f"i_{e.id}".replace("-", "_"), e.transducer(i, f, p, c))
-    return Accelerometer(tape, let("V", k["k_VI"] * k["K1"] * i), f)
-
-
-Let = Callable[[str, sp.Expr], sp.Expr]
+    return i
 
 
 def _named_motion(let: Let, label: str, m: Motion) -> Motion:

@@ -80,19 +80,7 @@ def from_expression(
         raise ExpressionError(f"stage {stage!r}: expected one of {', '.join(STAGES)}")
     tree = _parse(add)
     add = ast.unparse(tree)
-    names = sorted({n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(FUNCTIONS))
-    for name in parameters:
-        # In generated code its name is that of the effect and its own.
-        if not _is_name(name) or name in _TAKEN:
-            raise ExpressionError(f"{name!r} cannot name a parameter")
-        if name not in names:
-            raise ExpressionError(f"parameter {name} does not occur in {add!r}")
-    if not parameters:
-        raise ExpressionError("an effect needs at least one parameter with a unit")
-    channels = tuple(n for n in names if n not in _TAKEN and n not in parameters)
-    for name in channels:
-        if not _is_name(name):
-            raise ExpressionError(f"{name!r} cannot name a channel")
+    channels = _channels(tree, add, parameters)
 
     def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
         values: dict[str, sp.Expr] = {f"f_{axis}": v for axis, v in zip("iop", f, strict=True)}
@@ -122,6 +110,24 @@ def from_expression(
     )
     _check_size(tree, add, list(parameters))
     return effect
+
+
+def _channels(tree: ast.Expression, add: str, parameters: Mapping[str, Mapping[str, Any]]) -> tuple[str, ...]:
+    """Names of an expression that are channels; ExpressionError where a name is none, or a parameter does not occur."""
+    names = sorted({n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(FUNCTIONS))
+    for name in parameters:
+        # In generated code its name is that of the effect and its own.
+        if not _is_name(name) or name in _TAKEN:
+            raise ExpressionError(f"{name!r} cannot name a parameter")
+        if name not in names:
+            raise ExpressionError(f"parameter {name} does not occur in {add!r}")
+    if not parameters:
+        raise ExpressionError("an effect needs at least one parameter with a unit")
+    channels = tuple(n for n in names if n not in _TAKEN and n not in parameters)
+    for name in channels:
+        if not _is_name(name):
+            raise ExpressionError(f"{name!r} cannot name a channel")
+    return channels
 
 
 def _check_size(tree: ast.Expression, add: str, parameters: list[str]) -> None:

@@ -17,7 +17,9 @@ import sympy
 from derive import ir
 from derive.effect import Effect
 from derive.effects import catalogue
-from derive.emit import render
+from derive.emit import c as _c
+from derive.emit import numpy as _numpy
+from derive.emit.target import joined, targets
 from derive.folded import Folded, folded
 from derive.layout import PAPER as FOUR
 from derive.layout import Layout
@@ -72,8 +74,7 @@ def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: 
 def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
     """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
     (chain, *_) = _chains(form, effects, ())
-    header, source = render.plain_c(chain)
-    return {"plain.h": header, "plain.c": source}
+    return _c.plain(chain)
 
 
 def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
@@ -90,23 +91,17 @@ def _derive(
     below: Sequence[str] = (),
 ) -> Files:
     candidates = offered(candidates, form)
-    files: dict[str, str] = {}
-    for m in harmonics:
-        files[f"{m.name}.py"] = render.harmonic_numpy(m)
-        files[f"c/{m.name}.h"], files[f"c/{m.name}.c"] = render.harmonic_c(m)
-        files[f"latex/{m.name}.tex"] = render.harmonic_latex(m)
-    if harmonics:
-        files["latex/paper.tex"] = render.paper_latex(starred(), ideal(collect()))
     forms = [_folded(form)] if packaged else []
-    for f in forms:
-        files[f"{f.name}.py"] = render.folded_numpy(f)
-        files[f"c/{f.name}.h"], files[f"c/{f.name}.c"] = render.folded_c(f)
     chains = _chains(form, effects, candidates)
-    for c in chains:
-        files[f"{c.name}.py"] = render.chain_numpy(c)
-        # The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere.
-        if packaged or c.name == "chain":
-            files[f"c/{c.name}.h"], files[f"c/{c.name}.c"] = render.chain_c(c)
+    equations = (starred(), ideal(collect())) if harmonics else None
+    parts: list[Files] = []
+    for t in targets():
+        parts += [t.harmonic(m) for m in harmonics]
+        parts += [t.folded(f) for f in forms]
+        parts += [t.chain(x, packaged=packaged) for x in chains]
+        if equations is not None:
+            parts.append(t.paper(*equations))
+    files = joined(parts)
     every = [*candidates, *(e for e in effects if e not in candidates)]
     return _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
 
@@ -148,7 +143,7 @@ def _complete(
     below: Sequence[str],
 ) -> Files:
     """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
-    files["__init__.py"] = render.render("init.py.j2", modules=sorted(m.name for m in models))
+    files["__init__.py"] = _numpy.package_file([m.name for m in models])
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))
     manifest: dict[str, object] = {
         "format": FORMAT,

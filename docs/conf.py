@@ -64,7 +64,7 @@ def _block(self: Any, node: Any) -> None:
     _mathml(self, node, block=True)
 
 
-def _made(app: Sphinx) -> None:
+def _made(app: Sphinx, config: Any) -> None:
     """What is not written by hand: the notebook, the reports of the demonstration, the picture of the house."""
     from ragg_runtime.cli import demo
 
@@ -90,4 +90,4 @@ def _copied(source: Path, target: Path) -> None:
 def setup(app: Sphinx) -> None:
     """Hooks of Sphinx."""
     app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
-    app.connect("builder-inited", _made)
+    app.connect("config-inited", _made)  # before Sphinx asks whether html_extra_path exists

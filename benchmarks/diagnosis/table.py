@@ -238,6 +238,10 @@ def _outside(lines: Sequence[Line]) -> str:
         "## Physics outside the catalogue\n\n"
         "A term of V_1 (of all four for the spin rate and Coriolis) with a strength of 10 in what neither the calibration nor all"
         "\ncatalogue effects together can absorb; the second column is its strength with what they can mimic.\n\n"
+        "**Not all of them are strangers to the search.** Harmonics above the fourth, second derivatives, powers, moduli, signs and\n"
+        "relaxations of the forces that turn with the disc, terms that come and go, and lines in the spectrum were written into the\n"
+        "dictionary together with terms of this table that they find, or because one of them had been missed. Of these the table\n"
+        "says that the search works, not what it would do with physics that nobody thought of.\n\n"
         + _table(["term", "strength with mimics", "verdict", "strongest terms named (sigmas)"], rows)
     )
 

@@ -88,14 +88,7 @@ def _context() -> dict[str, Any]:
             for s in sizes(PAPER_ENVELOPE, collect(second))
             if _is_kept(s, PAPER_ENVELOPE) and not _named(s, kept)
         ),
-        "bounds": [
-            (title, *_bound(e, m))
-            for title, e, m in (
-                ("paper's, Eq. 42 to 47", PAPER_ENVELOPE, simplified()),
-                ("dynamic experiment, Eq. 42 to 47", DYNAMIC_EXPERIMENT, simplified()),
-                ("dynamic experiment, its own model", DYNAMIC_EXPERIMENT, simplified(DYNAMIC_EXPERIMENT)),
-            )
-        ],
+        "bounds": _bounds_of_models(),
         "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
         "full": [
             (title, *_bound(e, m))
@@ -120,6 +113,15 @@ def _context() -> dict[str, Any]:
         ],
         "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
     }
+
+
+def _bounds_of_models() -> list[tuple[str, ...]]:
+    models = (
+        ("paper's, Eq. 42 to 47", PAPER_ENVELOPE, simplified()),
+        ("dynamic experiment, Eq. 42 to 47", DYNAMIC_EXPERIMENT, simplified()),
+        ("dynamic experiment, its own model", DYNAMIC_EXPERIMENT, simplified(DYNAMIC_EXPERIMENT)),
+    )
+    return [(title, *_bound(e, m)) for title, e, m in models]
 
 
 def number(x: float | Fraction, digits: int = 3) -> str:

@@ -10,8 +10,8 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.cli.main import DIRECTORY, _command, _emit, _json, _load, _progress, _write_report
 from ragg_runtime.cli.outputs import Command
+from ragg_runtime.cli.shared import DIRECTORY, command_line, emit, json_option, load, under_way, write_report
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
@@ -22,20 +22,20 @@ if TYPE_CHECKING:
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
 @click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
-@_json
+@json_option
 def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
     from ragg_runtime.cli import terminal, terminal_after
     from ragg_runtime.workflow import after, loop
 
-    m = _load(model_dir)
-    _progress(f"reading {len(flights)} flight(s)")
+    m = load(model_dir)
+    under_way(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights)
-    _progress("calibrating")
+    under_way("calibrating")
     with progress.shown("compare", sum(map(len, read))):
         kept = after.calibrate(m, read, save)
-    origin = terminal.origin(kept.loaded, read, _command())
-    _emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
+    origin = terminal.origin(kept.loaded, read, command_line())
+    emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
 
 
 @click.command(cls=Command)
@@ -63,7 +63,7 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
     show_default=True,
     help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
 )
-@_json
+@json_option
 def compensate(
     model_dir: Path,
     flights: Sequence[Path],
@@ -82,15 +82,15 @@ def compensate(
         raise UserError(
             "a result would be written over what the command reads", where=output, remedy="name another file"
         )
-    m = _load(model_dir)
+    m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
-    _progress(f"reading {len(flights)} flight(s)")
+    under_way(f"reading {len(flights)} flight(s)")
     read = after.read_for_compensation(m, flights)
-    _progress("compensating" if calibration == "frozen" else "calibrating and compensating")
+    under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, output)
-    origin = terminal.origin(m, read, _command()) | {"notes": [*odd, *terminal.notes(m, read)]}
-    _emit(
+    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    emit(
         c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
     )
 
@@ -113,7 +113,7 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
         raise UserError(
             "say what to export", expected="--c, --numpy or --json", remedy="see: ragg export --help"
         )
-    m = _load(model_dir)
+    m = load(model_dir)
     for place in after.export(m, folder, form):
         click.echo(f"written: {place}")
     click.echo(f"with {after.contents(m).origin}")
@@ -128,9 +128,9 @@ def compare_frozen(
     from ragg_runtime.workflow import after, loop
 
     odd = _calibration_notes(m)
-    _progress(f"reading {len(flights)} flight(s)")
+    under_way(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights)
-    _progress("comparing with the calibration that was kept")
+    under_way("comparing with the calibration that was kept")
     with progress.shown("compare", sum(map(len, read))):
         h = after.compare_frozen(m, read)
 
@@ -140,17 +140,17 @@ def compare_frozen(
         return compare_html(
             h.comparison,
             title=f"{m.name}, frozen, and {', '.join(x.name for x in read)}",
-            command=_command(),
+            command=command_line(),
             sources=loop.sources(m, read),
             notes=[sentence(h), *odd, *terminal.notes(m, read)],
         )
 
-    _write_report(report_file, page)
-    origin = terminal.origin(m, read, _command())
-    _emit(
+    write_report(report_file, page)
+    origin = terminal.origin(m, read, command_line())
+    emit(
         h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
         json_file,
-        terminal_after.held(h, read),
+        terminal_after.held(h, read, m.directory.path),
     )
 
 

@@ -46,13 +46,13 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
     m = loop.new(model)
     flights = loop.read_flights(m, [flight])
 
-    say(f"ragg compare {model} {flight.name}")
+    say(terminal.command("compare", model, flights))
     before = loop.compare(m, flights)
-    print(terminal.compared(before, flights))
+    print(terminal.compared(before, flights, model))
 
-    say(f"ragg diagnose {model} {flight.name}")
+    say(terminal.command("diagnose", model, flights))
     diagnosis = loop.diagnose(m, flights)
-    print(terminal.diagnosed(diagnosis, model))
+    print(terminal.diagnosed(diagnosis, model, flights))
     origin = loop.sources(m, flights)
     page = diagnose_html(diagnosis, title="Demonstration: diagnosis", command=command, sources=origin)
     (output / "diagnosis.html").write_text(page, "utf-8")
@@ -60,9 +60,9 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
         raise UserError("the demonstration did not find the hidden effect", found=diagnosis.verdict)
 
     for effect in diagnosis.found:
-        say(f"ragg add {model} {effect} {flight.name}")
+        say(terminal.command("add", model, flights, effect=effect))
         result = loop.add(m, effect, flights)
-        print(terminal.added(result))
+        print(terminal.added(result, flights))
         m = result.loaded
     assert result.before is not None
     assert result.after is not None

@@ -42,12 +42,12 @@ def next_motion(
     **options: Any,
 ) -> None:
     """Which flight next: a motion that tells apart the effects that these flights cannot."""
-    from ragg_runtime.cli.main import _emit, _load
+    from ragg_runtime.cli.shared import emit, load
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.next_flight import next_flight, write_motion
 
-    m = _load(model_dir)
+    m = load(model_dir)
     read = loop.read_flights(m, flights, mapping)
     found = next_flight(m, read, loop.motion_limits(m, limits), **options)
     write_motion(found, output)
-    _emit(found.as_json(), json_file, f"{output}: {found.in_words()}")
+    emit(found.as_json(), json_file, f"{output}: {found.in_words()}")

@@ -41,7 +41,7 @@ def qc(
     Columns: time, inline and cross of one or more discs (inline_A, cross_A ...), positions (easting, northing
     or latitude, longitude), altitude, temperature, a_z or vertical_velocity; other names by --map.
     """
-    from ragg_runtime.cli.main import _command, _emit, _write_report  # which name this command in turn
+    from ragg_runtime.cli.shared import command_line, emit, write_report
     from ragg_runtime.flight.mapping import read_mapping
     from ragg_runtime.model_dir.provenance import provenance
     from ragg_runtime.quality.qc import qc as _qc
@@ -50,6 +50,6 @@ def qc(
     how = None if mapping is None else read_mapping(mapping)
     q = _qc(flights, how, arrangement=arrangement, limits=limits)
     title = ", ".join(p.name for p in flights[:3]) + (" ..." if len(flights) > 3 else "")
-    _write_report(report_file, lambda: quality_html(q, title=title, command=_command()))
+    write_report(report_file, lambda: quality_html(q, title=title, command=command_line()))
     files = [(str(p), digest) for p, (_, digest) in zip(flights, q.read.files, strict=True)]
-    _emit(q.as_json() | {"provenance": provenance(_command(), files=files)}, json_file, quality_text(q))
+    emit(q.as_json() | {"provenance": provenance(command_line(), files=files)}, json_file, quality_text(q))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,16 @@ from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loop import Added
 from ragg_runtime.workflow.origin import notes as notes
 from ragg_runtime.workflow.origin import origin as origin
+
+
+def command(
+    verb: str, model_dir: Path, flights: Sequence[Flight], mapping: Path | None = None, effect: str = ""
+) -> str:
+    """A command on the same model and flights, as a shell takes it: ``ragg add my-model lag day-1/flight.csv``."""
+    files = dict.fromkeys(str(x.path) for x in flights if x.path is not None)
+    words = [verb, str(model_dir), *([effect] if effect else []), *files]
+    words += [] if mapping is None else ["--map", str(mapping)]
+    return one_line(f"ragg {shlex.join(words)}{'' if files else ' FLIGHT'}")
 
 
 def _error(e: Error) -> str:
@@ -97,7 +108,7 @@ def _in_short(form: Form) -> str:
     return f"{form.kinematics}, {form.preset or ', '.join(kept)}"
 
 
-def compared(c: Comparison, flights: Sequence[Flight]) -> str:
+def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping: Path | None = None) -> str:
     """The result of ``compare``."""
     f = c.fitted
     lines = [
@@ -122,6 +133,8 @@ def compared(c: Comparison, flights: Sequence[Flight]) -> str:
             f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma"
             for t in where["motion"]
         ]
+    if not c.adequate:
+        lines += ["", f"next: {command('diagnose', model_dir, flights, mapping)}"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
@@ -140,7 +153,9 @@ def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[Par
     return lines
 
 
-def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> str:
+def diagnosed(
+    d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = (), mapping: Path | None = None
+) -> str:
     """The result of ``diagnose``."""
     lines = [
         notebook.verdict(d.verdict, d.found),
@@ -181,13 +196,13 @@ def diagnosed(d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = ()) -> 
         lines.append("\n  not testable on this record:")
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
-        lines += ["", f"next: ragg add {one_line(str(model_dir))} {d.found[0]} FLIGHT"]
+        lines += ["", f"next: {command('add', model_dir, flights, mapping, d.found[0])}"]
     lines += _off_sheet(d.off_sheet)
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
-def added(a: Added, flights: Sequence[Flight] = ()) -> str:
+def added(a: Added, flights: Sequence[Flight] = (), mapping: Path | None = None) -> str:
     """The result of ``add``."""
     done = f"added {a.effect}" if a.converged else f"{a.effect} was NOT added"
     lines = [f"{done}; effects: {', '.join(e.id for e in a.loaded.model.effects) or 'none'}"]
@@ -201,6 +216,8 @@ def added(a: Added, flights: Sequence[Flight] = ()) -> str:
             *_off_sheet(a.after.off_sheet),
         ]
         lines += _parameters(a.parameters, a.combinations)
+        if a.converged and not a.after.adequate:
+            lines += ["", f"next: {command('diagnose', a.loaded.directory.path, flights, mapping)}"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.cli.terminal import compared, errors_table
+from ragg_runtime.cli.terminal import command, compared, errors_table
 from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
 from ragg_runtime.wording import notebook
@@ -39,16 +39,17 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
         ]
     if k.saved:
         d = k.loaded.directory.path
-        lines += ["", f"kept in {d}; use it with: ragg compensate {d} FLIGHT -o OUT --calibration frozen"]
+        use = f"{command('compensate', d, flights)} -o compensated.csv --calibration frozen"
+        lines += ["", f"kept in {d}; use it with: {use}"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 
-def held(h: Held, flights: Sequence[Flight]) -> str:
+def held(h: Held, flights: Sequence[Flight], model_dir: Path) -> str:
     """The result of ``compare --frozen``."""
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
     moved = [r for r in rows if abs(r["z"]) > MOVED]
-    lines = [compared(h.comparison, flights), "", sentence(h)]
+    lines = [compared(h.comparison, flights, model_dir), "", sentence(h)]
     if moved:
         lines.append("what moved since (frozen, now):")
         lines += [
@@ -77,7 +78,7 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
     if not r["converged"]:
         lines.append("The calibration has NOT converged: do not rely on these values.")
     for x in r["flights"]:
-        lines += ["", f"{x['flight']}: {x['good']} of {x['samples']} samples good"]
+        lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
         lines.append(
             f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
         )
@@ -96,3 +97,8 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
             lines.append(f"  quality: {', '.join(told)} samples")
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
+
+
+def _output(x: Mapping[str, Any], r: Mapping[str, Any]) -> str:
+    """Which output it is, if there are several."""
+    return f": {x['output']}" if len({y["output"] for y in r["flights"]}) > 1 else ""

@@ -22,11 +22,12 @@ from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, 
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.noise import spread
-from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.fit.segments import ROWS, Segment
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import sees
 from ragg_runtime.model.evaluate import EOTVOS, scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
@@ -52,7 +53,9 @@ def without_gradients(flight: Flight) -> Flight:
 class Prepared:
     """Flights with the parameters that compensate them.
 
-    ``stretches`` and ``noise`` (densities are in the calibration) of every flight; ``validity`` only if frozen.
+    ``observations`` are outputs of ``flights``, of which ``of`` says whose; ``stretches`` and ``noise`` (densities are in
+    the calibration) of each of them; ``seeing`` are those that see a gradient on a turning disc. ``validity`` only if
+    frozen.
     """
 
     kind: Kind
@@ -60,10 +63,16 @@ class Prepared:
     instrument: Instrument
     flights: tuple[Flight, ...]
     observations: tuple[Observation, ...]
+    of: tuple[int, ...]
+    seeing: tuple[int, ...]
     calibration: Calibration
     stretches: tuple[tuple[Stretch, ...], ...]
     converged: bool
     validity: dict[str, tuple[float, float]]
+
+    def of_flight(self, k: int) -> list[int]:
+        """The observations of a flight that are compensated."""
+        return [n for n in self.seeing if self.of[n] == k]
 
 
 @one_thread
@@ -73,32 +82,28 @@ def prepared(
     """Calibrate on the flights (``self``, ``crossed``), or take what was saved (``frozen``)."""
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
-    papers_only(instrument)
-    if not instrument.layout.like_paper:
-        raise UserError(
-            "only the paper's layout is compensated so far: one disc of four accelerometers, one output",
-            where=instrument.path,
-            found=f"{len(instrument.layout.outputs)} outputs",
-            remedy="calibrate and compare work with any layout",
-        )
     flights = tuple(without_gradients(x) for x in flights)
-    observations = tuple(observe(x, instrument) for x in flights)
+    each = [observations_of([x], instrument) for x in flights]
+    observations = tuple(o for own in each for o in own)
+    of = tuple(k for k, own in enumerate(each) for _ in own)
+    seeing = _seeing(instrument, observations)
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    lengths = [len(o.record.time) for o in observations]
     validity: dict[str, tuple[float, float]] = {}
     if kind == "frozen":
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
         c = frozen.calibration(saved, model, instrument, observations)
         root = frozen.root(saved, model, instrument)
-        stretches = [schedule.whole(c, root, n) for n in lengths]
+        stretches = [schedule.whole(c, root, len(o.record.time)) for o in observations]
         settled, validity = saved.converged, dict(saved.validity)
     else:
         f = fit(model, instrument, observations)
         c, settled = f.calibration, f.calibration.converged
         root = inverse(information(f))
         stretches = (
-            schedule.crossed(f) if kind == "crossed" else [schedule.whole(c, root, n) for n in lengths]
+            schedule.crossed(f, of)
+            if kind == "crossed"
+            else [schedule.whole(c, root, len(o.record.time)) for o in observations]
         )
     return Prepared(
         kind=kind,
@@ -106,6 +111,8 @@ def prepared(
         instrument=instrument,
         flights=flights,
         observations=observations,
+        of=of,
+        seeing=seeing,
         calibration=c,
         stretches=tuple(stretches),
         converged=settled,
@@ -113,26 +120,37 @@ def prepared(
     )
 
 
-def papers_only(instrument: Instrument) -> None:
-    """UserError for an instrument whose inline and cross are not those of the paper's one disc."""
-    if not instrument.layout.of_paper:
+def _seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
+    """Those that see a gradient on a turning disc; UserError if there is none."""
+    a = instrument.accelerometers
+    k1, R = a["k_VI"] * a["K1"], instrument.radii + a["dR"]
+    found = tuple(n for n, o in enumerate(observations) if o.record.turning and sees(o.output, k1, R))
+    if observations and not found:
         raise UserError(
-            "gradients are compensated, and models exported, for the paper's disc alone as yet",
-            where=str(instrument.path),
-            found=f"[[disc]] with {instrument.layout.size} accelerometers",
-            expected="one [disc] with four accelerometers",
+            "there is no gradient to compensate: no output sees one on a disc that turns",
+            where=instrument.path,
+            found=", ".join(
+                f"{o.output.name}: disc {'turns' if o.record.turning else 'stands still'}"
+                for o in observations
+            ),
+            expected="a turning disc with accelerometers whose sum does not cancel the gradient",
+            remedy="calibrate and compare say how good the model is of such an instrument",
         )
+    return found
 
 
 class Compensated:
-    """One flight being compensated: its series come from :meth:`segments`, once; then :meth:`as_json` tells of them."""
+    """One output of a flight being compensated, observation k of what was prepared.
+
+    Its series come from :meth:`segments`, once; then :meth:`as_json` tells of them.
+    """
 
     def __init__(self, p: Prepared, k: int, name: str) -> None:
-        self.flight, o = p.flights[k], p.observations[k]
+        self.flight, o = p.flights[p.of[k]], p.observations[k]
         rate = o.record.rate
         self.demodulator = demodulator(name, rate)
         _long_enough(self.flight, self.demodulator)
-        k_ggi = scale_factor(p.model, p.calibration.p)
+        k_ggi = scale_factor(p.model, p.calibration.p, o.place)
         noise = spectrum.of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
         self.model, self.instrument = p.model, p.instrument
         many = p.model.in_machine_code and len(self.flight.time) >= MANY
@@ -189,6 +207,7 @@ class Compensated:
         expected = [finite(x / np.sqrt(self.demodulator.bandwidth)) for x in self.setting.noise]
         return {
             "flight": self.flight.name,
+            "output": self.setting.observation.output.name,
             "samples": self.count,
             "good": self.good,
             "quality": {q.name: n for q, n in self.bits.items()},

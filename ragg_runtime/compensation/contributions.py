@@ -56,7 +56,7 @@ def of(s: Setting, samples: Sequence[slice], model: Model, instrument: Instrumen
         good = (segment.quality()[segment.own] & 3) == 0
         count += int(np.sum(good))
         for name, effect, changed in [("everything", None, np.zeros_like(p)), *neutral(model, instrument, p)]:
-            e = segment.bare if name == "everything" else segment.bare - _with(segment, changed)
+            e = segment.bare if name == "everything" else segment.bare - segment.by(changed)
             g = segment.demodulated(e)[segment.own][good]
             part = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
             totals[name, effect] = totals.get((name, effect), np.zeros(2)) + part
@@ -70,8 +70,3 @@ def of(s: Setting, samples: Sequence[slice], model: Model, instrument: Instrumen
 
 def _end(s: Setting) -> int:
     return len(s.observation.record.time)
-
-
-def _with(segment: Segment, p: Array) -> Array:
-    r = segment.record
-    return segment.s.evaluator.output(r.time, segment.x, p, r.phi, 1)

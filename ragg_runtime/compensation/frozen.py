@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import calibrated
@@ -36,9 +37,6 @@ Array = NDArray[np.float64]
 INFORMED = 0.1
 """A direction is tested where the flight knows at least this share of what the saved calibration knows: the rest is
 noise that would hide a change."""
-
-HOLDS = 0.01
-"""Level of the test that the frozen parameters are still the instrument's."""
 
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
@@ -220,7 +218,7 @@ class Held:
 
     @property
     def holds(self) -> bool:
-        return self.p_value > HOLDS
+        return self.p_value > false_alarms.FROZEN
 
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""

@@ -18,19 +18,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import replacing
 
-UNITS: Mapping[str, str] = MappingProxyType(
-    {
-        "time": "s",
-        "inline": "Eo",
-        "cross": "Eo",
-        "inline_std": "Eo",
-        "cross_std": "Eo",
-        "quality": "1",
-        "flight": "1",
-    }
-)
-"""The columns and their units; ``flight`` (1, 2, ...) only where there are several."""
-
 ENDINGS: Mapping[str, str] = MappingProxyType(
     {
         ".csv": "csv",
@@ -48,27 +35,25 @@ Write = Callable[[Rows], None]
 
 
 @contextlib.contextmanager
-def writing(path: Path, samples: int, *, several: bool) -> Iterator[Write]:
+def writing(path: Path, samples: int, units: Mapping[str, str]) -> Iterator[Write]:
     """A function that takes columns of successive rows; the file appears whole or not at all.
 
-    ``samples`` is the number of all rows.
+    ``samples`` is the number of all rows; ``units`` names the columns, in order, and their units.
     """
     kind = format_for(path)
-    names = [n for n in UNITS if several or n != "flight"]
-    schema = pa.schema([pa.field(n, _type(n), metadata={"units": UNITS[n]}) for n in names])
+    schema = pa.schema([pa.field(n, _type(n), metadata={"units": unit}) for n, unit in units.items()])
+    whole = [n for n in units if _is_whole(n)]
     with replacing(path) as temporary:
         if kind == "parquet":
-            with pq.ParquetWriter(
-                temporary, schema, compression="snappy", use_dictionary=["quality"]
-            ) as writer:
+            with pq.ParquetWriter(temporary, schema, compression="snappy", use_dictionary=whole) as writer:
                 yield lambda rows: writer.write_table(_table(rows, schema))
         elif kind == "csv":
             with _text(temporary, path.name.lower().endswith(".gz")) as stream:
-                stream.write((",".join(f"{n} [{UNITS[n]}]" for n in names) + "\n").encode())
+                stream.write((",".join(f"{n} [{unit}]" for n, unit in units.items()) + "\n").encode())
                 options = pyarrow.csv.WriteOptions(include_header=False)
                 yield lambda rows: pyarrow.csv.write_csv(_table(rows, schema), stream, options)
         else:
-            with _netcdf(temporary, names, samples) as write:
+            with _netcdf(temporary, units, samples) as write:
                 yield write
 
 
@@ -86,8 +71,12 @@ def format_for(path: Path) -> str:
     return found
 
 
+def _is_whole(name: str) -> bool:
+    return name == "flight" or name.partition("_")[0] == "quality"
+
+
 def _type(name: str) -> pa.DataType:
-    return pa.int64() if name in ("quality", "flight") else pa.float64()
+    return pa.int64() if _is_whole(name) else pa.float64()
 
 
 def _table(rows: Rows, schema: pa.Schema) -> pa.Table:
@@ -106,21 +95,20 @@ def _text(path: Path, compressed: bool) -> Iterator[IO[bytes]]:
 
 
 @contextlib.contextmanager
-def _netcdf(path: Path, names: list[str], samples: int) -> Iterator[Write]:
+def _netcdf(path: Path, units: Mapping[str, str], samples: int) -> Iterator[Write]:
     import h5netcdf  # slow to import, and only this format needs it
 
     with h5netcdf.File(path, "w") as file:
         file.dimensions = {"time": samples}
-        for n in names:
-            whole = n in ("quality", "flight")
-            variable = file.create_variable(n, ("time",), np.int64 if whole else np.float64)
-            variable.attrs["units"] = UNITS[n]
+        for n, unit in units.items():
+            variable = file.create_variable(n, ("time",), np.int64 if _is_whole(n) else np.float64)
+            variable.attrs["units"] = unit
         done = 0
 
         def write(rows: Rows) -> None:
             nonlocal done
             count = len(rows["time"])
-            for n in names:
+            for n in units:
                 file.variables[n][done : done + count] = rows[n]
             done += count
 

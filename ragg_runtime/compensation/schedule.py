@@ -48,8 +48,11 @@ def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
     return (_stretch(c, 0, samples, c.p, root),)
 
 
-def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
-    """Of every flight: each block of time with the calibration on everything else."""
+def crossed(f: Fitted, flights: Sequence[int]) -> list[tuple[Stretch, ...]]:
+    """Of every observation: each block of time with the calibration on everything else.
+
+    ``flights`` says to which flight an observation belongs: of that block, none of its outputs counts.
+    """
     c = f.calibration
     scale = np.array([q.scale for q in c.columns])
     all_of = [base(x, f.n_base) for x in f.triangles]
@@ -58,7 +61,10 @@ def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
         edges = block_edges(len(o.record.time))
         stretches = []
         for b in range(BLOCKS):
-            others = [t for x, ts in enumerate(all_of) for y, t in enumerate(ts) if (x, y) != (k, b)]
+            block = (flights[k], b)
+            others = [
+                t for x, ts in zip(flights, all_of, strict=True) for y, t in enumerate(ts) if (x, y) != block
+            ]
             normal = with_sheet(join(others), f.to_nominal)
             p = c.p.copy()
             p[c.index] += normal.step * scale

@@ -1,9 +1,10 @@
 """The gravity gradient in one segment of a flight: what the model explains removed, demodulated, and how sure it is.
 
 With e = G_out - model(motion, no gradient), the channels inline + i cross are the low-pass of e times
-(4 sin 2 phi - 2 i cos 2 phi) / k_ggi. The instrument does not see the gradient quite so: its phase and gains are a little
-off, by what the model says. So the model's own response to that first estimate replaces the ideal one, which leaves the
-second order. The gradient that is put in is the one that was found, never a recorded one.
+(4 sin 2 phi - 2 i cos 2 phi) / k_ggi, phi counted from where the output's carriers have no phase. The instrument does not
+see the gradient quite so: its phase and gains are a little off, by what the model says. So the model's own response to that
+first estimate replaces the ideal one, which leaves the second order. The gradient that is put in is the one that was found,
+never a recorded one. (Gradients other than across the disc's axis are seen through mounting errors alone, and stay in.)
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.schedule import Stretch, within
 from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.model.evaluate import EOTVOS, scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
@@ -76,7 +78,7 @@ class Setting:
     demodulator
         The low-pass.
     observation
-        The whole flight, without recorded gradients.
+        The whole flight, without recorded gradients, and one of its outputs.
     recorded
         inline + i cross (N,), Eo, if the flight was demodulated by its recorder; then only the model is low-passed.
     stretches
@@ -148,13 +150,13 @@ class Segment:
         self.x = self.record.inputs(s.model.chain)
         self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
         self.x[list(self.places.values())] = 0.0
-        phi = self.record.phi
+        phi = self.record.demodulation_angle
         self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
         self.mixer = 4 * self.sine - 2j * self.cosine
         self.parts = within(s.stretches, self.first, self.last)
         self.k = np.empty(len(phi))
         for some, stretch in self.parts:
-            self.k[some] = scale_factor(s.model, stretch.p)
+            self.k[some] = scale_factor(s.model, stretch.p, o.place)
         self.bare = self.output()
 
     @cached_property
@@ -167,9 +169,13 @@ class Segment:
         G = np.empty(len(self.k))
         for some, stretch in self.parts:
             p = stretch.p if direction is None else stretch.about + step * stretch.directions[direction]
-            part = (self.record.time[some], self.x[:, some], p, self.record.phi[some], 1)
-            G[some] = self.s.evaluator.output(*part)
+            G[some] = self.by(p, some)
         return G
+
+    def by(self, p: Array, some: slice = slice(None)) -> Array:
+        """G_out (n,), V, of some samples by parameters p (size,), SI."""
+        r, place = self.record, self.s.observation.place
+        return self.s.evaluator.output(r.time[some], self.x[:, some], p, r.phi[some], 1, which=place)
 
     def demodulated(self, e: Array) -> Complex:
         """inline + i cross (..., N), Eo, of residuals (..., N), V."""
@@ -180,10 +186,13 @@ class Segment:
         return np.asarray(self.k * (g.real / 2 * self.sine - g.imag * self.cosine))
 
     def put(self, g: Complex) -> None:
-        """Let the model see this gradient, Eo."""
-        for name, value in (("Gamma_xx", g.real / 2), ("Gamma_yy", -g.real / 2), ("Gamma_xy", g.imag)):
-            if name in self.places:
-                self.x[self.places[name]] = EOTVOS * value
+        """Let the model see this gradient, Eo, which is across the axis of the disc."""
+        first, second = np.array(self.record.axes or (X_AXIS, Y_AXIS))
+        inline = (np.outer(first, first) - np.outer(second, second)) / 2
+        cross = np.outer(first, second) + np.outer(second, first)
+        for name, place in self.places.items():
+            i, k = ("xyz".index(axis) for axis in name.removeprefix("Gamma_"))
+            self.x[place] = EOTVOS * (inline[i, k] * g.real + cross[i, k] * g.imag)
 
     def first_estimate(self) -> Complex:
         """The gradient as an ideal instrument would have seen it; holes are bridged."""

@@ -34,7 +34,7 @@ def with_probability(r: Ranked, found: Probabilities) -> Ranked:
     """The row with its effect's probability.
 
     Random effects and those of the output channel are no columns, and not enumerated: there it is the largest that the
-    p-value allows at even odds, 1 / (1 - 1/(e p ln p)) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    p-value allows at even odds, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
     """
     if r.effect in found.of:
         return replace(r, probability=found.of[r.effect])

@@ -37,7 +37,7 @@ from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_values import quantisation, saturation
+from ragg_runtime.flight.output_effects import recognised
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -251,7 +251,7 @@ def _random_columns(f: Fitted) -> dict[str, int]:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Saturation and quantisation of a recorded output, recognised in its values."""
+    """Effects of the recorder, recognised in the values of each recorded output."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
     first = (w for w in f.flown if w.observation.place == f.flown[0].observation.place)
@@ -260,9 +260,5 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
             if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
-            if "saturation" in known and saturation(series, valid):
-                found.append("saturation")
-            noise = w.noise.models[0].rms
-            if "quantisation" in known and quantisation(series, valid, noise):
-                found.append("quantisation")
+            found += recognised(series, valid, w.noise.models[0].rms, known)
     return sorted(set(found))

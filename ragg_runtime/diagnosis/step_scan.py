@@ -21,6 +21,10 @@ from ragg_runtime.fit.segments import BLOCKS
 Array = NDArray[np.float64]
 
 
+BESIDE = 20.0
+"""Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
+
+
 def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
     """The field of all deterministic candidates, steps at their most likely instant among them.
 
@@ -48,7 +52,7 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
             for given in ([[], first] if first else [[]])
         ]
         # By itself, unless it explains far more beside the first choice.
-        step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - 20.0 else scans[0]
+        step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - BESIDE else scans[0]
         found = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
         field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
         if e.id in selection.choose(field).chosen:

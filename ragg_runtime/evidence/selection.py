@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.evidence import likelihood_ratio
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
@@ -16,10 +17,10 @@ from ragg_runtime.fit.fitted import Fitted
 
 Array = NDArray[np.float64]
 
-FAMILY = 0.03
+FAMILY = false_alarms.CATALOGUE
 """Probability with which the whole catalogue of an effect-free record may raise a false alarm."""
 
-FURTHER = 0.005
+FURTHER = false_alarms.COMPANION
 """The same for each effect beside the first: a chance companion would spoil what is found."""
 
 MOST = 4
@@ -27,6 +28,12 @@ MOST = 4
 
 INDISTINGUISHABLE = 9.0
 """Chi-square by which a rival may be worse and still not be told apart (3 sigma)."""
+
+AS_SURE = 7.0
+"""The same in the logarithm of the p-value (a factor of 1,100: 3 sigma beside 5 or so): a rival of many coefficients is none."""
+
+SWAPPED = 2.0
+"""Logarithm of the p-value by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +156,7 @@ def _swap(
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         ranked = sorted((t.log_p, e) for e, t in conditional.items())
-        if ranked and ranked[0][1] != old and ranked[0][0] < conditional[old].log_p - 2.0:
+        if ranked and ranked[0][1] != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
             best = ranked[0][1]
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
@@ -177,7 +184,10 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
             sorted(
                 o
                 for o, t in conditional.items()
-                if o != e and t.rank and mine.chi2 - t.chi2 < INDISTINGUISHABLE and t.log_p < mine.log_p + 7.0
+                if o != e
+                and t.rank
+                and mine.chi2 - t.chi2 < INDISTINGUISHABLE
+                and t.log_p < mine.log_p + AS_SURE
             )
         )
     return result

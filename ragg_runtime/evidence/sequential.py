@@ -22,13 +22,11 @@ from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.special import logsumexp
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.square_root import triangle, with_prior
 
 Array = NDArray[np.float64]
-
-FALSE_ALARM = 0.01
-"""Probability with which a change is said to be in flights in which there is none."""
 
 WIDE = 100.0
 """Prior standard deviation of the parameters before the first block, in those of the sheet: that the sheet was wrong is no change."""
@@ -77,7 +75,7 @@ def evidence(f: Fitted) -> Evidence:
     found: Change | None = None
     starts: list[tuple[str, float]] = []
     blocks = list(_blocks(f))
-    limit = float(np.log(max(1, len(blocks)) / FALSE_ALARM))
+    limit = float(np.log(max(1, len(blocks)) / false_alarms.CHANGE))
     for n, b in enumerate(blocks):
         starts.append((b.flight, b.start))
         if log_m <= 0.0:

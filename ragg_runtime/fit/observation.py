@@ -14,7 +14,7 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_values import saturation
+from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.flight import slow
 from ragg_runtime.flight.angular_acceleration import HEAD, Derivative, planned
+from ragg_runtime.flight.even_grid import differentiated, evenly
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -182,7 +182,7 @@ class Layout:
             grid = uniform(si["time"], self.path)
         except UserError:
             return Derivative()  # told where the rows are read
-        return planned([_evenly(_placed(si[n], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
+        return planned([evenly(_placed(si[n], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
 
     def step(self, rows: Batch) -> float:
         """Sampling interval of these rows, s."""
@@ -381,30 +381,6 @@ def _derive_acceleration(
         valid &= sure
         channels[name] = _filled(derived, name)
     notes.append(derivative.note)
-
-
-def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
-    """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
-    resampled = _evenly(x, grid)
-    slope, sure = derivative.of(resampled, 1 / grid.step)
-    there = np.isfinite(slope)
-    if resampled is x or np.sum(there) < 8:
-        return slope, sure
-    even = _even(grid)
-    return np.where(there, make_interp_spline(even[there], slope[there], 5)(grid.time), np.nan), sure
-
-
-def _evenly(x: Array, grid: Grid) -> Array:
-    """Samples at evenly spaced instants; themselves where they do not jitter."""
-    there = np.isfinite(x)
-    if not grid.jitters or np.sum(there) < 8:
-        return x
-    return np.where(there, make_interp_spline(grid.time[there], x[there], 5)(_even(grid)), np.nan)
-
-
-def _even(grid: Grid) -> Array:
-    n = len(grid.time)
-    return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
 
 
 def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:

@@ -56,25 +56,7 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
     are fewer than two samples, or time is missing, stands still, runs back or is not uniform.
     """
     where = at(path, "column 'time'")
-    if len(time) < 2:
-        raise UserError(
-            "too few samples",
-            where=path,
-            found=f"{len(time)} row{'s' * (len(time) != 1)}",
-            expected="at least 2, usually thousands",
-        )
-    if not np.all(np.isfinite(time)):
-        row = int(np.flatnonzero(~np.isfinite(time))[0])
-        raise UserError(
-            "the time is missing",
-            where=where,
-            found=f"row {first_row + row}: {time[row]}",
-            expected="a number in every row",
-            remedy="remove rows without a time",
-        )
-    steps = np.diff(time)
-    if np.any(steps <= 0):
-        raise _not_increasing(time, steps, where, first_row)
+    steps = _steps(time, path, where, first_row)
     if step is None:
         step = _step(steps)
     if not (time[-1] - time[0]) / step < 2.0**53:
@@ -113,6 +95,30 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
     jitters = bool(np.max(deviation) > JITTER_NOTED)
     return Grid(index, whole, step, tuple(_notes(time, steps, jumps, deviation, step)), jitters)
+
+
+def _steps(time: Array, path: Path | None, where: str, first_row: int) -> Array:
+    """(n - 1,) s: from each instant to the next, all above zero."""
+    if len(time) < 2:
+        raise UserError(
+            "too few samples",
+            where=path,
+            found=f"{len(time)} row{'s' * (len(time) != 1)}",
+            expected="at least 2, usually thousands",
+        )
+    if not np.all(np.isfinite(time)):
+        row = int(np.flatnonzero(~np.isfinite(time))[0])
+        raise UserError(
+            "the time is missing",
+            where=where,
+            found=f"row {first_row + row}: {time[row]}",
+            expected="a number in every row",
+            remedy="remove rows without a time",
+        )
+    steps = np.diff(time)
+    if np.any(steps <= 0):
+        raise _not_increasing(time, steps, where, first_row)
+    return steps
 
 
 def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:

@@ -24,6 +24,7 @@ Complex = NDArray[np.complex128]
 Vector3 = tuple[float, float, float]
 
 X_AXIS: Vector3 = (1.0, 0.0, 0.0)
+Y_AXIS: Vector3 = (0.0, 1.0, 0.0)
 Z_AXIS: Vector3 = (0.0, 0.0, 1.0)
 TANGENTIAL: Vector3 = (0.0, 1.0, 0.0)
 """Direction of an input axis along the turn, in (e_r, e_t, e_a)."""
@@ -265,6 +266,12 @@ def gain(o: Output, k1: Array, R: Array) -> complex:
     """
     members = list(o.members)
     return complex(np.sum(k1[members] * R[members] * _seen(o)))
+
+
+def sees(o: Output, k1: Array, R: Array) -> bool:
+    """Whether an output sees the gradient across the spin axis, or its accelerometers' shares of it cancel."""
+    members = list(o.members)
+    return abs(gain(o, k1, R)) > CANCELLED * float(np.sum(np.abs(k1[members] * R[members])))
 
 
 def scale(o: Output, k1: Array, R: Array) -> float:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared import Flown, Projector
@@ -28,10 +29,10 @@ Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
 T = TypeVar("T")
 
-FAMILY = 0.004
+FAMILY = false_alarms.REMAINDER
 """Probability with which anything at all may seem left of an effect-free record."""
 
-SHARES = (0.5, 0.25, 0.25)
+SHARES = false_alarms.REMAINDER_SHARES
 """How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
 MOST_TERMS = 8

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_values import saturation
+from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument

@@ -20,9 +20,6 @@ from ragg_runtime.quality.lines import Read, read_lines
 from ragg_runtime.quality.track import tracks
 from ragg_runtime.quality.trends import Day, Dependence, days, dependences, rectification
 
-SIGNIFICANT = 1e-3
-"""p-value below which a dependence is pointed out: of the some 30 that are looked at, by chance one in thirty surveys."""
-
 
 @dataclass(frozen=True, eq=False)
 class Quality:

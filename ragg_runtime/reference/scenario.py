@@ -195,8 +195,6 @@ def scenario(
     if trim not in ("matched", "table-v"):
         raise UserError("unknown trim", found=trim, expected="matched or table-v")
     sheet = trimmed() if trim == "matched" else table_v()
-    white = eotvos_noise(noise_density, sheet.radius)
-    red = 0.0 if red_corner is None else white.omega_T * red_corner
     return Scenario(
         sheet=sheet,
         instrument=perturbed(sheet, np.random.default_rng([seed, _INSTRUMENT]), perturbation),
@@ -208,10 +206,17 @@ def scenario(
             turbulence_scale=turbulence_scale,
         ),
         gravity=draw_gradient(np.random.default_rng([seed, _GEOLOGY]), gradient_rms),
-        noise=None if noise_density == 0 else Noise(alpha=red, b=1.0, omega_T=white.omega_T),
+        noise=_noise(noise_density, red_corner, sheet.radius),
         auxiliaries=plausible(np.random.default_rng([seed, _AUXILIARY])),
         duration=duration,
         rate=rate,
         rotations=rotations,
         seed=seed,
     )
+
+
+def _noise(density: float, red_corner: float | None, radius: float) -> Noise | None:
+    """Of each accelerometer; ``None`` where the density is zero."""
+    white = eotvos_noise(density, radius)
+    red = 0.0 if red_corner is None else white.omega_T * red_corner
+    return None if density == 0 else Noise(alpha=red, b=1.0, omega_T=white.omega_T)

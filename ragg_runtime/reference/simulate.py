@@ -134,26 +134,20 @@ def simulate(
 
     Parameters
     ----------
-    instrument
-        True parameters, SI.
-    motion
-        True motion of the disc centre.
+    instrument, motion
+        True parameters, SI, and true motion of the disc centre.
     duration, rate, start
         s, Hz, s.
-    gravity
-        Attracting masses or a gradient; ``None`` is none.
-    record_gradient
-        Whether the gradient at the centre is known to the record, as Gamma_xx ... Gamma_zz.
-    noise
-        Of each accelerometer, independent; ``None`` is none.
+    gravity, record_gradient
+        Attracting masses or a gradient (``None``: none), and whether that at the centre is recorded, as Gamma_xx ... Gamma_zz.
+    noise, seed
+        Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
     rotations
         ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles.
     kinematics
         ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
         ``{id: {parameter: value or four values, SI}}`` (see ``reference.effects.CATALOGUE``).
-    seed
-        Of noise, angle jitter and the default auxiliaries.
     auxiliaries
         Channel name -> function of time (N,) s; ``None``: plausible ones (``auxiliaries.plausible``).
     turning
@@ -167,37 +161,54 @@ def simulate(
     time = instants(duration, rate, start)
     if rotations not in ("first-order", "exact"):
         raise UserError("unknown kind of rotations", found=rotations, expected="first-order or exact")
-    layout = instrument.layout
-    injected = resolve(effects, layout.size)
+    injected = resolve(effects, instrument.layout.size)
     if auxiliaries is None:
         auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
     _require_channels(injected, auxiliaries)
     share = spin_share(kinematics, injected)
-    given = _turning(turning or {}, layout)
-    steady = tuple(Turning(d.spin_frequency) for d in layout.discs)
-    discs = tuple(given.get(d.name, s) for d, s in zip(layout.discs, steady, strict=True))
+    given = _turning(turning or {}, instrument.layout)
+    discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
     chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share)
-    error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, injected)
-    clean = np.empty((layout.size, time.size))
+    clean = _clean(chain, time, rate, seed)
+    voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
+    return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))
+
+
+def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
+    """(accelerometers, N) V without noise."""
+    error = random_angle(np.random.default_rng([seed, _ANGLE_STREAM]), time.size, rate, chain.effects)
+    clean = np.empty((chain.instrument.layout.size, time.size))
     for begin in range(0, time.size, _CHUNK):
         part = slice(begin, begin + _CHUNK)
         clean[:, part] = chain.voltages(time[part], error[part])
-    voltages = clean
-    if noise is not None:
-        streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(layout.size))
-        drawn = np.stack([noise.sample(stream, time.size, rate) for stream in streams])
-        voltages = clean + chain.scale(time) * drawn
-    encoders = {d.angle_column: given[d.name].encoder(time) for d in layout.discs if d.name in given}
+    return clean
+
+
+def _recorded(
+    chain: Chain, time: Array, voltages: Array, clean: Array, channels: Mapping[str, Array]
+) -> Simulation:
+    """What the recorder makes of voltages (accelerometers, N), with noise and without."""
+
+    def outputs(v: Array) -> dict[str, Array]:
+        layout = chain.instrument.layout
+        return {o.name: record_output(combine(v, o), chain.effects) for o in layout.outputs}
+
     return Simulation(
         time=time,
-        channels=_channels(chain, time, record_gradient) | encoders,
+        channels=channels,
         voltages=voltages,
-        outputs={o.name: record_output(combine(voltages, o), injected) for o in layout.outputs},
+        outputs=outputs(voltages),
         voltages_noise_free=clean,
-        outputs_noise_free={o.name: record_output(combine(clean, o), injected) for o in layout.outputs},
-        instrument=instrument,
-        effects=injected,
+        outputs_noise_free=outputs(clean),
+        instrument=chain.instrument,
+        effects=chain.effects,
     )
+
+
+def _drawn(noise: Noise, shape: tuple[int, int], rate: float, seed: int) -> Array:
+    """(accelerometers, N): the noise of each, of a stream of its own."""
+    streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(shape[0]))
+    return np.stack([noise.sample(stream, shape[1], rate) for stream in streams])
 
 
 def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turning]:
@@ -209,7 +220,9 @@ def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turni
     return given
 
 
-def _channels(chain: Chain, time: Array, record_gradient: bool) -> dict[str, Array]:
+def _channels(
+    chain: Chain, time: Array, record_gradient: bool, turning: Mapping[str, Turning]
+) -> dict[str, Array]:
     recorded = record_motion(chain.motion, time, chain.effects)
     channels = {
         f"{quantity}_{axis}": values[k]
@@ -223,7 +236,9 @@ def _channels(chain: Chain, time: Array, record_gradient: bool) -> dict[str, Arr
     if record_gradient:
         gradient = np.zeros((6, time.size)) if chain.gravity is None else chain.gravity.gradient(time)
         channels |= {f"Gamma_{c}": gradient[k] for k, c in enumerate(COMPONENTS)}
-    return channels | {name: channel(time) for name, channel in chain.auxiliaries.items()}
+    channels |= {name: channel(time) for name, channel in chain.auxiliaries.items()}
+    discs = (d for d in chain.instrument.layout.discs if d.name in turning)
+    return channels | {d.angle_column: turning[d.name].encoder(time) for d in discs}
 
 
 def _require_channels(effects: Injected, auxiliaries: Mapping[str, Auxiliary]) -> None:

@@ -10,6 +10,7 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.report import barcharts, budget, diagnose_page, figures, page, panels, parameters, series
 from ragg_runtime.report.barcharts import Step
 from ragg_runtime.report.page import Origin
+from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
 
 STEPS = 14
@@ -49,7 +50,7 @@ def add_html(
         "errors": errors(before, after),
         "history": _history_table(history),
         "loop": _loop(history, after),
-        "sections": _sections(before, after),
+        "sections": [*_sections(before, after), *panels_of("add", Shown(f, after.residual))],
         "ranking": diagnose_page.ranking(diagnosis) if diagnosis else [],
         "evidence": diagnose_page.evidence(diagnosis, "evidence") if diagnosis else None,
         "budget": _budget(after),

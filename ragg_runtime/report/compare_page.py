@@ -9,6 +9,7 @@ from typing import Any
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.report import figures, page, panels, parameters, series
 from ragg_runtime.report.page import Origin
+from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
 
 
@@ -41,7 +42,7 @@ def compare_html(
         "lead": lead(comparison),
         "facts": panels.facts(f),
         "errors": errors(comparison),
-        "sections": _sections(comparison),
+        "sections": [*_sections(comparison), *panels_of("compare", Shown(f, comparison.residual))],
         "by_combination": parameters.by_combination(f),
         "by_accelerometer": parameters.by_accelerometer(f),
         "patterns": [name for name, _ in parameters.PATTERNS],
@@ -146,13 +147,4 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
     rows = panels.terms(c.terms(), c.calibrated.rms_Eo)
     text = [] if rows else ["No motion term stands out of the residual."]
     found.append({"title": "Where it fails", "text": text, "figures": page.figures(rest), "terms": rows})
-    if shown := panels.channel_panels(f, c.residual, chosen):
-        svg = figures.channels(shown, "channels", "demodulated residual over time")
-        caption = "Demodulated residual: the error of the measured gradients. Dashed: the noise’s one sigma."
-        found.append({"title": "Demodulated channels", "text": [], "figures": [page.figure(svg, caption)]})
-    else:
-        said = (
-            "The record is too short for the demodulator’s low-pass: there are no inline and cross channels."
-        )
-        found.append({"title": "Demodulated channels", "text": [said], "figures": []})
     return found

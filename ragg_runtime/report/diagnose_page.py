@@ -16,6 +16,7 @@ from ragg_runtime.report import barcharts, effect_values, figures, page, panels,
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.effect_values import Value, Values
 from ragg_runtime.report.page import Origin
+from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.report.parameters import Row
 from ragg_runtime.wording import numbers
 
@@ -40,7 +41,7 @@ def diagnose_html(
         "lead": lead(d),
         "facts": panels.facts(f),
         "errors": errors(d),
-        "sections": _sections(d),
+        "sections": [*_sections(d), *panels_of("diagnose", _shown(d))],
         "ranking": ranking(d),
         "evidence": evidence(d, "evidence"),
         "groups": groups(d),
@@ -254,6 +255,10 @@ def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
             f"{name} = {numbers.with_unit(numbers.number(float(number)), unit)}"
         )
     return list(found.items())
+
+
+def _shown(d: Diagnosis) -> Shown:
+    return Shown(fitted=d.target, residual=d.residual_after, diagnosis=d)
 
 
 def _sections(d: Diagnosis) -> list[dict[str, Any]]:

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.quality.by_line import IN_BAND, LineFigures
-from ragg_runtime.quality.qc import SIGNIFICANT, Quality
+from ragg_runtime.quality.qc import Quality
 from ragg_runtime.quality.trends import Day, Dependence
 from ragg_runtime.report import page, quality_charts
 from ragg_runtime.report.page import Origin
@@ -75,7 +76,7 @@ def lead(q: Quality) -> list[str]:
         limit = q.limits[name]
         said.append(f"{name}: {count} of {len(q.lines)} lines above {limit.value:g} {limit.unit}.")
     for d in q.dependences:
-        if d.p_value < SIGNIFICANT:
+        if d.p_value < false_alarms.QUALITY:
             said.append(f"The {d.of} depends on {d.on}: {numbers.plus_minus(d.slope, d.std)} {d.unit}.")
     steps = [d for d in q.days if d.step is not None and d.step_std and abs(d.step) > STEPPED * d.step_std]
     if steps:
@@ -196,7 +197,7 @@ def _dependence(d: Dependence) -> dict[str, Any]:
         "slope": numbers.plus_minus(d.slope, d.std),
         "unit": d.unit,
         "p": numbers.number(d.p_value, 2),
-        "sure": d.p_value < SIGNIFICANT,
+        "sure": d.p_value < false_alarms.QUALITY,
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from ragg_runtime.flight.landmarks import Landmarks, overlap, same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import LANDMARKS, Job, Record, expanded, job
+from ragg_runtime.survey.task import BETWEEN, LANDMARKS, Job, Record, divided, expanded, job
 from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
@@ -55,14 +56,10 @@ def survey(
     UserError
         For bad input to the survey as a whole. A single flight that fails has its error in its record.
     """
-    if not flights:
-        raise UserError("a survey needs flights", expected="one file or more")
-    if jobs is not None and scheduler is not None:
-        raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
-    if jobs is not None and jobs < 1:
-        raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
+    _check(flights, jobs, scheduler)
     given = job(text, path, cluster=scheduler is not None, mapping=mapping)
     files = expanded(given, ordered(flights))
+    names = distinct_names(files)
     records: dict[str, Record] = {}
     with _kept(resume) as kept:
         if kept is not None:
@@ -73,12 +70,22 @@ def survey(
         if left:
             with contextlib.closing(_examined(given, left, jobs, scheduler, tls)) as found:
                 for file, record in found:
-                    records[file] = record
+                    records[file] = record = record | {"flight": names[file]}
                     if kept is not None:
                         kept.append(record)
                     if progress is not None:
                         progress(len(records), len(files), record)
-    return Survey(tuple(once([records[f] for f in files])))
+    # what was kept may have been named among other files
+    return Survey(tuple(once([records[f] | {"flight": names[f]} for f in files])))
+
+
+def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | None) -> None:
+    if not flights:
+        raise UserError("a survey needs flights", expected="one file or more")
+    if jobs is not None and scheduler is not None:
+        raise UserError("a survey runs on this machine or on a cluster", found="--jobs and --scheduler")
+    if jobs is not None and jobs < 1:
+        raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
 
 
 def once(records: Sequence[Record]) -> Iterator[Record]:
@@ -95,6 +102,21 @@ def once(records: Sequence[Record]) -> Iterator[Record]:
                 kept["error"] = {"kind": "input", "message": message}
             seen.append(own)
         yield kept
+
+
+def distinct_names(files: Sequence[str]) -> dict[str, str]:
+    """File -> the flight's name: that of the file, with as many folders before it as tell it from all others."""
+    split = {f: divided(f) for f in files}
+    left, depth = {path for path, _ in split.values()}, 0
+    known: dict[Path, str] = {}
+    while left:
+        depth += 1
+        count = Counter(p.parts[-depth:] for p in left)
+        known |= {p: "/".join(p.parts[-depth:]) for p in left if count[p.parts[-depth:]] == 1}
+        left -= known.keys()
+    return {
+        f: known[path] + ("" if line is None else f"{BETWEEN}{line}") for f, (path, line) in split.items()
+    }
 
 
 def ordered(flights: Sequence[Path | str]) -> list[str]:

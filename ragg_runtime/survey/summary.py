@@ -9,10 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import stats
 
-from ragg_runtime.evidence.selection import FAMILY
-
-FALSE_ALARMS = 0.05
-"""Share of flights without any effect that may seem to have one: what the diagnosis promises to stay below."""
+from ragg_runtime.base.false_alarms import PROMISED, SURVEY
 
 CERTAIN = -30.0
 """Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
@@ -54,7 +51,7 @@ class Advice:
     flights
         Their names.
     log10_chance
-        Logarithm of the probability of as many false alarms, if :data:`FALSE_ALARMS` of all flights give one.
+        Logarithm of the probability of as many false alarms, if :data:`~ragg_runtime.base.false_alarms.PROMISED` of all flights give one.
     strongest_log10_p
         That of the least p-value of these flights (``None``: unknown).
     alternatives
@@ -71,7 +68,7 @@ class Advice:
     def firm(self) -> bool:
         """Whether so many flights, or one with such evidence, can hardly be false alarms."""
         strong = self.strongest_log10_p is not None and self.strongest_log10_p < CERTAIN
-        return bool(strong or self.log10_chance < np.log10(FAMILY))
+        return bool(strong or self.log10_chance < np.log10(SURVEY))
 
 
 @dataclass(frozen=True)
@@ -111,7 +108,7 @@ class Trend:
     @property
     def varies(self) -> bool:
         """Whether the values differ by more than their standard deviations let expect (1 %)."""
-        return bool(self.log_p < np.log(FAMILY))
+        return bool(self.log_p < np.log(SURVEY))
 
     @property
     def log_p(self) -> float:
@@ -202,7 +199,7 @@ def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
         mine = [(n, group) for n, group, _ in open_claims if best in group]
         flights = list(dict.fromkeys(n for n, _ in mine))
         shared = frozenset.intersection(*(group for _, group in mine)) - {best}
-        chance = float(stats.binom.logsf(len(flights) - 1, len(done), FALSE_ALARMS) / np.log(10.0))
+        chance = float(stats.binom.logsf(len(flights) - 1, len(done), PROMISED) / np.log(10.0))
         names = tuple(str(done[n]["flight"]) for n in flights)
         evidence = [_log10_p(done[n], best) for n in flights]
         strongest = min((p for p in evidence if p is not None), default=None)

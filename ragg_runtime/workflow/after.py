@@ -22,14 +22,13 @@ from ragg_runtime.compensation.compensate import (
     Compensated,
     Kind,
     meaning,
-    papers_only,
     prepared,
     without_gradients,
 )
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
-from ragg_runtime.compensation.series import Series
+from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.export.contents import Contents
 from ragg_runtime.export.document import json_files
 from ragg_runtime.export.folder import write_folder
@@ -110,8 +109,8 @@ def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
 class Compensation:
     """The result of ``compensate``.
 
-    ``series`` holds columns (name -> (N,), in the units of :data:`~ragg_runtime.compensation.output.UNITS`) of every
-    flight, unless they went to a file.
+    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.table.Table`) of every flight,
+    unless they went to a file.
     """
 
     name: str
@@ -150,25 +149,23 @@ def compensate(
     """
     saved = saved_calibration(m) if calibration == "frozen" else None
     p = prepared(m.model, m.instrument, flights, calibration, saved)
-    each = [Compensated(p, k, demodulator) for k in range(len(p.flights))]
+    each = [[Compensated(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
+    table = _table(each, p.flights)
     kept: list[Mapping[str, NDArray[Any]]] = []
     with contextlib.ExitStack() as stack:
-        several = len(each) > 1
         samples = sum(len(x.time) for x in p.flights)
-        write = None if output is None else stack.enter_context(writing(output, samples, several=several))
-        for k, x in enumerate(each):
-            parts = []
-            for part in x.segments():
-                rows = columns(part, x.flight, k + 1)
-                if write is None:
-                    parts.append(rows)
-                else:
-                    write(rows)
+        write = None if output is None else stack.enter_context(writing(output, samples, table.units))
+        for k, (flight, outputs) in enumerate(zip(p.flights, each, strict=True)):
+            rows = (
+                table.rows(np.array(flight.time[parts[0].rows]), parts, k + 1)
+                for parts in zip(*(x.segments() for x in outputs), strict=True)
+            )
             if write is None:
-                kept.append(
-                    {n: np.concatenate([r[n] for r in parts]) for n in parts[0] if several or n != "flight"}
-                )
-    d = each[0].demodulator
+                kept.append(joined(list(rows), list(table.units)))
+            else:
+                for some in rows:
+                    write(some)
+    d = each[0][0].demodulator
     result = {
         "calibration": calibration,
         "converged": p.converged,
@@ -179,7 +176,7 @@ def compensate(
             "latency_s": d.latency,
             "bandwidth_Hz": d.bandwidth,
         },
-        "flights": [x.as_json() for x in each],
+        "flights": [x.as_json() for outputs in each for x in outputs],
         "quality": meaning(),
     }
     if saved is not None:
@@ -187,9 +184,24 @@ def compensate(
     return Compensation(name=m.name, result=result, series=tuple(kept))
 
 
+def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:
+    """The columns of all flights, which must have the same outputs."""
+    tables = [Table.of(outputs, several=len(flights) > 1) for outputs in each if outputs]
+    for flight, outputs in zip(flights, each, strict=True):
+        if [x.setting.observation.place for x in outputs] != [x.setting.observation.place for x in each[0]]:
+            raise UserError(
+                "the flights do not have the same outputs",
+                where=flight.path or flight.name,
+                found=", ".join(x.setting.observation.output.name for x in outputs)
+                or "none that sees a gradient",
+                expected=", ".join(x.setting.observation.output.name for x in each[0]),
+                remedy="compensate them one by one",
+            )
+    return tables[0]
+
+
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
-    papers_only(m.instrument)
     if not m.instrument.layout.like_paper:
         raise UserError(
             "only the paper's layout is exported so far: one disc of four accelerometers, one output",
@@ -236,19 +248,6 @@ FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
     {"c": c_program, "numpy": numpy_files, "json": json_files}
 )
 """Form of an export -> its files."""
-
-
-def columns(part: Series, flight: Flight, number: int) -> dict[str, NDArray[Any]]:
-    """The columns of the output of one segment."""
-    return {
-        "time": np.array(flight.time[part.rows]),
-        "inline": part.gradient.real,
-        "cross": part.gradient.imag,
-        "inline_std": part.std[0],
-        "cross_std": part.std[1],
-        "quality": part.quality,
-        "flight": np.full(len(part.quality), number, dtype=np.int64),
-    }
 
 
 def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:

@@ -73,10 +73,7 @@ def simulated(
     if motion is None:
         flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
     else:
-        x = read_flight(motion, instrument.g0, need_output=False)
-        rate, duration = x.rate, float(x.time[-1] - x.time[0])
-        a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
-        flown = reference.recorded_motion(x.time - x.time[0], a, omega)
+        flown, duration, rate = _recorded(motion, instrument)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
         flown,
@@ -92,6 +89,13 @@ def simulated(
         auxiliaries=plausible(np.random.default_rng([seed, 12])),
     )
     return s.flight("simulated", voltages=voltages)
+
+
+def _recorded(file: Path | str, instrument: Instrument) -> tuple[reference.Motion, float, float]:
+    """The motion of a flight file, its length, s, and its rate, Hz."""
+    x = read_flight(file, instrument.g0, need_output=False)
+    a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
+    return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:

@@ -16,6 +16,7 @@ from derive import everything, tree
 from ragg_runtime.base import transaction
 from ragg_runtime.base.lock import locked
 from ragg_runtime.cli.main import main
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.workflow import loop
@@ -66,7 +67,7 @@ def warm() -> None:
             base.mkdir()
             main(command.arguments(command.prepare(base)))
     for effects in ([], [EFFECT]):
-        instrument = loop.parse_instrument(_sheet(effects))
+        instrument = parse_instrument(_sheet(effects))
         derive.model_of(instrument)
         derive.files_of(instrument)
 

@@ -411,7 +411,7 @@ TABLE: dict[str, tuple[Row, ...]] = {
         Row(
             "a test sheet that does not exist",
             lambda: None,
-            ("none.toml", "cannot be read"),
+            ("none.toml", "does not exist"),
             ("new", "other", "--from", "none.toml"),
         ),
     ),

@@ -72,7 +72,7 @@ def shown(x: Any) -> str:
 
 def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
     for x, said in (
-        (result.before, terminal.compared(result.before, result.flights)),
+        (result.before, terminal.compared(result.before, result.flights, Path("m"))),
         (result.diagnosis, terminal.diagnosed(result.diagnosis, Path("m"))),
         (result.step, terminal.added(result.step)),
     ):

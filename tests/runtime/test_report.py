@@ -291,6 +291,10 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     assert "The model lacks" not in page.text
     best = d.terms()[0]
     assert numbers.product(str(best["term"])) in page.text
+    line = d.expression()
+    assert line is not None
+    assert "As an effect of your own" in page.text  # where the terminal prints the line, the page has it too
+    assert line in page.text
 
 
 def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.source import Column, Written
 from ragg_runtime.survey import journal
+from ragg_runtime.survey.run import distinct_names
 from ragg_runtime.survey.task import divided, examine, expanded, job
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -54,3 +55,16 @@ def test_a_results_file_of_another_mapping_is_refused(tmp_path: Path) -> None:
         journal.head(mapped)["mapping"]
         != journal.head(job(toml.read_text(), toml, mapping=("", "m", True)))["mapping"]
     )
+
+
+def test_flights_of_one_file_name_are_told_apart_by_their_folders() -> None:
+    files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.xyz::20"]
+    assert distinct_names(files) == dict(
+        zip(
+            files,
+            ["01/flight.csv", "s/02/flight.csv", "t/02/flight.csv", "other.csv", "s.xyz::20"],
+            strict=True,
+        )
+    )
+    many = [f"/s/{n}/flight.csv" for n in range(3000)]
+    assert distinct_names(many)[many[7]] == "7/flight.csv"

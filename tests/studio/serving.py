@@ -10,7 +10,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +45,8 @@ class Served:
 
 
 def new(model: Path) -> None:
-    """The instrument that the shipped flight was made with: the example's sheet, with the kinematics of Eq. 9."""
-    text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
-    sheet = model.with_name("sheet.toml")
-    sheet.write_text(re.sub(r"\[model\]\n(?:[^\[\n].*\n|\n)*", "", text), "utf-8")
-    loop.new(model, sheet)
+    """The instrument that the shipped flight was made with: the example's."""
+    loop.new(model)
 
 
 def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:

@@ -63,7 +63,7 @@ export function effectsPane(box) {
   };
 
   const about = (e) => [
-    e.equation ? h("div.equation", {}, maths(e.equation)) : null,
+    e.equation ? h("div.equation", { tabindex: "0", role: "group", "aria-label": "Equation" }, maths(e.equation)) : null,
     e.physics ? h("p.physics", {}, e.physics) : null,
     e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map((v) => h("tr", {}, h("th", { scope: "row" }, v.name, v.of ? h("small", {}, ` ${v.of}`) : ""), h("td", {}, v.text))))) : null,
     h("dl.facts", {},

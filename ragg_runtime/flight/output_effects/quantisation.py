@@ -1,4 +1,4 @@
-"""The values of the output channel themselves: saturation and quantisation."""
+"""A coarsely quantised output: all its values on a lattice that matters beside the noise."""
 
 from __future__ import annotations
 
@@ -7,9 +7,6 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-CLIPPED = 5
-"""Samples at one and the same extreme value that make a saturated output."""
-
 ENOUGH = 1 << 20
 """Samples that show a lattice, if there is one."""
 
@@ -17,18 +14,9 @@ COARSE = 0.5
 """Quantisation step, in standard deviations of the noise, from which it is reported."""
 
 
-def saturation(G: Array, valid: NDArray[np.bool_]) -> tuple[float, NDArray[np.bool_]] | None:
-    """(V_max, samples at it) if many samples share the extreme value of an output; else ``None``."""
-    g = np.where(valid, G, 0.0)
-    top = float(np.max(np.abs(g)))
-    if top == 0.0:
-        return None
-    at = np.abs(g) >= top * (1 - 1e-12)
-    # a short record at coarse quantisation may repeat its maximum: neighbours at the top tell a clip
-    neighbours = int(np.sum(at[1:] & at[:-1]))
-    if np.sum(at) < CLIPPED or neighbours < 2:
-        return None
-    return top, at
+def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+    """Of an output (N,), V, with the standard deviation of its noise, V."""
+    return quantisation(values, valid, noise) is not None
 
 
 def quantisation(G: Array, valid: NDArray[np.bool_], noise: float) -> float | None:

@@ -9,15 +9,11 @@ import sympy as sp
 BLOCK = 128
 """Samples that are evaluated together in C: few, so that arithmetic and memory traffic overlap."""
 
-NUMPY_BLOCK = 4096
-"""The same in NumPy: large enough to make its calls cheap, small enough for the second cache."""
-
 
 def constants() -> Mapping[str, object]:
     """What ``fast.c.j2`` wants: Taylor terms (power, coefficient as C), and multiples of pi in two parts."""
     return {
         "block": BLOCK,
-        "numpy_block": NUMPY_BLOCK,
         "sine": [_term(n) for n in range(1, 18, 2)],
         "cosine": [_term(n) for n in range(0, 17, 2)],
         "horner": _horner,

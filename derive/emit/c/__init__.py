@@ -1,0 +1,61 @@
+"""C17: a header and a source a model, below ``c/``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from derive.emit.c import fast
+from derive.emit.printers import to_c
+from derive.emit.render import environment
+from derive.folded import Folded
+from derive.ir import Chain, Harmonic
+from derive.propagation import Term
+
+
+def harmonic(m: Harmonic) -> dict[str, str]:
+    own: list[tuple[str, str, str]] = []
+    expressions: list[sp.Expr] = []
+    lines: list[tuple[str, list[tuple[list[int], sp.Expr]]]] = []
+    for name, terms in m.amplitudes:
+        row = []
+        for t in terms:
+            numbers = []
+            for k in t.coefficients:
+                if k.expression not in expressions:
+                    expressions.append(k.expression)
+                numbers.append(len(own))
+                own.append((k.combination, str(expressions.index(k.expression)), to_c(k.expression)))
+            row.append((numbers, t.motion))
+        lines.append((name, row))
+    values = {"m": m, "folded": own, "expressions": expressions, "lines": lines}
+    return _both("harmonic", m.name, **values)
+
+
+def folded(m: Folded) -> dict[str, str]:
+    return _both("folded", m.name, m=m)
+
+
+def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
+    """The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere."""
+    return _both("chain", m.name, m=m) if packaged or m.name == "chain" else {}
+
+
+def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
+    return {}
+
+
+def plain(m: Chain) -> dict[str, str]:
+    """G_out alone, in the order of operations of the NumPy code."""
+    return {f"plain.{end}": _render(f"plain.{end}.j2", m=m) for end in ("h", "c")}
+
+
+def _both(form: str, name: str, **values: object) -> dict[str, str]:
+    return {f"c/{name}.{end}": _render(f"{form}.{end}.j2", **values) for end in ("h", "c")}
+
+
+def _render(template: str, **values: object) -> str:
+    env = environment(__name__)
+    env.globals |= fast.constants()
+    return env.get_template(template).render(**values)

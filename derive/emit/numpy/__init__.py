@@ -1,0 +1,57 @@
+"""NumPy: a module a model, and the package file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import sympy as sp
+
+from derive.emit.printers import to_numpy
+from derive.emit.render import environment
+from derive.folded import Folded
+from derive.ir import AmplitudeTerm, Chain, Harmonic
+from derive.propagation import Term
+
+BLOCK = 4096
+"""Samples that are evaluated together: large enough to make NumPy's calls cheap, small enough for the second cache."""
+
+
+def harmonic(m: Harmonic) -> dict[str, str]:
+    return {f"{m.name}.py": _render("harmonic.py.j2", m=m)}
+
+
+def folded(m: Folded) -> dict[str, str]:
+    return {f"{m.name}.py": _render("folded.py.j2", m=m)}
+
+
+def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
+    return {f"{m.name}.py": _render("chain.py.j2", m=m)}
+
+
+def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
+    return {}
+
+
+def package_file(modules: Sequence[str]) -> str:
+    """``__init__.py`` of a generated package."""
+    return _render("init.py.j2", modules=sorted(modules))
+
+
+def _render(template: str, **values: object) -> str:
+    env = environment(__name__)
+    env.filters["numpy_term"] = _term
+    env.globals["numpy_block"] = BLOCK
+    return env.get_template(template).render(**values)
+
+
+def _term(t: AmplitudeTerm) -> str:
+    inner = " + ".join(f"{k.combination}({to_numpy(k.expression)})" for k in t.coefficients)
+    if t.motion == 1:
+        return inner
+    if len(t.coefficients) > 1:
+        inner = f"({inner})"
+    return (
+        f"{inner} * {to_numpy(t.motion)}"
+        if t.motion.is_Pow or t.motion.is_Symbol
+        else f"{inner} * ({to_numpy(t.motion)})"
+    )

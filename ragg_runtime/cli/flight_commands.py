@@ -1,0 +1,278 @@
+"""Commands that hold a model against flights: ``ragg compare``, ``diagnose``, ``add``, ``survey``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli import completion
+from ragg_runtime.cli.file_commands import mapping_option
+from ragg_runtime.cli.outputs import Command, asked
+from ragg_runtime.cli.shared import (
+    DIRECTORY,
+    command_line,
+    emit,
+    json_option,
+    load,
+    report_option,
+    telling,
+    under_way,
+    write_report,
+)
+
+if TYPE_CHECKING:
+    from ragg_runtime.workflow import loop
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@mapping_option
+@click.option("--ladder", is_flag=True, help="Show what each simplification of the model is worth, too.")
+@click.option(
+    "--frozen", is_flag=True, help="Fit nothing: the parameters as `ragg calibrate --save` kept them."
+)
+@click.option("--calibration", type=click.Choice(["frozen", "self"]), default="self", hidden=True)
+@json_option
+@report_option
+def compare(
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    ladder: bool,
+    frozen: bool,
+    calibration: str,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
+    """How far is the model from the flight, and where does it fail?"""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
+
+    m = load(model_dir)
+    if frozen or calibration == "frozen":
+        from ragg_runtime.cli.after import compare_frozen
+
+        compare_frozen(m, flights, json_file, report_file)
+        return
+    under_way(f"reading {len(flights)} flight(s)")
+    read = loop.read_flights(m, flights, mapping)
+    under_way("calibrating and comparing")
+    with progress.shown("compare", sum(map(len, read))):
+        c = loop.compare(m, read, ladder=ladder)
+
+    def page() -> str:
+        from ragg_runtime.report import compare_html
+
+        title = f"{m.name} and {', '.join(x.name for x in read)}"
+        return compare_html(
+            c,
+            title=title,
+            command=command_line(),
+            sources=loop.sources(m, read),
+            notes=terminal.notes(m, read),
+        )
+
+    write_report(report_file, page)
+    emit(
+        c.as_json() | terminal.origin(m, read, command_line()),
+        json_file,
+        terminal.compared(c, read, model_dir, mapping),
+    )
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="WHAT=SIZE",
+    help="largest amplitude of a motion to fly next: a=50mg, omega=500deg/h",
+)
+@mapping_option
+@json_option
+@report_option
+def diagnose(
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    limits: Sequence[str],
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
+    """Which physical effect is missing?"""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
+
+    m = load(model_dir)
+    under_way(f"reading {len(flights)} flight(s)")
+    read = loop.read_flights(m, flights, mapping)
+    under_way("calibrating, then testing every effect of the catalogue")
+    allowed = loop.motion_limits(m, limits)
+    with progress.shown("diagnose", sum(map(len, read))):
+        d = loop.diagnose(m, read, allowed)
+
+    def page() -> str:
+        from ragg_runtime.report import diagnose_html
+
+        title = f"{m.name} and {', '.join(x.name for x in read)}"
+        return diagnose_html(
+            d,
+            title=title,
+            command=command_line(),
+            sources=loop.sources(m, read),
+            notes=terminal.notes(m, read),
+        )
+
+    write_report(report_file, page)
+    emit(
+        d.as_json() | terminal.origin(m, read, command_line()),
+        json_file,
+        terminal.diagnosed(d, model_dir, read, mapping),
+    )
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
+@click.option(
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only, "
+    "tls://HOST:PORT beyond your own walls.",
+)
+@click.option("--tls-ca", type=DIRECTORY, metavar="FILE", help="Of a tls:// scheduler: who signed it (PEM).")
+@click.option("--tls-cert", type=DIRECTORY, metavar="FILE", help="Your certificate for it (PEM).")
+@click.option("--tls-key", type=DIRECTORY, metavar="FILE", help="The key of your certificate (PEM).")
+@click.option(
+    "--resume",
+    type=DIRECTORY,
+    metavar="FILE",
+    help="Results file: continue what stands in it, add what is done.",
+)
+@mapping_option
+@json_option
+@report_option
+def survey(
+    model_dir: Path,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    jobs: int | None,
+    scheduler: str | None,
+    tls_ca: Path | None,
+    tls_cert: Path | None,
+    tls_key: Path | None,
+    resume: Path | None,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
+    """Diagnose many flights, each by itself, and sum them up."""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.report import survey_text as text
+    from ragg_runtime.survey import progress
+    from ragg_runtime.survey.journal import sha256
+    from ragg_runtime.survey.tls import tls_of, unproven
+    from ragg_runtime.workflow import loop
+
+    tls = tls_of(tls_ca, tls_cert, tls_key)
+    m = load(model_dir)
+    warning = None if scheduler is None else unproven(scheduler)
+    if warning is not None:
+        click.echo(printable(f"note: {warning}"), err=True)
+    with progress.results_file(resume) as file, progress.shown() as show:
+        s = loop.survey(
+            m,
+            flights,
+            jobs=jobs,
+            scheduler=scheduler,
+            tls=tls,
+            resume=file,
+            progress=show,
+            mapping=mapping,
+        )
+    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
+    sources = [*loop.sources(m, []), *read]
+
+    def page() -> str:
+        from ragg_runtime.report.survey_page import survey_html
+
+        title = f"{m.name} and {len(s.records)} flights"
+        return survey_html(s, title=title, command=command_line(), digest=m.model.digest, sources=sources)
+
+    write_report(report_file, page)
+    origin = terminal.origin(m, [], command_line(), files=files)
+    origin |= {"sources": [{"name": n, "sha256": d} for n, d in sources]}
+    emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("effect", shell_complete=completion.addable)
+@click.argument("flights", type=DIRECTORY, nargs=-1)
+@mapping_option
+@json_option
+@report_option
+def add(
+    model_dir: Path,
+    effect: str,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
+) -> None:
+    """Put an effect into the model, derive again, calibrate, show the error fall."""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
+
+    m = load(model_dir)
+    if report_file is not None and not flights:
+        raise UserError("a report of `add` needs a flight", remedy="name a flight file after the effect")
+    under_way(f"reading {len(flights)} flight(s)")
+    read = loop.read_flights(m, flights, mapping)
+    under_way(f"deriving the model with {effect}, calibrating")
+
+    def tell(result: loop.Added) -> None:
+        def page() -> str:
+            from ragg_runtime.report import add_html
+
+            assert result.before is not None
+            assert result.after is not None
+            return add_html(
+                [s.as_json() for s in result.loaded.directory.history],
+                result.before,
+                result.after,
+                title=f"{m.name}: {effect} added",
+                command=command_line(),
+                sources=loop.sources(result.loaded, read),
+                notes=terminal.notes(result.loaded, read),
+            )
+
+        with telling():
+            write_report(report_file, page)
+            origin = terminal.origin(result.loaded, read, command_line(), before=m)
+            emit(result.as_json() | origin, json_file, terminal.added(result, read, mapping))
+
+    with progress.shown("add", sum(map(len, read))):
+        result = loop.add(m, effect, read, tell)
+    if not result.converged:
+        asked().place()  # report and JSON say why; they are the result
+        raise UserError(
+            "nothing was added: the model is as it was",
+            where=", ".join(x.name for x in read),
+            found=result.after.complaint if result.after else None,
+            remedy=f"see what else is missing: {terminal.command('diagnose', model_dir, read, mapping)}; "
+            "or what is wrong with the record",
+        )
+
+
+COMMANDS = (compare, diagnose, add, survey)
+"""What the command line registers."""

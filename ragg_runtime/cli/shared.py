@@ -1,0 +1,101 @@
+"""What the commands share: kinds of arguments, options, and how a result is told."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import math
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.cli.outputs import STDOUT, OutputFile, asked
+
+if TYPE_CHECKING:
+    from ragg_runtime.workflow.loop import Loaded
+
+DIRECTORY = click.Path(path_type=Path)
+OUTPUT = OutputFile()
+json_option = click.option(
+    "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+report_option = click.option(
+    "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
+)
+
+
+class Finite(click.FloatRange):
+    """A number in a range: neither infinite nor none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        found = super().convert(value, param, ctx)
+        if not math.isfinite(found):
+            self.fail(f"{value!r} is no finite number", param, ctx)
+        return found
+
+
+def under_way(text: str) -> None:
+    """What is being done, on stderr."""
+    click.echo(f"... {text}", err=True)
+
+
+def load(model_dir: Path) -> Loaded:
+    """The model directory; what is odd about it is said on stderr."""
+    from ragg_runtime.workflow import loop
+
+    m = loop.load(model_dir)
+    if m.instrument.effects_folder is not None:
+        asked().protect(m.instrument.effects_folder.glob("*.py"))
+    say_notes(model_dir, m.notes)
+    return m
+
+
+def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
+    for note in notes:
+        click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+
+
+def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
+    """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+    if json_file is not None:
+        from ragg_runtime.model_dir.provenance import provenance, versioned
+
+        made = {} if "provenance" in result else {"provenance": provenance(command_line())}
+        result = versioned(result | made)
+    if json_file in STDOUT:
+        click.echo(json.dumps(result, indent=1, allow_nan=False))
+        return
+    if json_file is not None:
+        asked().write(json_file, json.dumps(result, indent=1, allow_nan=False) + "\n")
+    click.echo(printable(text))
+
+
+def write_report(file: str | None, make: Callable[[], str]) -> None:
+    if file is not None:
+        under_way("writing the report")
+        asked().write(file, make())
+        click.echo(one_line(f"report: {file}"), err=True)
+
+
+@contextlib.contextmanager
+def telling() -> Iterator[None]:
+    """While a result is told on which the change of a model waits: it must not be lost on the way."""
+    try:
+        yield
+    except OSError as error:
+        raise UserError(
+            "the result cannot be told, so the model is left as it was",
+            where=error.filename or "stdout",
+            found=error.strerror,
+            remedy="make room, or send the result to another file",
+        ) from None
+
+
+def command_line() -> str:
+    """The command that runs, as it stands in results."""
+    from ragg_runtime.model_dir.provenance import command
+
+    return command()

@@ -1,0 +1,225 @@
+"""The steps that change a model directory: an effect in, an effect out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import comparison as _compare
+from ragg_runtime.diagnosis import diagnose as _diagnose
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.landmarks import distinct
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.model import Model
+from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import replace_model_dir
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.loaded import Loaded, loaded, now
+
+
+@dataclass(frozen=True, repr=False)
+class Added:
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
+
+    loaded: Loaded
+    effect: str
+    before: Comparison | None
+    after: Comparison | None
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return notebook.in_one_line("Added", self.effect, *errors)
+
+    def _repr_html_(self) -> str:
+        noise, adequate = (
+            (None, False) if self.after is None else (self.after.noise_floor, self.after.adequate)
+        )
+        return notebook.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
+            "before": errors_of(self.before),
+            "after": errors_of(self.after),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+        }
+
+
+def errors_of(c: Comparison | None) -> dict[str, object] | None:
+    """The ``error`` of compare: nominal, calibrated, holdout."""
+    if c is None:
+        return None
+    return {
+        "nominal": c.nominal.as_json(),
+        "calibrated": c.calibrated.as_json(),
+        "holdout": c.holdout.as_json(),
+    }
+
+
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
+) -> Added:
+    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+
+    An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
+    """
+    distinct(flights)
+    setting = _setting(m, effect, flights)
+    others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
+    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
+    extended = replace(others, effects=(*others.effects, setting))
+    model = derive.model_of(extended)
+    after: Comparison | None = None
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
+    if flights:
+        after = _compare.compare(model, extended, flights)
+        parameters, combinations = calibrated(after, effect)
+        values = {**setting.values, **settings(parameters, m.instrument.layout.size)}
+        setting = replace(setting, values=MappingProxyType(values))
+        after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
+    made = Added(m, effect, before, after, parameters, combinations)
+    if made.converged:
+        text = add_effect(m.directory.text, setting)
+        step = Step(
+            "add",
+            now(),
+            effect,
+            errors_of(before),
+            errors_of(after),
+            MappingProxyType({x.name: x.digest for x in flights}),
+            text,
+        )
+        made = replace(made, loaded=_planned(m, text, model, step))
+    if tell is not None:
+        tell(made)
+    if not (save and made.converged):
+        return replace(made, loaded=m)
+    directory = replace_model_dir(
+        m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
+    )
+    return replace(made, loaded=loaded(directory))
+
+
+def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
+    """The effect as model.toml will list it, its values still open but for the instant of a step; UserError if it
+    cannot be added.
+    """
+    symbolic = derive.offered(m.instrument, effect)
+    present = next((s for s in m.instrument.effects if s.id == effect), None)
+    if present is not None and present.values:
+        raise UserError(
+            "the effect is in the model already",
+            where=str(m.directory.path),
+            found=effect,
+            remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
+        )
+    for x in flights:
+        missing = [c for c in symbolic.channels if c not in x.channels]
+        if missing:
+            raise UserError(
+                f"the effect {effect} needs a channel that the flight lacks",
+                where=x.path or x.name,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy="record it, or choose another effect",
+            )
+    values: dict[str, RawQuantity] = {}
+    if symbolic.kind == "step" and flights:
+        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+    expression = present.expression if present is not None else None
+    return EffectSetting(effect, MappingProxyType(values), expression)
+
+
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", now(), effect, text=text)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
+    directory = replace_model_dir(
+        m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
+    )
+    return loaded(directory)
+
+
+def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
+    cal = c.fitted.calibration
+    mine = [n for n, column in enumerate(cal.columns) if column.effect == effect]
+    columns = [cal.columns[n] for n in mine]
+    values = np.array([cal.p[cal.index[n]] / cal.columns[n].scale for n in mine])
+    covariance = cal.covariance[np.ix_(mine, mine)]
+    return (
+        tuple(parameter_values(columns, values, covariance)),
+        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
+    )
+
+
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
+    values: dict[str, RawQuantity] = {}
+    for p in parameters:
+        if p.accelerometer is None:
+            values[p.name] = RawQuantity(p.value, p.unit)
+        else:
+            old = values.get(p.name)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
+    return values
+
+
+def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+    """The most likely instant of a step."""
+    d = _diagnose.diagnose(m.model, m.instrument, flights)
+    for r in d.ranking:
+        if r.effect == effect:
+            for p in r.parameters:
+                if p.name == "t_step":
+                    return p.value
+    return 0.0
