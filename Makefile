@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign package test-oldest lock sbom audit
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign promises package test-oldest lock sbom audit
 
 # The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
 PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
@@ -78,6 +78,9 @@ fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for long
 
 fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off (some hours)
 	$(BIN)/python -m tests.fuzz --campaign 1000000 --seconds 1e9
+
+promises: $(STAMP)  ## measure and write the figures of docs/trust.md (an hour)
+	$(BIN)/python -m tests.promises
 
 package:  ## build wheel and sdist, install into an empty environment, run the demo there
 	PYTHON=$(PYTHON) .ci/package

@@ -22,7 +22,10 @@ STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout where JSON is asked for: it is then all that stands there."""
 
 _KEY = f"{__name__}.outputs"
-_OF_A_MODEL = (("model.toml", "history.json"), ("generated", ".ragg"))  # files, and folders with all in them
+_OF_A_MODEL = (
+    ("model.toml", "history.json", "calibration.json", "mapping.toml"),
+    ("generated", ".ragg"),
+)  # files, and folders with all in them
 
 
 class OutputFile(click.Path):

@@ -98,7 +98,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
             )
             for s in content["steps"]
         )
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (ArithmeticError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise UserError(
             "the history is damaged",
             where=path,

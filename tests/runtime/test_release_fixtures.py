@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
-from collections.abc import Mapping
+import sys
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
 from ragg_runtime.flight import read_flight
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -174,3 +177,45 @@ def test_flights() -> None:
     }
     for name in ("north.parquet", "south.parquet"):
         assert read_flight(Path(name), 9.8).digest == digests[name] == journal.sha256(Path(name))
+
+
+Change = Callable[[dict[str, Any]], object]
+NONE: dict[str, Change] = {
+    "no digest": lambda r: r.pop("sha256"),
+    "a verdict of no survey": lambda r: r.update(verdict="fine"),
+    "another flight's name": lambda r: r.update(flight="other.parquet"),
+    "an effect that is no text": lambda r: r.update(found=[7]),
+    "a name with a line end": lambda r: r.update(found=["lag\nverdict: adequate"]),
+    "no error": lambda r: r.pop("error"),
+    "an error without end": lambda r: r["noise_floor"].update(rms_Eo=10**400),
+    "a parameter without spread": lambda r: r["parameters"][0].update(std=1e-300),
+    "landmarks of two lengths": lambda r: r.update(
+        landmarks={"rate": 8, "rows": [1], "columns": {"a_x": []}, "digit": {"a_x": 0}, "spread": {"a_x": 1}}
+    ),
+}
+
+
+@pytest.mark.parametrize("change", NONE)
+def test_a_record_that_no_survey_writes(change: str, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One message with its line; the results file stays as it is."""
+    results = here / "results.jsonl"
+    lines = results.read_text("utf-8").replace(MADE_IN, str(here)).splitlines(keepends=True)
+    program = tuple(json.loads(lines[0])["program"].items())
+    monkeypatch.setattr(task, "fingerprint", lambda: program)
+    number = next(n for n, line in enumerate(lines) if '"flight":"north.parquet"' in line)
+    record = json.loads(lines[number])
+    NONE[change](record)
+    lines[number] = json.dumps(record) + "\n"
+    results.write_text("".join(lines), "utf-8")
+    path = here / "plain" / "model.toml"
+    with pytest.raises(UserError, match=f"line {number + 1}: this record is none that a survey writes"):
+        run.survey(path.read_text("utf-8"), path, [here / "north.parquet"], resume=results)
+    assert results.read_text("utf-8") == "".join(lines)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes")
+def test_a_pipe_is_no_results_file(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It was waited for without end."""
+    os.mkfifo(here / "pipe.jsonl")
+    ragg("survey", "plain", "north.parquet", "--resume", "pipe.jsonl", status=2)
+    assert "not a regular file" in capsys.readouterr().err
