@@ -5,7 +5,10 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz package test-oldest
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign promises package test-oldest lock sbom audit
+
+# The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
+PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -13,7 +16,7 @@ help:  ## list the targets
 $(STAMP): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.x")'
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
 	@touch $@
 
@@ -45,10 +48,11 @@ lint: $(STAMP)  ## style, types, layers
 RIVALS := .venv-bench/.complete
 $(RIVALS): requirements.lock pyproject.toml
 	$(PYTHON) -m venv .venv-bench
-	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	$(PINS) > .venv-bench/pins
 	@for name in casadi heyoka jax numba symforce statsmodels; do \
-	  .venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -c requirements.lock $$name \
+	  .venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -c .venv-bench/pins $$name \
 	    || echo "$$name cannot be installed here"; done
 	@touch $@
 
@@ -72,6 +76,12 @@ faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
 fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for longer)
 	$(BIN)/python -m tests.fuzz --seconds 50 $(FUZZ)
 
+fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off (some hours)
+	$(BIN)/python -m tests.fuzz --campaign 1000000 --seconds 1e9
+
+promises: $(STAMP)  ## measure and write the figures of docs/trust.md (an hour)
+	$(BIN)/python -m tests.promises
+
 package:  ## build wheel and sdist, install into an empty environment, run the demo there
 	PYTHON=$(PYTHON) .ci/package
 
@@ -83,6 +93,27 @@ test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
 	.venv-oldest/bin/python -m pytest -q -n 2 -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
+# What works on the lock itself: an environment of its own, so that nothing of it is in the lock.
+TOOLS := .venv-tools/.complete
+$(TOOLS): Makefile
+	$(PYTHON) -m venv .venv-tools
+	.venv-tools/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9 cyclonedx-bom==7.5.0 pip-audit==2.10.1
+	@touch $@
+
+lock: $(TOOLS)  ## put the hashes of all files of each release into requirements.lock (after adding a line NAME==VERSION)
+	$(PINS) > .venv-tools/pins.in
+	.venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
+	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null
+	cp .venv-tools/pins.lock requirements.lock
+
+sbom: $(STAMP) $(TOOLS)  ## write sbom.json (CycloneDX): the packages of the lock, what is vendored, their licences
+	$(PINS) | PYTHONWARNINGS=ignore .venv-tools/bin/cyclonedx-py requirements - --pyproject pyproject.toml \
+	  --short-PURLs --output-reproducible --of JSON > .venv-tools/bom.json
+	$(BIN)/python .ci/sbom.py < .venv-tools/bom.json > sbom.json
+
+audit:  ## look the packages of the lock up in the list of known vulnerabilities, where it can be reached
+	@.ci/audit
+
 docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; warnings are errors)
 	$(BIN)/python -m sphinx -q -b html -W --keep-going docs docs/_build/html
 	@echo "open docs/_build/html/index.html"
@@ -92,4 +123,4 @@ pages: $(STAMP)  ## write the generated pages of docs/ anew
 	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
-	rm -rf docs/_build docs/_made $(VENV) .venv-oldest .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf docs/_build docs/_made $(VENV) .venv-oldest .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

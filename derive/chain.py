@@ -6,7 +6,7 @@ place (cos_j, sin_j); the four of them and G_out follow from it (Eq. 15).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -55,15 +55,20 @@ def accelerometer(
     tape: Tape | None = None,
     kinematics: Kinematics = "platform",
     layout: Layout = FOUR,
+    candidates: Sequence[Effect] = (),
 ) -> Accelerometer:
     """Write down V_j of the generic accelerometer (Eq. 1-14) with these effects, on a tape.
 
-    From the end of the stage ``sensing`` on, everything stands by the axes of the disc at rest.
+    Of ``candidates`` among them only the first order in their parameters is kept where these are zero. From the end of
+    the stage ``sensing`` on, everything stands by the axes of the disc at rest.
     """
     tape = Tape() if tape is None else tape
     let = tape.let
     hooked = [(e, e.values) for e in effects]
-    c = _sensing(hooked, tape, kinematics, layout)
+    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
+    c.small = frozenset(s for e in candidates for s in _fitted(e) if e.at_zero)
+    c.enter(frozenset())
+    _sensing(hooked, c, layout)
     _turn_disc(hooked, c, let)
     M = stages.gradient(c.motion if kinematics == "platform" else c.case).applyfunc(sp.sympify)
     M = sp.Matrix(3, 3, lambda i, k: let(f"M_{'xyz'[i]}{'xyz'[k]}", M[i, k]))
@@ -76,7 +81,7 @@ def accelerometer(
     c.parameters = dict(k)
     if any(e.instrument for e in effects):
         c.geometry, c.sensed, c.force = at.forces(k, "b")
-        for e, p in hooked:
+        for e, p in _one_by_one(hooked, c):
             if e.instrument:
                 changed = e.instrument(k, p, c)
                 k |= {n: let(f"{n}_{e.id}".replace("-", "_"), v) for n, v in changed.items()}
@@ -91,21 +96,32 @@ Let = Callable[[str, sp.Expr], sp.Expr]
 Hooked = Sequence[tuple[Effect, Values]]
 
 
-def _sensing(hooked: Hooked, tape: Tape, kinematics: Kinematics, layout: Layout) -> Context:
-    """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
-    c = Context(tape, recorded_motion(), Omega=OMEGA if kinematics == "platform" else SPIN_RATE)
+def _fitted(e: Effect) -> frozenset[sp.Symbol]:
+    return frozenset(e.symbol(q) for q in e.parameters if q.fitted)
+
+
+def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
+    """Effect after effect; the context knows whose hook is called."""
     for e, p in hooked:
+        c.enter(_fitted(e))
+        yield e, p
+    c.enter(frozenset())
+
+
+def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
+    """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
+    let = c.tape.let
+    for e, p in _one_by_one(hooked, c):
         if e.sensing:
-            c.motion = _named_motion(tape.let, e.id, e.sensing(c.motion, p, c))
+            c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
     if layout.has(AXES[0, 0]):
         c.axes = AXES
-        c.motion = _named_motion(tape.let, "disc", stages.in_frame(c.motion, AXES))
-    return c
+        c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
 
 
 def _turn_disc(hooked: Hooked, c: Context, let: Let) -> None:
     """The true disc angle and its rates, where effects change them."""
-    increment = sp.Add(*(e.disc_angle(p, c) for e, p in hooked if e.disc_angle))
+    increment = sp.Add(*(e.disc_angle(p, c) for e, p in _one_by_one(hooked, c) if e.disc_angle))
     if increment == 0:
         return
     d = let("delta_phi", increment)
@@ -162,7 +178,7 @@ class _Place:
         g = stages.mounting(arm, order=self.order, height=self._height, turn_of_triad=turn, **angles)
         g = _named_geometry(self.let, f"{label}_disc", g)
         g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
-        for e, p in self.hooked:
+        for e, p in _one_by_one(self.hooked, self.c):
             if e.geometry:
                 g = _named_geometry(self.let, f"{label}_{e.id}", e.geometry(g, p, self.c))
         return g
@@ -174,7 +190,7 @@ class _Place:
     def _force(self, g: Geometry, k: Mapping[str, sp.Expr], label: str) -> sp.Matrix:
         """Eq. 11 with what effects add, in the measurement frame, named."""
         f = self.c.motion.a + self.M * g.r
-        for e, p in self.hooked:
+        for e, p in _one_by_one(self.hooked, self.c):
             if e.field:
                 f = f + e.field(g.r, p, self.c)
         if k["dR"] != symbol("dR"):  # an arm that changes its length
@@ -191,12 +207,12 @@ def _transducer(
     hooked: Hooked, c: Context, let: Let, f: SensedForce, q: SensedForce, k: dict[str, sp.Expr]
 ) -> sp.Expr:
     """Stage 4: I_j/K_j1; the second-order terms see q."""
-    for e, p in hooked:
+    for e, p in _one_by_one(hooked, c):
         if e.second_order:
             changed = zip("iop", e.second_order(q, f, p, c), strict=True)
             q = SensedForce(*(let(f"q_{n}_{e.id}".replace("-", "_"), v) for n, v in changed))
     i = let("i_sensed", stages.transducer(f, q, k))
-    for e, p in hooked:
+    for e, p in _one_by_one(hooked, c):
         if e.transducer:
             i = let(f"i_{e.id}".replace("-", "_"), e.transducer(i, f, p, c))
     return i

@@ -19,7 +19,7 @@ from derive.symbols import (
     local,
     symbol,
 )
-from derive.tape import Tape
+from derive.tape import EVERYTHING, About, Tape
 
 OMEGA = 2 * sp.pi * symbol("spin_frequency")
 """Angular rate of the disc as Eq. 14 has it, steady, rad/s."""
@@ -37,7 +37,8 @@ class Context:
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
     the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
-    angle, ``case`` the motion of what stands on the disc.
+    angle, ``case`` the motion of what stands on the disc. ``small`` are parameters at zero of which only the first order
+    counts, ``about`` what of a time derivative does.
     """
 
     tape: Tape
@@ -52,6 +53,17 @@ class Context:
     Omega: sp.Expr = OMEGA
     spin: Spin = RECORDED_SPIN
     axes: sp.Matrix | None = None
+    small: frozenset[sp.Symbol] = frozenset()
+    about: About = EVERYTHING
+
+    def enter(self, own: frozenset[sp.Symbol]) -> None:
+        """What is written down next is an effect's with these fitted parameters (none: that of the instrument).
+
+        What a candidate changes is of first order in its own parameters, all of them ``small``; what others change is of
+        second order there, so that the time derivatives of the instrument without them serve.
+        """
+        candidate = bool(own) and own <= self.small
+        self.about = About(self.small - own, 0) if candidate else About(self.small)
 
     def in_disc_frame(self, v: sp.Matrix) -> sp.Matrix:
         """A vector (3) or tensor (3 x 3) of the measurement frame by the axes in which motion and geometry stand.
@@ -87,7 +99,7 @@ class Context:
 
     def rate(self, e: sp.Expr) -> sp.Expr:
         """Total time derivative: the disc turns at Omega, the motion's rates are channels ``d_<name>``."""
-        return self.tape.rate(sp.sympify(e, strict=True), self._symbol_rate)
+        return self.tape.rate(sp.sympify(e, strict=True), self._symbol_rate, self.about)
 
     def _symbol_rate(self, s: sp.Symbol) -> sp.Expr:
         if s == COS_PHI:

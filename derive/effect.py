@@ -168,6 +168,11 @@ class Effect:
             self.transducer,
         )
 
+    @property
+    def at_zero(self) -> bool:
+        """Whether it does nothing with all its fitted parameters at zero."""
+        return all(q.neutral == 0.0 for q in self.parameters if q.fitted)
+
     def symbol(self, q: EffectParameter) -> sp.Symbol:
         """Symbol of a parameter, unique over all effects."""
         return symbol(f"{self.id.replace('-', '_')}__{q.name}")

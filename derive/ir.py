@@ -182,7 +182,9 @@ def chain(
     Without ``candidates``: by every fitted parameter. With them: by every parameter of the candidates, at
     their neutral values, that is, the signature that each would leave in this instrument.
     """
-    a = accelerometer([*effects, *candidates], order, kinematics=kinematics, layout=layout)
+    a = accelerometer(
+        [*effects, *candidates], order, kinematics=kinematics, layout=layout, candidates=candidates
+    )
     neutral = dict(layout.common) | {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
     value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
     by = a.tape.derivatives(a.voltage)

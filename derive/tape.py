@@ -70,13 +70,29 @@ class Program:
         return sorted(read - assigned, key=lambda s: s.name)
 
 
+@dataclass(frozen=True)
+class About:
+    """What of a time derivative is wanted: terms of at most degree ``most`` in the ``small`` symbols.
+
+    A signature is a derivative by parameters at zero: what is of second order in these is nothing to it, and nested
+    time derivatives would consist of little else.
+    """
+
+    small: frozenset[sp.Symbol] = frozenset()
+    most: int = 1
+
+
+EVERYTHING = About()
+
+
 @dataclass
 class Tape:
     """Records assignments; knows their partial and total time derivatives."""
 
     assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
-    _rates: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    _rates: dict[tuple[sp.Symbol, About], sp.Expr] = field(default_factory=dict)
+    _degrees: dict[tuple[sp.Symbol, frozenset[sp.Symbol]], int] = field(default_factory=dict)
 
     def let(self, name: str, value: sp.Expr) -> sp.Expr:
         """Name a value. Constants, symbols and their negatives are passed through.
@@ -97,16 +113,50 @@ class Tape:
         self._values[s] = value
         return s
 
-    def rate(self, e: sp.Expr, base: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
+    def rate(self, e: sp.Expr, base: Callable[[sp.Symbol], sp.Expr], about: About = EVERYTHING) -> sp.Expr:
         """Total time derivative of ``e``; ``base`` gives that of a symbol that is not on the tape."""
-        return sp.Add(*(d * self._rate_of(s, base) for s, d in partials(e).items()))
+        terms = []
+        for s, d in partials(e).items():
+            if self.degree(d, about.small) > about.most:
+                continue
+            rate = self._rate_of(s, base, about)
+            room = about.most - self.degree(rate, about.small)
+            terms.append(self._up_to(d, room, about.small) * rate)
+        return sp.Add(*terms)
 
-    def _rate_of(self, s: sp.Symbol, base: Callable[[sp.Symbol], sp.Expr]) -> sp.Expr:
+    def _up_to(self, e: sp.Expr, most: int, small: frozenset[sp.Symbol]) -> sp.Expr:
+        """The terms of a sum that are of at most this degree."""
+        if not small:
+            return e
+        return sp.Add(*(t for t in sp.Add.make_args(e) if self.degree(t, small) <= most))
+
+    def degree(self, e: sp.Expr, small: frozenset[sp.Symbol]) -> int:
+        """The lowest degree in the ``small`` symbols, at least, of any term of an expression."""
+        if not small:
+            return 0
+        if e.is_Symbol:
+            if e in small:
+                return 1
+            if e not in self._values:
+                return 0
+            if (e, small) not in self._degrees:
+                self._degrees[e, small] = self.degree(self._values[e], small)
+            return self._degrees[e, small]
+        degrees = [self.degree(a, small) for a in e.args]
+        if e.is_Add:
+            return min(degrees)
+        if e.is_Mul:
+            return sum(degrees)
+        if e.is_Pow and e.exp.is_Integer and e.exp.is_positive:
+            return int(e.exp) * degrees[0]
+        return int(isinstance(e, sp.sin) and degrees[0] > 0)
+
+    def _rate_of(self, s: sp.Symbol, base: Callable[[sp.Symbol], sp.Expr], about: About) -> sp.Expr:
         if s not in self._values:
             return base(s)
-        if s not in self._rates:
-            self._rates[s] = self.let(f"rate_{s.name}", self.rate(self._values[s], base))
-        return self._rates[s]
+        if (s, about) not in self._rates:
+            self._rates[s, about] = self.let(f"rate_{s.name}", self.rate(self._values[s], base, about))
+        return self._rates[s, about]
 
     def derivatives(self, output: sp.Expr, prefix: str = "bar") -> Callable[[sp.Symbol], sp.Expr]:
         """Record the reverse accumulation of ``output``; returns the derivative by any input symbol."""

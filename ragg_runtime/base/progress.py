@@ -34,6 +34,11 @@ def step(amount: float) -> None:
         tell(amount)
 
 
+def remark(text: str) -> None:
+    """Say on stderr why nothing happens."""
+    click.echo(f"... {text}", err=True)
+
+
 @contextlib.contextmanager
 def heard(tell: Callable[[float], None]) -> Iterator[None]:
     """Let ``tell`` hear of every step that is done meanwhile; what it raises ends the work."""

@@ -28,10 +28,12 @@ from pathlib import Path
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import sync
 from ragg_runtime.base.folder import Folder, NotPlainError, is_plain
+from ragg_runtime.base.form_version import Form, NewerFormError
 
 WORK = ".ragg"
 _NEXT, _COMMIT, _JOURNAL, _OLD = "next", "commit", "journal.json", "old"
 _LONGEST = 1 << 20  # bytes of a journal
+FORM = Form("the record of an unfinished change")
 _DEEPEST = 8  # folders in folders
 
 
@@ -70,7 +72,7 @@ def switch(root: Path, folders: Sequence[str], *, removed: Sequence[str] = ()) -
         for path in files:  # what cannot be done is said before the change is made
             _way(top, path)
     inodes = {name: staged.joinpath(name).stat().st_ino for name in folders}
-    journal = {"folders": inodes, "files": files, "removed": list(removed)}
+    journal = {**FORM.stamp(), "folders": inodes, "files": files, "removed": list(removed)}
     (staged / _JOURNAL).write_text(json.dumps(journal), "utf-8")
     sync(staged / _JOURNAL)
     sync(staged)
@@ -91,7 +93,10 @@ def finish(root: Path, among: Collection[str]) -> None:
         if is_committing(root):
             with top.below(WORK) as work:
                 with work.below(_COMMIT) as commit:
-                    _complete(top, commit, _journal(commit, among))
+                    journal = _journal(commit, among)
+                    for path in journal.files:  # nothing is moved if anything cannot be
+                        _way(top, path)
+                    _complete(top, commit, journal)
                 sync(root)
                 # From here on nothing is left to be moved.
                 work.move(_COMMIT, work, f"done-{os.getpid()}-{time.monotonic_ns()}")
@@ -190,6 +195,7 @@ def _journal(commit: Folder, among: Collection[str]) -> _Journal:
     """The journal of a change; UserError if it is damaged, or asks for more than this program ever does."""
     try:
         content = json.loads(commit.read(_JOURNAL, _LONGEST))
+        FORM.check(content, commit.path / _JOURNAL)
         found = _Journal(
             folders={str(n): int(i) for n, i in content["folders"].items()},
             files=tuple(content["files"]),
@@ -197,7 +203,20 @@ def _journal(commit: Folder, among: Collection[str]) -> _Journal:
         )
         odd = [n for n in (*found.folders, *found.removed) if not is_plain(n) or n not in among]
         odd += [f for f in found.files if not _is_below(f, among)]
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        for path in found.files if not odd else ():
+            _way(commit, path)
+    except NewerFormError:
+        raise
+    except (
+        UserError,
+        OSError,
+        ArithmeticError,
+        ValueError,
+        LookupError,
+        TypeError,
+        AttributeError,
+        RecursionError,
+    ) as error:
         raise _refused(commit, str(error)) from None
     if odd:
         raise _refused(commit, f"it is about {', '.join(repr(n)[:60] for n in odd[:3])}")

@@ -22,7 +22,10 @@ STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout where JSON is asked for: it is then all that stands there."""
 
 _KEY = f"{__name__}.outputs"
-_OF_A_MODEL = (("model.toml", "history.json"), ("generated", ".ragg"))  # files, and folders with all in them
+_OF_A_MODEL = (
+    ("model.toml", "history.json", "calibration.json", "mapping.toml"),
+    ("generated", ".ragg"),
+)  # files, and folders with all in them
 
 
 class OutputFile(click.Path):
@@ -71,7 +74,7 @@ class Command(click.Command):
     def invoke(self, ctx: click.Context) -> Any:
         if sys.stdout is None:
             raise UserError(
-                "the result cannot be told: stdout is closed",
+                "the result cannot be written: stdout is closed",
                 remedy="if it is not wanted, send it away: > /dev/null",
             )
         inputs = [Path(os.fsdecode(p)) for p in _paths(self, ctx, outputs=False)]

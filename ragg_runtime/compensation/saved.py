@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.form_version import Form
 from ragg_runtime.fit.columns import Column
 
 Array = NDArray[np.float64]
 
-VERSION = 1
-"""Of the file's form."""
+FORM = Form("the saved calibration")
 
 KEPT = 20
 """Calibrations that are kept, the latest: each takes some 30 kB, most of it their information."""
@@ -117,21 +117,15 @@ def with_another(text: str | None, new: Saved, where: str) -> str:
     before = () if text is None else read(text, where)
     entries = [s.as_json() for s in (*before, new)[-KEPT:]]
     lines = ",\n".join(json.dumps(e, allow_nan=False, ensure_ascii=False) for e in entries)
-    return f'{{"version": {VERSION}, "calibrations": [\n{lines}\n]}}\n'
+    stamp = json.dumps(FORM.stamp())[1:-1]
+    return f'{{{stamp}, "calibrations": [\n{lines}\n]}}\n'
 
 
 def read(text: str, where: str) -> tuple[Saved, ...]:
     """The calibrations in the text of a calibration.json, oldest first; UserError if anything in it cannot be."""
     try:
         content = json.loads(text)
-        if content["version"] != VERSION:
-            raise UserError(
-                "the saved calibrations are of another version of this program",
-                where=where,
-                found=repr(content["version"])[:40],
-                expected=VERSION,
-                remedy=_REMEDY,
-            )
+        FORM.check(content, where)
         found = tuple(_entry(e) for e in content["calibrations"])
         if not found:
             raise ValueError("no calibration in it")

@@ -90,7 +90,8 @@ def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
         sets = list(combinations(best, size))
         for s, value in zip(sets, _evidence(sets), strict=True):
             found[tuple(sorted(b.effect for b in s))] = [float(value) + size * odds]
-    return summed({s: float(logsumexp(v)) for s, v in found.items()}, effects)
+    # most sets have one way: what is called ten thousand times is spared the general function
+    return summed({s: v[0] if len(v) == 1 else float(logsumexp(v)) for s, v in found.items()}, effects)
 
 
 def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:

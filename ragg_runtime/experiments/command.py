@@ -80,7 +80,8 @@ def _give(result: Result, json_file: str | None, figures: Path | None) -> None:
         from ragg_runtime.base.files import write_text
         from ragg_runtime.model_dir import provenance
 
-        found = result.as_json() | {"provenance": provenance.provenance(provenance.command())}
+        made = provenance.provenance(provenance.command())
+        found = provenance.versioned(result.as_json() | {"provenance": made})
         text = json.dumps(found, indent=1, allow_nan=False) + "\n"
         if json_file == "-":
             sys.stdout.write(text)

@@ -5,17 +5,17 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from ragg_runtime.base.form_version import Form
 from ragg_runtime.export.contents import Contents, unit_of
 
-VERSION = 1
-"""Of the document's form."""
+FORM = Form("the exported model")
 
 
 def document(c: Contents) -> dict[str, Any]:
     """The model's description, its parameters with units, its inputs, and an example with its answer."""
     motion, G = c.example()
     return {
-        "version": VERSION,
+        **FORM.stamp(),
         "model": c.name,
         "origin": c.origin,
         "derivation": c.model.digest,

@@ -39,12 +39,14 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text
+from ragg_runtime.base.form_version import VERSION, WRITER, Form
 from ragg_runtime.flight.instants import WAYS
 from ragg_runtime.instrument.units import read_quantity, units
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
 
+FORM = Form("the mapping")
 _TABLES = ("file", "time", "columns", "axes", "demodulator")
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part"),
@@ -111,11 +113,14 @@ def parse_mapping(text: str, path: Path) -> Mapped:
     """The mapping in a text; ``path`` is where it stands."""
     try:
         data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # ValueError: numbers of thousands of digits
         raise UserError(
             "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
         ) from None
+    FORM.check(data, path)
     for key, value in data.items():
+        if key in (VERSION, WRITER):
+            continue
         if key not in _TABLES:
             raise _unknown(at(path), key, _TABLES)
         if not isinstance(value, dict):

@@ -12,12 +12,15 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
+from ragg_runtime.base.form_version import VERSION, WRITER, Form
 from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
 from ragg_runtime.instrument.layout import PAPER, Layout, paper
 from ragg_runtime.instrument.layout_toml import read_layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
+
+FORM = Form("model.toml")
 
 
 def read_instrument(path: Path | str) -> Instrument:
@@ -35,7 +38,8 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0")
+    FORM.check(table, path)
+    known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0", VERSION, WRITER)
     _check_names(table, known, None, path)
     layout, g0 = _discs(table, path)
     accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)

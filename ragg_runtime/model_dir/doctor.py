@@ -13,6 +13,7 @@ from pathlib import Path
 from ragg_runtime.base import transaction
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.folder import Folder, kind
+from ragg_runtime.base.form_version import NewerFormError
 from ragg_runtime.base.lock import locked
 from ragg_runtime.model_dir import derive, derived_cache
 from ragg_runtime.model_dir.directory import (
@@ -50,7 +51,7 @@ class Finding:
 def examined(path: Path, *, mend: bool) -> tuple[Finding, ...]:
     """What is wrong with a model directory; what can be mended without loss is, if ``mend``.
 
-    Raises UserError where there is no such directory, or it cannot be written.
+    Raises UserError where there is no such directory, it cannot be written, or a newer program has written there.
     """
     if not path.is_dir():
         raise UserError("there is no model directory", where=path, remedy=f"make one with: ragg new {path}")
@@ -96,6 +97,8 @@ def _change(path: Path, mend: bool) -> Iterator[Finding]:
             transaction.finish(path, NAMES)
         else:
             transaction.places(path, NAMES)
+    except NewerFormError:
+        raise
     except UserError as error:
         kept = _aside(path, transaction.WORK, "ragg-unfinished") if mend else ""
         done = f"put aside as {kept}; the model is as {MODEL} says"
@@ -118,6 +121,8 @@ def _history(path: Path, mend: bool) -> Iterator[Finding]:
         if kind(status) != "a file":
             raise UserError("the history is no file", where=path / HISTORY, found=kind(status))
         read_history(path / HISTORY)
+    except NewerFormError:
+        raise
     except UserError as error:
         kept = _aside(path, HISTORY, f"{HISTORY}.damaged") if mend else ""
         yield Finding(

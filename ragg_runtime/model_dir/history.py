@@ -11,8 +11,11 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
+from ragg_runtime.base.form_version import Form
 
 _LONGEST = 1 << 26  # bytes
+
+FORM = Form("the history")
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,8 @@ class Step:
 
 def history_text(steps: tuple[Step, ...]) -> str:
     """The text of a history.json."""
-    return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
+    content = {**FORM.stamp(), "steps": [step.as_json() for step in steps]}
+    return json.dumps(content, indent=2, allow_nan=False) + "\n"
 
 
 def calibrated_rms(error: Mapping[str, Any] | None) -> float | None:
@@ -71,6 +75,7 @@ def calibrated_rms(error: Mapping[str, Any] | None) -> float | None:
 def _error(found: Any) -> Mapping[str, Any] | None:
     """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
     calibrated_rms(found)
+    json.dumps(found, allow_nan=False)  # it is written again with the next step
     return None if found is None else dict(found)
 
 
@@ -80,6 +85,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
         return ()
     try:
         content = json.loads(read_text(path, _LONGEST))
+        FORM.check(content, path)
         return tuple(
             Step(
                 action=one_line(str(s["action"])),
@@ -92,7 +98,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
             )
             for s in content["steps"]
         )
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (ArithmeticError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise UserError(
             "the history is damaged",
             where=path,

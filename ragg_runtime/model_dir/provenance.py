@@ -6,11 +6,12 @@ import hashlib
 import platform
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
-from importlib import metadata
 from pathlib import Path
+from typing import Any
 
+from ragg_runtime.base.form_version import VERSION, Form, installed
 from ragg_runtime.flight import Flight
 from ragg_runtime.model_dir.directory import ModelDir
 from ragg_runtime.model_dir.trust import read_effects
@@ -18,12 +19,20 @@ from ragg_runtime.model_dir.trust import read_effects
 LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
 """What the numbers of a result depend on, beside this package."""
 
+RESULT = Form("the result")
+"""The JSON of a command; who wrote it stands in its ``provenance``."""
+
+
+def versioned(result: Mapping[str, Any]) -> dict[str, Any]:
+    """A JSON result with its version in front."""
+    return {VERSION: RESULT.version, **result}
+
 
 @cache
 def versions() -> dict[str, str]:
     """Name -> version of this package, Python and the libraries that results depend on."""
-    found = {"ragg": _version("ragg"), "python": platform.python_version()}
-    return found | {name: _version(name) for name in LIBRARIES}
+    found = {"ragg": installed("ragg"), "python": platform.python_version()}
+    return found | {name: installed(name) for name in LIBRARIES}
 
 
 def command() -> str:
@@ -80,10 +89,3 @@ def _sha256(directory: ModelDir) -> str:
 
 def _path(path: Path | None, name: str) -> str:
     return name if path is None else str(path)
-
-
-def _version(name: str) -> str:
-    try:
-        return metadata.version(name)
-    except metadata.PackageNotFoundError:
-        return "not installed"

@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.model_dir.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.studio import views
 from ragg_runtime.studio.session import State
@@ -33,7 +34,7 @@ def _common(s: State) -> dict[str, object]:
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    whole = result | origin.origin(s.model, s.flights, command)
+    whole = versioned(result | origin.origin(s.model, s.flights, command))
     return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
 
 

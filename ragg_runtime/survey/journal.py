@@ -15,17 +15,20 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.form_version import Form
+from ragg_runtime.survey.shape import misshapen
 from ragg_runtime.survey.task import Job, Record, divided
 
 KIND = "ragg survey"
+FORM = Form("the results file")
 _LONGEST_HEAD = 1 << 16  # bytes
 
 
 def head(job: Job) -> Record:
     """The first line: figures under the same head may stand in one table."""
     text = hashlib.sha256(job.text.encode()).hexdigest()
-    found: Record = {"kind": KIND, "model": text, "program": dict(job.program)}
+    found: Record = {"kind": KIND, **FORM.stamp(), "model": text, "program": dict(job.program)}
     if job.mapping is not None:
         found["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
     return found
@@ -78,15 +81,14 @@ class Journal:
         found: dict[str, Record] = {}
         for number, line in enumerate(lines[1:], 2):
             record = self._parsed(line, number)
-            if record.get("file") in wanted:
-                found[record["file"]] = record
+            file = record.get("file")
+            if isinstance(file, str) and file in wanted:
+                found[file] = self._shaped(record, number)
         # Only now is it certain that the file is a survey's, and what follows its last line one that was cut off.
         os.ftruncate(self._handle, sum(map(len, lines)))
         if not lines:
             self.append(head(job))
-        return {
-            file: r for file, r in found.items() if "verdict" in r and r.get("sha256") == sha256(Path(file))
-        }
+        return {file: r for file, r in found.items() if "verdict" in r and r["sha256"] == sha256(Path(file))}
 
     def _lines(self) -> list[bytes]:
         """The whole lines of the file, with their ends. UserError if it does not begin as a survey's does."""
@@ -100,6 +102,7 @@ class Journal:
 
     def _compare(self, line: bytes, job: Job) -> None:
         found, asked = self._parsed(line, 1), head(job)
+        FORM.check(found, self.path)
         for key, what in (
             ("model", "model.toml"),
             ("program", "version of the program"),
@@ -116,11 +119,23 @@ class Journal:
 
     def _parsed(self, line: bytes, number: int) -> Record:
         try:
-            record = json.loads(line)
-        except (ValueError, RecursionError):
+            record = json.loads(line, parse_constant=_refused)
+        except (ValueError, RecursionError):  # NaN and Infinity are no JSON
             record = None
         if not isinstance(record, dict):
             raise self._foreign(f"line {number}: {line[:80].decode(errors='replace')}")
+        return record
+
+    def _shaped(self, record: Record, number: int) -> Record:
+        """The record, if it is in error (and done again) or as a survey writes it."""
+        place = misshapen(record) if "verdict" in record else None
+        if place is not None:
+            raise UserError(
+                "this record is none that a survey writes",
+                where=f"{self.path}, line {number}",
+                found=one_line(f"the record{place} is missing or of another kind"[:120]),
+                remedy="remove the line (its flight is then done again), or name another results file",
+            )
         return record
 
     def _foreign(self, found: str) -> UserError:
@@ -131,6 +146,10 @@ class Journal:
             expected="a file that `ragg survey --resume` has written, or none",
             remedy="name another file",
         )
+
+
+def _refused(name: str) -> None:
+    raise ValueError(name)
 
 
 @contextlib.contextmanager

@@ -28,10 +28,12 @@ def results_file(resume: Path | None) -> Iterator[Path]:
         path, temporary = Path(name), True
         # A survey that is killed outright cannot say it any more.
         click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
+    before = path.stat().st_size if path.is_file() else 0
     try:
         yield path
     except BaseException:
-        if path.exists() and path.read_bytes().count(b"\n") > 1:
+        # Nothing that was there before is read: it may be anything, and a refusal says so.
+        if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
             click.echo(f"ragg: what is done is kept; continue with --resume {path}", err=True)
         elif temporary:
             path.unlink(missing_ok=True)

@@ -76,7 +76,7 @@ def survey(
                     if progress is not None:
                         progress(len(records), len(files), record)
     # what was kept may have been named among other files
-    return Survey(tuple(_once([records[f] | {"flight": names[f]} for f in files])))
+    return Survey(tuple(once([records[f] | {"flight": names[f]} for f in files])))
 
 
 def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | None) -> None:
@@ -88,7 +88,7 @@ def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | Non
         raise UserError("a survey needs a worker", where="--jobs", found=jobs, expected="1 or more")
 
 
-def _once(records: Sequence[Record]) -> Iterator[Record]:
+def once(records: Sequence[Record]) -> Iterator[Record]:
     """The records; of those that are of one and the same record of an instrument the first, the others in error."""
     seen: list[Landmarks] = []
     for r in records:

@@ -14,7 +14,9 @@ _TEXT = """
     [accelerometers] id stage add params value unit plausible shared lag gain-step transducer "mine" "9.8 m/s^2"
     "1 g" ug/g^2 mA/g 1/K Eo deg/h degC delta_degC m**2 m^99 "m/s" "" '''x''' \"\"\" 1979-05-27T07:32:00Z 0b1 0o7
     [s] [g] [V] [Eo] [rad/s] [] [1] time, ,, ;; G_out V_1 inline spin_angle null NA -1 1e400 PAR1 units \u00e9 \u202e
-    \ud800 \U0001f4a9
+    \ud800 \U0001f4a9 true false null {} [] -1 1e999 "steps" "removed" "../victim" "/etc/passwd" "model.toml/x" "." ".." "a/../b"
+    "version" 1.5 99 [time] [columns] [axes] [file] [demodulator] column format origin sign scale offset "seconds" "iso" "clock"
+    "gps" "?" 2026-03-01 23:59:60 9999-12-31T23:59:59+14:00 0001-01-01T00:00:00Z "kind" "ragg" "verdict" "calibrations"
     """
 WORDS: tuple[bytes, ...] = (
     *(word.encode("utf-8", "surrogatepass") for word in re.findall(r"\S+", _TEXT)),

@@ -7,6 +7,8 @@ they were.
 from __future__ import annotations
 
 import gzip
+import hashlib
+import json
 import tempfile
 from pathlib import Path
 
@@ -54,6 +56,63 @@ K1 = "10 mA/g" # a comment
 k_VI = "1e9 ohm"
 """
 
+MAPPING = """version = 1
+[file]
+line = "LINE"
+lines = ["1010", "1020"]
+part = "flight/imu"
+[time]
+column = ["WEEK", "SECOND"]
+format = "gps"
+[columns]
+a_x = { column = "ACC1", unit = "g", sign = -1, scale = 1.0, offset = 0.25 }
+temperature = "T"
+[axes]
+x = "y"
+y = "x"
+z = "-z"
+[demodulator]
+kind = "butterworth"
+cutoff = "0.18 Hz"
+order = 6
+delay = "2 s"
+"""
+SECONDS = """[time]
+column = "UTC"
+format = "seconds"
+unit = "ms"
+origin = 2026-03-01T00:00:00Z
+[columns]
+omega_z = { column = "G3", unit = "deg/h" }
+"""
+STEPS = """{"version": 1, "written_by": "ragg 0.1.0", "steps": [
+{"action": "new", "effect": null, "time": "2026-11-22T03:47:29+00:00", "before": null, "after": null, "flights": {}},
+{"action": "add", "effect": "lag", "time": "2026-11-22T03:47:35+00:00",
+ "before": {"nominal": {"rms_V": 34.5, "rms_Eo": 84517.5}, "calibrated": {"rms_V": 0.0018, "rms_Eo": 4.39, "inline_Eo": null}},
+ "after": {"rms_V": 0.001, "rms_Eo": 2.9}, "flights": {"north": "9af0414b949fdd4e"}, "model": "effects = []"}]}
+"""
+CHANGE = """{"version": 1, "written_by": "ragg 0.1.0", "folders": {"generated": 7}, "files": ["model.toml", "history.json"],
+"removed": ["calibration.json"]}"""
+HEAD = '{"kind":"ragg survey","version":1,"model":"%s","program":{"ragg":"fuzzed"}}'
+LANDMARKS = {
+    "rate": 8.0,
+    "rows": [100, 300],
+    "columns": {"a_x": [1.0, 2.0], "a_y": [0.5, None]},
+    "digit": {"a_x": 0.0, "a_y": 1e-3},
+    "spread": {"a_x": 0.5, "a_y": 0.25},
+}
+JOB = "a3b2388f1cc32ea82e2b6528d1f3fd558b178f703cfe77fd8a3b30c978b0c375"
+"""SHA-256 of the model.toml of ``kept.JOB``."""
+SAVED = """{"version": 1, "written_by": "ragg 0.1.0", "calibrations": [
+{"time": "2026-11-22T03:47:29+00:00", "converged": true, "model": {"effects": ["lag"], "form": "paper", "derivation": "00"},
+ "values": {"radius": [0.1], "K1": [1.0, 1.0]}, "sheet": {"radius": [0.1], "K1": [1.0, 1.5]},
+ "fitted": [{"name": "K1", "accelerometer": 1, "effect": null, "place": 1, "scale": 1e-3, "unit": "mA/g", "unit_factor": 1.0},
+  {"name": "K1", "accelerometer": 2, "effect": "lag", "place": 2, "scale": 1e-3, "unit": "mA/g", "unit_factor": 2.0}],
+ "square_root_information": [[2.0, 0.5], [3.0]], "validity": {"time": [0.0, 9.5]}, "flights": {"north": "00"},
+ "error": {"nominal": {"rms_Eo": 1.0}}}
+]}
+"""
+
 
 def make() -> dict[str, dict[str, bytes]]:
     """Target -> name -> seed."""
@@ -62,6 +121,12 @@ def make() -> dict[str, dict[str, bytes]]:
         "expression": {f"seed-{n}": t.encode() for n, t in enumerate(EXPRESSIONS)},
         "model_toml": {"seed-0": MODEL.encode(), "seed-1": TABLES.encode()},
         "edited_toml": {"seed-0": MODEL.encode(), "seed-1": TABLES.encode()},
+        "mapping": {"seed-0": MAPPING.encode(), "seed-1": SECONDS.encode()},
+        "history": {"seed-0": STEPS.encode(), "seed-1": b'{"steps": []}'},
+        "unfinished": {"seed-0": CHANGE.encode(), "seed-1": b'{"folders": {}, "files": [], "removed": []}'},
+        "resume": {"seed-0": _results(), "seed-1": _results()[:-40], "seed-2": b""},
+        "calibration": {"seed-0": SAVED.encode()},
+        "generated_model": {f"seed-{n}": str(n).encode() for n in range(3)},
         "flight_csv": {
             "seed-0": csv,
             "seed-1": csv.replace(b",", b";").replace(b"\n", b"\r\n"),
@@ -71,6 +136,20 @@ def make() -> dict[str, dict[str, bytes]]:
         "flight_parquet": {"seed-0": _table("flight.parquet")},
         "flight_netcdf": {"seed-0": _table("flight.nc")},
     }
+
+
+def _results() -> bytes:
+    """A results file: the records of 0.1.0 in short, with what later versions put there, and one in error."""
+    kept = Path(__file__).parents[1] / "fixtures" / "0.1.0" / "results.jsonl"
+    lines = [HEAD % JOB]
+    for name, line in zip(("a.csv", "b.csv"), kept.read_text("utf-8").splitlines()[2:], strict=True):
+        digest = hashlib.sha256(name.encode()).hexdigest()
+        record = json.loads(line) | {"flight": name, "file": f"/flights/{name}", "sha256": digest}
+        record["parameters"], record["ranking"] = record["parameters"][:3], record["ranking"][:2]
+        record["terms"], record["landmarks"] = [{"harmonic": "cos 2", "term": "a_x"}], LANDMARKS
+        lines.append(json.dumps(record, separators=(",", ":")))
+    lines.append('{"flight":"c.csv","file":"/flights/c.csv","error":{"kind":"input","message":"none"}}')
+    return ("\n".join(lines) + "\n").encode()
 
 
 def _table(name: str) -> bytes:

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import dataclasses
-import os
 import re
-import shutil
-import tempfile
 from collections.abc import Callable, Mapping
-from pathlib import Path
 
 from derive.chain import recorded_motion
 from derive.context import Context
@@ -26,8 +21,9 @@ from ragg_runtime.instrument.read_toml import parse_instrument, read_instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir import derive
 
-Outcome = str
-"""``read`` or ``refused``."""
+from .grammar import generated_model
+from .kept import calibration, history, mapping, resume, unfinished
+from .places import Outcome, place, shown
 
 _CONTEXT = Context(Tape(), recorded_motion())
 _FORCE = SensedForce(*(symbol(f"f_{axis}") for axis in "iop"))
@@ -56,7 +52,7 @@ def expression(data: bytes) -> Outcome:
 
 def model_toml(data: bytes) -> Outcome:
     """A model.toml: read from a file, its effects looked up, its one-line effects understood."""
-    path = _file("model.toml", data)
+    path = place("model.toml", data)
     try:
         instrument = read_instrument(path)
         instrument = dataclasses.replace(instrument, effects_folder=None)  # Python is not fuzzed
@@ -66,8 +62,7 @@ def model_toml(data: bytes) -> Outcome:
             for q in effect.parameters:
                 setting.si(q.name, q.unit, instrument.g0, shared=q.shared)
     except UserError as error:
-        _shown(error)
-        return "refused"
+        return shown(error)
     return "read"
 
 
@@ -88,8 +83,7 @@ def edited_toml(data: bytes) -> Outcome:
         changed = parse_instrument(set_parameters(text, {"dR": RawQuantity(1.0, "um")}))
         assert abs(changed.accelerometers["dR"][2] - 1e-6) < 1e-12
     except UserError as error:
-        _shown(error)
-        return "refused"
+        return shown(error)
     return "read"
 
 
@@ -109,35 +103,29 @@ def flight_netcdf(data: bytes) -> Outcome:
 
 
 TARGETS: Mapping[str, Callable[[bytes], Outcome]] = {
-    f.__name__: f for f in (expression, model_toml, edited_toml, flight_csv, flight_parquet, flight_netcdf)
+    f.__name__: f
+    for f in (
+        expression,
+        model_toml,
+        edited_toml,
+        mapping,
+        history,
+        unfinished,
+        resume,
+        calibration,
+        flight_csv,
+        flight_parquet,
+        flight_netcdf,
+        generated_model,
+    )
 }
 
 _LAG = derive.EffectSetting("lag")
-_folder: Path | None = None
-
-
-def _file(name: str, data: bytes) -> Path:
-    """A file in memory, if the system has such a place."""
-    global _folder
-    if _folder is None:
-        shm = Path("/dev/shm")
-        _folder = Path(tempfile.mkdtemp(dir=shm if os.access(shm, os.W_OK) else None))
-        atexit.register(shutil.rmtree, _folder, ignore_errors=True)
-    path = _folder / name
-    path.write_bytes(data)
-    return path
 
 
 def _flight(data: bytes, name: str) -> Outcome:
     with contextlib.suppress(UserError):
-        flight = read_flight(_file(name, data), 9.8, need_output=False)
+        flight = read_flight(place(name, data), 9.8, need_output=False)
         assert len(flight.time) == len(flight.valid)
         return "read"
     return "refused"
-
-
-def _shown(error: UserError) -> None:
-    """A message can be written to any terminal and is not a book."""
-    message = error.message
-    message.encode("utf-8", "backslashreplace")
-    assert len(message) < 20_000

@@ -16,9 +16,15 @@ EXECUTIONS = {
     "expression": 3000,
     "model_toml": 1500,
     "edited_toml": 500,
+    "mapping": 500,
+    "history": 500,
+    "unfinished": 500,
+    "resume": 500,
+    "calibration": 500,
     "flight_csv": 800,
     "flight_parquet": 500,
     "flight_netcdf": 30,
+    "generated_model": 3,
 }
 
 

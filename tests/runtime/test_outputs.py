@@ -69,7 +69,18 @@ def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("over", ["flight", "model.toml", "history.json", "generated/manifest.json", "link"])
+@pytest.mark.parametrize(
+    "over",
+    [
+        "flight",
+        "model.toml",
+        "history.json",
+        "calibration.json",
+        "mapping.toml",
+        "generated/manifest.json",
+        "link",
+    ],
+)
 @pytest.mark.parametrize("option", ["--json", "--report"])
 def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tuple[Path, Path]) -> None:
     model, flight = given

@@ -24,6 +24,7 @@ from pathlib import Path
 
 import platformdirs
 
+from ragg_runtime.base import progress
 from ragg_runtime.base.files import clear_stale, temporary_name
 from ragg_runtime.base.lock import locked
 from ragg_runtime.base.ownership import belongs_to_user
@@ -46,8 +47,14 @@ FOR_PROCESSOR: tuple[tuple[str, ...], ...] = (
 ANSWERING = 4.0
 """How long a compiler is waited for that is asked its version, s."""
 
-HANGING = 10.0
+HANGING = 9.0
 """How long it is waited for when it compiles, s: it takes half a second. NumPy serves after that."""
+
+PATIENT = 3.0
+"""As often it is said what is waited for, s: nobody should wonder for more than five."""
+
+_hung: dict[str, str] = {}
+"""Compilers that were given up in this process, and why: they are not waited for again."""
 
 _PATIENCE = 120.0  # s; another process may be compiling the same
 
@@ -85,6 +92,8 @@ def build(sources: Mapping[str, str], folder: Path | None = None) -> Built:
     ``folder`` is the cache; by default the user's. Raises BuildError.
     """
     compiler = find_compiler()
+    if compiler[0] in _hung:
+        raise BuildError(_hung[compiler[0]])
     place = private_folder(folder)
     version = _version(tuple(compiler))
     text = "".join(f"{name}\0{sources[name]}\0" for name in sorted(sources))
@@ -201,7 +210,7 @@ def _run(command: Sequence[str], folder: str | None = None) -> subprocess.Comple
         raise BuildError(f"the C compiler {command[0]} cannot be run: {error}") from None
     with process:
         try:
-            out, err = process.communicate(timeout=patience)
+            out, err = _answer(process, command[0], patience)
         except BaseException as error:
             # What it has started goes with it, and with that the pipes that are waited for.
             if hasattr(os, "killpg"):
@@ -210,8 +219,20 @@ def _run(command: Sequence[str], folder: str | None = None) -> subprocess.Comple
             process.kill()
             if not isinstance(error, subprocess.TimeoutExpired):
                 raise
-            raise BuildError(f"the C compiler {command[0]} does not answer within {patience:g} s") from None
+            _hung[command[0]] = f"the C compiler {command[0]} does not answer within {patience:g} s"
+            progress.remark(f"{_hung[command[0]]}; the slower NumPy code serves")
+            raise BuildError(_hung[command[0]]) from None
     return subprocess.CompletedProcess(command, process.returncode, out, err)
+
+
+def _answer(process: subprocess.Popen[str], name: str, patience: float) -> tuple[str, str]:
+    """What a compiler says. Raises TimeoutExpired after ``patience``; that it is waited for is told meanwhile."""
+    while patience > PATIENT:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return process.communicate(timeout=PATIENT)
+        patience -= PATIENT
+        progress.remark(f"waiting for the C compiler {name}, {patience:g} s more at most")
+    return process.communicate(timeout=patience)
 
 
 def _whole(library: Path, record: Path) -> bool:
