@@ -86,11 +86,7 @@ def diagnose_fitted(
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
     f, field, choice = last.fitted, last.field, last.choice
-    weak = {e for e in choice.chosen if choice.tests[e].chi2 < TRUNCATED**2 * sum(t.test.chi2 for t in steps)}
-    if weak:  # what the strong ones' models leave
-        field = replace(field, candidates={e: c for e, c in field.candidates.items() if e not in weak})
-        choice = selection.choose(field)
-    chosen = [e for e in choice.chosen if e not in weak]
+    chosen = list(choice.chosen)
     final = _confirmed(f, chosen, extend)
     while final is not None and (wrong := impossible(final, chosen)):
         left = {e: c for e, c in field.candidates.items() if e not in wrong}
