@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +32,8 @@ def present(ctx: click.Context, param: click.Parameter, incomplete: str) -> list
 
 def _listed(model_dir: Any) -> dict[str, bool]:
     """Effects of a model.toml -> whether they have values; nothing of one that cannot be read: completion never fails."""
+    import tomllib
+
     try:
         entries = tomllib.loads((Path(model_dir) / "model.toml").read_text("utf-8")).get("effects", [])
         rows = [{"id": e} if isinstance(e, str) else dict(e) for e in entries]

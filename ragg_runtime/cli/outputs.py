@@ -74,7 +74,7 @@ class Command(click.Command):
     def invoke(self, ctx: click.Context) -> Any:
         if sys.stdout is None:
             raise UserError(
-                "the result cannot be told: stdout is closed",
+                "the result cannot be written: stdout is closed",
                 remedy="if it is not wanted, send it away: > /dev/null",
             )
         inputs = [Path(os.fsdecode(p)) for p in _paths(self, ctx, outputs=False)]

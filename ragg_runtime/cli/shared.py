@@ -1,9 +1,8 @@
-"""What the commands share: kinds of arguments, options, and how a result is told."""
+"""What the commands share: kinds of arguments, options, and how a result is written."""
 
 from __future__ import annotations
 
 import contextlib
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -60,6 +59,8 @@ def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
 
 def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     """Text to stdout, JSON where asked (then stdout is the JSON alone if it is ``-``)."""
+    import json
+
     if json_file is not None:
         from ragg_runtime.model_dir.provenance import provenance, versioned
 
@@ -82,12 +83,12 @@ def write_report(file: str | None, make: Callable[[], str]) -> None:
 
 @contextlib.contextmanager
 def telling() -> Iterator[None]:
-    """While a result is told on which the change of a model waits: it must not be lost on the way."""
+    """While a result is written on which the change of a model waits: it must not be lost on the way."""
     try:
         yield
     except OSError as error:
         raise UserError(
-            "the result cannot be told, so the model is left as it was",
+            "the result cannot be written, so the model is left as it was",
             where=error.filename or "stdout",
             found=error.strerror,
             remedy="make room, or send the result to another file",

@@ -121,5 +121,5 @@ def in_words(bursts: Sequence[tuple[int, int, float]], time: Array) -> str | Non
         f"{time[a]:.0f} to {time[min(b, len(time)) - 1]:.0f} s ({factor:.3g} times)"
         for a, b, factor in sorted(worst)
     )
-    more = f" and {len(bursts) - SAID} spells more" if len(bursts) > SAID else ""
+    more = f" and {len(bursts) - SAID} more stretches" if len(bursts) > SAID else ""
     return f"the record is far noisier than elsewhere, in power, from {spells}{more}: leave them out (NaN)"

@@ -21,7 +21,7 @@ STEPPED = 5.0
 _ARRANGED = {
     "orthogonal": "three discs whose in-line channels add up to the trace, which is zero",
     "complements": "two complements that measure the same",
-    "single": "without complements or a third disc: gravity and noise are not told apart",
+    "single": "without complements or a third disc: gravity and noise cannot be separated",
 }
 
 

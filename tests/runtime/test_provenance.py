@@ -108,7 +108,7 @@ def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatc
 
 
 def test_every_command_that_gives_json_goes_through_one_door() -> None:
-    """Whatever has --json writes it with provenance: see ``cli._emit``."""
+    """Whatever has --json writes it with provenance: see ``cli.shared.emit``."""
     for name, command in sorted(cli.commands.items()):
         if any(p.name == "json_file" for p in command.params) and name != "experiment":
             assert command.callback is not None
@@ -116,7 +116,7 @@ def test_every_command_that_gives_json_goes_through_one_door() -> None:
             inner = [
                 c for c in code.co_consts if isinstance(c, CodeType)
             ]  # what is called last stands in a function
-            assert any("_emit" in c.co_names for c in (code, *inner)), name
+            assert any("emit" in c.co_names for c in (code, *inner)), name
 
 
 def test_the_same_result_on_any_number_of_threads(place: Path) -> None:

@@ -234,7 +234,7 @@ def test_a_single_disc_without_positions(tmp_path: Path) -> None:
     q = qc([tmp_path / "x.csv"])
     assert (q.discs.arrangement, len(q.crossings), q.lines[0].track) == ("single", 0, None)
     assert q.lines[0].densities["UV"] == pytest.approx(np.sqrt(2.0) / 2, rel=0.4)
-    assert "not told apart" in quality_html(q, title="x", command="c")
+    assert "cannot be separated" in quality_html(q, title="x", command="c")
     with pytest.raises(UserError, match="needs 2 discs"):
         qc([tmp_path / "x.csv"], arrangement="complements")
 

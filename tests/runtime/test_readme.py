@@ -109,3 +109,17 @@ def test_every_target_of_make_that_a_page_names_exists() -> None:
     named = list(_named(r"(?:`|^    )make ([a-z][a-z-]+)"))
     assert len(named) > 15
     assert [(p.name, t) for p, t in named if t not in known] == []
+
+
+def test_every_file_that_the_pages_about_the_house_name_exists() -> None:
+    packages = ("derive", "ragg", "ragg_runtime", "generated", "benchmarks", "examples", "tests")
+    files = [
+        "/" + p.relative_to(ROOT).as_posix() for package in packages for p in (ROOT / package).rglob("*.py")
+    ]
+    named = {
+        name
+        for page in ("architecture.md", "house.md", "compensation.md", "formulas.md")
+        for name in re.findall(r"`([a-z_0-9/]+\.py)`", (ROOT / "docs" / page).read_text("utf-8"))
+    }
+    assert len(named) > 30
+    assert sorted(n for n in named if not any(f.endswith(f"/{n}") for f in files)) == []
