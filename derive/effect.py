@@ -97,6 +97,8 @@ class Effect:
         What it brings. Their symbols are ``p.<name>`` in the hooks.
     channels
         Recorded channels it needs beyond the motion, by column name (``temperature`` ...).
+    either
+        Whether one of several channels is enough: those that are not recorded then count as zero.
     kind
         ``deterministic``; ``step`` (starts at an unknown instant, parameter ``t_step``); ``random`` (the
         parameter is the size of a random process; the hook gives the sensitivity to it); ``output``
@@ -127,6 +129,7 @@ class Effect:
     parameters: tuple[EffectParameter, ...]
     limits: str = ""
     channels: tuple[str, ...] = ()
+    either: bool = False
     kind: Kind = "deterministic"
     sensing: Callable[[Motion, Values, Context], Motion] | None = None
     disc_angle: Callable[[Values, Context], sp.Expr] | None = None

@@ -280,6 +280,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         "equation": e.equation,
         "limits": e.limits,
         "channels": list(e.channels),
+        **({"either": True} if e.either else {}),
         "kind": e.kind,
         "parameters": [
             {

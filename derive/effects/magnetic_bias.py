@@ -34,9 +34,11 @@ EFFECT = Effect(
     equation=r"I_j/K_{j1} \mathrel{+}= \partial_B K_0\, \bm B \cdot \bm\tau_{ji}",
     limits=(
         "Linear, in the field recorded in the measurement frame, taken for uniform over the disc, along the "
-        "input axis alone; a response to the field along the spin axis, which does not turn, is left out."
+        "input axis alone; a response to the field along the spin axis, which does not turn, is left out. Components "
+        "that are not recorded count as zero: without B_z hardly anything is lost, without B_x or B_y half."
     ),
     channels=FIELD,
+    either=True,
     parameters=(
         EffectParameter(
             "dK0_dB", r"\partial_B K_0", "ug/mT", "bias per magnetic flux density along the input axis", 10.0

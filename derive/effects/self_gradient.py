@@ -36,9 +36,10 @@ EFFECT = Effect(
     equation=r"\bm\Gamma \leftarrow \bm\Gamma + \bm G_{roll} \sin(roll) + \bm G_{pitch} \sin(pitch)",
     limits=(
         "First harmonic of small attitude angles. Parts that move with the instrument are constant and no "
-        "effect; fuel burn is not covered. Without pitch in the record its five values are left out."
+        "effect; fuel burn is not covered. Without roll, or pitch, in the record its five values are left out."
     ),
-    channels=("roll",),
+    channels=ATTITUDE,
+    either=True,
     parameters=tuple(
         EffectParameter(
             f"G_{k}_{angle}",

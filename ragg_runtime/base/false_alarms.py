@@ -8,7 +8,7 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
   + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
 
 which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
-few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and CHANGE, FROZEN, SURVEY and
+few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN, SURVEY and
 QUALITY are remarks beside the verdict: each is the level of its own statement.
 
 What stands in a record with no doubt has no level here, because chance has no part in it: an output that clips or stands on a
@@ -36,6 +36,10 @@ power by it: the largest of 2,000 must be 4.9 sigma; at 0.03 it would be 4.5."""
 REMAINDER_SHARES = (0.5, 0.25, 0.25)
 """How steady terms, terms that come and go, and lines in the spectrum divide :data:`REMAINDER`; half to the first, which are
 what a missing effect looks like."""
+
+LEVEL = 1e-4
+"""That the noise's level follows something, over all that is asked: it names nothing and withdraws no claim; a false one changes
+the weights of the samples by a few per cent and is a remark beside the verdict."""
 
 CHANGE = 0.01
 """Of ``holds_until_s``: a change is said to be in flights in which there is none (over all of their blocks of time)."""

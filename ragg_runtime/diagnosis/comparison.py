@@ -12,11 +12,12 @@ from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
+from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit import bursts, columns, convergence
-from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor
+from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.fit.passes import Piece
@@ -53,6 +54,7 @@ class Comparison:
     complaint: str | None = None
     remark: str | None = None
     off_sheet: tuple[OffSheet, ...] = ()
+    explained: Explained | None = None
 
     @property
     def converged(self) -> bool:
@@ -109,6 +111,7 @@ class Comparison:
                 "holdout": self.holdout.as_json(),
             },
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "explained": None if self.explained is None else {"share": self.explained.share},
             "converged": self.converged,
             "reason": self.complaint or self.remark,
             "off_sheet": [x.as_json() for x in self.off_sheet],
@@ -233,7 +236,8 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
     choice = selection.choose(field_of(f, available)) if available else None
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
-    quiet = complaint is None and calibrated.whole.rms_Eo <= LOUD * noise
+    output_explained = explained(f, calibrated)
+    quiet = complaint is None and output_explained.complaint is None and not loud(f, calibrated, noise)
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
@@ -245,9 +249,25 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         remainder=rem,
         nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
-        remark=disturbed(f),
+        remark=remark(output_explained, f),
+        explained=output_explained,
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
+
+
+def loud(f: Fitted, scored: Scored, noise: float) -> bool:
+    """Whether an error stands above the noise (rms, Eo), whatever the tests of what is left say.
+
+    Allowed for: what bursts add, and three standard errors of a noise that few samples tell.
+    """
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
+    return scored.whole.rms_Eo > LOUD * noise * swell(f) * known
+
+
+def remark(e: Explained, f: Fitted) -> str | None:
+    """What is wrong with the record, in words: that nothing in it follows the motion, or how it is disturbed."""
+    return e.complaint or disturbed(f)
 
 
 def disturbed(f: Fitted) -> str | None:

@@ -21,10 +21,11 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.explained import explained
 from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.diagnosis.strong import Extend, Stage
+from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.random_effects import Variance, pooled
@@ -85,7 +86,11 @@ def diagnose_fitted(
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
     f, field, choice = last.fitted, last.field, last.choice
-    chosen = list(choice.chosen)
+    weak = {e for e in choice.chosen if choice.tests[e].chi2 < TRUNCATED**2 * sum(t.test.chi2 for t in steps)}
+    if weak:  # what the strong ones' models leave
+        field = replace(field, candidates={e: c for e, c in field.candidates.items() if e not in weak})
+        choice = selection.choose(field)
+    chosen = [e for e in choice.chosen if e not in weak]
     final = _confirmed(f, chosen, extend)
     while final is not None and (wrong := impossible(final, chosen)):
         left = {e: c for e, c in field.candidates.items() if e not in wrong}
@@ -97,7 +102,8 @@ def diagnose_fitted(
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
         rem = simpler
-    if rem.significant:
+    remains = rem.significant and not _truncated(rem, steps)
+    if remains:
         random = {}
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
@@ -107,15 +113,16 @@ def diagnose_fitted(
     half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
+    output_explained = explained(target, after)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
-    loud = after.whole.rms_Eo > comparison.LOUD * noise and not random_found
-    if complaint is not None or rem.significant or loud:
+    loud = comparison.loud(target, after, noise) and not random_found
+    if complaint is not None or output_explained.complaint is not None or remains or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
-    explained = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    by_terms = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
     whitened = sum(s.square for s in rem.searches)
     ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     ranking += _ranked_random(f, random, before)
@@ -132,7 +139,7 @@ def diagnose_fitted(
         found=tuple(found),
         not_testable=tuple(_not_testable(first.fitted, first.field)),
         remainder=rem if rem.significant else _without_terms(rem),
-        remainder_share=explained / whitened if whitened else 0.0,
+        remainder_share=by_terms / whitened if whitened else 0.0,
         before=before,
         scored=after,
         noise_floor=noise,
@@ -143,7 +150,8 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=comparison.disturbed(target),
+        remark=comparison.remark(output_explained, target),
+        explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),
@@ -191,6 +199,17 @@ FEW = 4
 SIMPLER_THAN_ONE = 16.0
 """Chi-square by which one generic term must be better than one effect to take its place (4 sigma): of single effects there
 are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
+
+
+TRUNCATED = 1e-3
+"""Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
+theirs. Of an effect of 10,000 sigma ten sigma are left over so, and say nothing of a further one."""
+
+
+def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:
+    """Whether all that remains is small beside the strong effects that are in the model."""
+    strongest = max((abs(t.z) for s in rem.searches for t in s.terms), default=np.inf)
+    return bool(strongest**2 < TRUNCATED**2 * sum(t.test.chi2 for t in steps))
 
 
 def _without_terms(rem: Remainder) -> Remainder:

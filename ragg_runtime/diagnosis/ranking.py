@@ -166,7 +166,7 @@ def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
 def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
-        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record)})
+        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record.wide)})
         if missing:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis.explained import Explained
 from ragg_runtime.diagnosis.next_motion import Proposal
 from ragg_runtime.diagnosis.ranking import NotTestable, Ranked
 from ragg_runtime.evidence.sequential import Change, Evidence
@@ -46,6 +47,7 @@ class Diagnosis:
     off_sheet: tuple[OffSheet, ...] = ()
     credible_set: tuple[tuple[str, ...], ...] = ((),)
     holds: Evidence | None = None
+    explained: Explained | None = None
     staged: bool = False
     """Whether what was found was derived into the model one after the other."""
 
@@ -132,6 +134,7 @@ class Diagnosis:
             },
             "error": {"before": self.before.as_json(), "after": self.after.as_json()},
             "noise_floor": {"rms_Eo": self.noise_floor},
+            "explained": None if self.explained is None else {"share": self.explained.share},
             "credible_set": [list(s) for s in self.credible_set],
             "holds_until_s": None if self.change is None else self.change.until,
             "holds_until_flight": None if self.change is None else self.change.flight,

@@ -80,15 +80,24 @@ def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, .
     return [(block, len(family) * len(families)) for family in families for block in family]
 
 
-def test(P: Array, columns: Sequence[tuple[int, Column]], floor: Array, penalty: float = 0.0) -> Test:
-    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``)."""
+def test(
+    P: Array,
+    columns: Sequence[tuple[int, Column]],
+    floor: Array,
+    penalty: float = 0.0,
+    freedom: float = np.inf,
+) -> Test:
+    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``).
+
+    ``freedom``: degrees of freedom from which the noise is known.
+    """
     best = Test(0.0, 0, 0.0, ())
     for block, count in sub_blocks(columns):
         chi2, rank = explained(P, block, floor)
-        log_p = min(0.0, log_sf(chi2, rank) + np.log(count) + penalty)
+        log_p = min(0.0, log_sf(chi2, rank, freedom) + np.log(count) + penalty)
         if rank and log_p < best.log_p:
             best = Test(chi2, rank, log_p, block)
     if not best.which:
         chi2, rank = explained(P, [n for n, _ in columns], floor)
-        best = Test(chi2, rank, min(0.0, log_sf(chi2, rank) + penalty), tuple(n for n, _ in columns))
+        best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(n for n, _ in columns))
     return best

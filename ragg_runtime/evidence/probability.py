@@ -120,6 +120,8 @@ def _best(blocks: Sequence[_Block], alone: Array) -> list[_Block]:
 
 def _evidence(sets: Sequence[tuple[_Block, ...]]) -> Array:
     """log B (n,) of sets of blocks against the empty set, g averaged and the blocks' weights in."""
+    if not sets:
+        return np.empty(0)
     blocks = {id(b): b for s in sets for b in s}
     ends = dict(zip(blocks, np.cumsum([len(b.along) for b in blocks.values()]), strict=True))
     Q = np.concatenate([b.Q for b in blocks.values()], axis=1)

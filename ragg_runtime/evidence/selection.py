@@ -14,6 +14,7 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.model.record import missing_channels
 
 Array = NDArray[np.float64]
 
@@ -52,6 +53,8 @@ class Field:
         Effect id -> logarithm of the number of variants (instants of a step) it was chosen from.
     norms
         Whitened norm of every candidate column before projection.
+    freedom
+        Degrees of freedom from which the noise is known.
     """
 
     T: Array
@@ -59,6 +62,7 @@ class Field:
     candidates: Mapping[str, tuple[tuple[int, Column], ...]]
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
+    freedom: float = np.inf
     norms: Array = field(init=False)
     P: Array = field(init=False)
 
@@ -95,7 +99,7 @@ class Field:
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
         return {
-            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0))
+            e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
             if e not in given
         }
@@ -197,7 +201,8 @@ def field_of(f: Fitted, available: Sequence[str]) -> Field:
     """The candidates among ``available`` effects, on the triangle of everything."""
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
-    return Field(f.whole, f.n_base, kept, f.calibration.rows)
+    freedom = sum(n.freedom for n in f.calibration.noise)
+    return Field(f.whole, f.n_base, kept, f.calibration.rows, freedom=freedom)
 
 
 def testable_effects(f: Fitted) -> list[str]:
@@ -206,5 +211,5 @@ def testable_effects(f: Fitted) -> list[str]:
     return [
         e.id
         for e in f.model.candidates
-        if e.kind == "deterministic" and all(c in h for c in e.channels for h in have)
+        if e.kind == "deterministic" and not any(missing_channels(e, h) for h in have)
     ]

@@ -18,7 +18,11 @@ SPELLS = 48
 """Spells into which the residual is divided."""
 
 LOUD = 4.0
-"""Power of a spell over the median spell's from which it is loud."""
+"""Power of a spell over the median's of those before it, and of those after it, from which it is loud: louder than one side
+alone is a noise that has changed its level."""
+
+BESIDE = 16
+"""Spells on either side with which one is compared: twice as many as may be bursts, so that they do not shift a median."""
 
 FEW = 1 / 6
 """Largest share of spells that are bursts: more of them are noise whose level changes, which the estimate averages."""
@@ -44,20 +48,23 @@ class Burst:
 
 
 def quiet_estimate(
-    residual: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+    residual: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None = None,
+    kept: Sequence[Array] | None = None,
 ) -> tuple[NoiseModel, list[list[Burst]]]:
     """The spectrum of the noise from contiguous stretches of residual, bursts left out, and those of each stretch.
 
-    ``without``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
+    ``without``, ``kept``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
     """
-    model = estimate(residual, rate, without)
+    model = estimate(residual, rate, without, kept)
     bursts: list[list[Burst]] = [[] for _ in residual]
     for _ in range(ROUNDS):
         found = _bursts(residual, model)
         if [len(b) for b in found] == [len(b) for b in bursts]:
             break
         bursts = found
-        model = _estimated(residual, bursts, rate, without)
+        model = _estimated(residual, bursts, rate, without, kept)
     return model, bursts
 
 
@@ -66,6 +73,7 @@ def _estimated(
     bursts: Sequence[Sequence[Burst]],
     rate: float,
     without: tuple[float, float] | None,
+    kept: Sequence[Array] | None,
 ) -> NoiseModel:
     left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
@@ -78,7 +86,7 @@ def _estimated(
             e[b.start : b.stop] = weight[b.start : b.stop] = 0.0
         left.append(e)
         heard += float(np.sum(weight))
-    model = estimate(left, rate, without)
+    model = estimate(left, rate, without, kept)
     return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / heard), model.spread)
 
 
@@ -99,12 +107,14 @@ def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
     if not power:
         return found
     median = float(np.median(power))
-    loud = [n for n, v in enumerate(power) if v > LOUD * median]
+    beside = [(power[max(0, n - BESIDE) : n], power[n + 1 : n + 1 + BESIDE]) for n in range(len(power))]
+    near = [max(float(np.median(side)) for side in sides if side) for sides in beside]
+    loud = [n for n, v in enumerate(power) if v > LOUD * near[n]]
     if len(loud) > FEW * len(power) or np.mean(power) < MATTERS * median:
         return found
     for n in loud:
         k, start, stop = spells[n]
-        found[k].append(Burst(start, stop, power[n] / median))
+        found[k].append(Burst(start, stop, power[n] / near[n]))
     return found
 
 

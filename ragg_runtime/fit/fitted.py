@@ -284,6 +284,16 @@ def about(
     )
 
 
+def swell(f: Fitted) -> float:
+    """rms of all the noise over that of the floor: bursts are no part of it."""
+    power = [
+        float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
+        for x in f.flown
+        for r, level in [(x.observation.record, x.noise.level.of(x.observation.record.quantity))]
+    ]
+    return float(np.sqrt(np.mean(power)))
+
+
 def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.bursts import quiet_estimate
-from ragg_runtime.fit.disturbances import Disturbance, disturbances, in_words
+from ragg_runtime.fit.disturbances import Disturbance, in_words
+from ragg_runtime.fit.left_over import Left, left_over
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
-from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.flight.record import SPECIFIC_FORCE
+from ragg_runtime.signals import noise_level
+from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.noise_level import Level
 from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
 
 Array = NDArray[np.float64]
@@ -27,107 +32,154 @@ TAPS = 24576
 NOISE_SEGMENTS = 8
 """Most segments of a flight of which the noise is estimated: 260,000 samples tell a smooth spectrum."""
 
-ROUNDS = 3
-"""Most times that lines and jumps are looked for in what is left beside those before."""
-
 SHORTEST = 128
 """Least number of samples of which noise can be estimated."""
 
 
+@dataclass(frozen=True)
+class _Part:
+    """What is left of a segment: of every output, at its ``rows``; ``taken`` are degrees of freedom of an unknown gradient.
+
+    ``random``: variance (valid,) that each random effect would add to every output, by its id.
+    """
+
+    rows: slice
+    valid: NDArray[np.bool_]
+    outputs: tuple[Left, ...]
+    taken: float
+    random: Mapping[str, tuple[Array, ...]]
+
+    def rest(self, m: int) -> Array:
+        """(N,): of an output, zero where a sample is not valid."""
+        e = np.zeros(len(self.valid))
+        e[self.valid] = self.outputs[m].rest
+        return e
+
+
 def estimate_noise(at: Point, o: Observation) -> Noise:
     """Noise of each output from what no column (base, candidate, unknown gradient) explains."""
-    r = o.record
-    if np.sum(r.valid) < SHORTEST:
+    if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
             "the record is too short to estimate its noise",
             where=o.name,
-            found=f"{int(np.sum(r.valid))} valid samples",
+            found=f"{int(np.sum(o.record.valid))} valid samples",
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
+    parts = _parts(at, o)
+    if o.kind == "channels":
+        return _of_channels(parts, o)
+    noise = _of_level(parts, o, Level())
+    level = _level(parts, o, noise)
+    if level.parts:
+        noise = _of_level(parts, o, level)
+    said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
+    words = "; ".join(w for w in said if w is not None) or None
+    loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
+    free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
+    return replace(noise, disturbed=words, level=loud, freedom=free)
+
+
+def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
+    """The noise's spectra and bursts, given how its level changes."""
+    rate, band = o.record.rate, unknown_gradient.band(o)
+    loud = [level.of(o.record.part(p.rows).quantity) for p in parts]
+    models, filters = [], []
+    bursts: list[tuple[int, int, float]] = []
+    for m in range(len(o.series)):
+        rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
+        model, found = quiet_estimate(rest, rate, band, [p.outputs[m].kept for p in parts])
+        bursts += [
+            (p.rows.start + b.start, p.rows.start + b.stop, b.factor)
+            for p, own in zip(parts, found, strict=True)
+            for b in own
+        ]
+        models.append(model)
+        filters.append(model.whitening_filter(int(min(TAPS, len(o.record.time)))))
+    return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
+
+
+def _parts(at: Point, o: Observation) -> list[_Part]:
+    """What is left of segments that are spread over the flight."""
     plain = Noise((), (np.ones(1),) * len(o.series))
-    found: list[list[Array]] = [[] for _ in o.series]
-    squares, freedom = np.zeros(len(o.series)), np.zeros(len(o.series))
-    share, begun = [], []
-
-    disturbed: list[Disturbance] = []
     band = unknown_gradient.band(o)
+    rate = o.record.rate if o.kind != "channels" else None
+    n_base = len(design.base_columns(at.model, at.instrument))
+    random = {e.id for e in at.model.candidates if e.kind == "random"}
+    shown = [
+        (n_base + n, c.effect)
+        for n, c in enumerate(design.candidate_columns(at.model, at.instrument))
+        if c.effect in random
+    ]
 
-    def left(piece: Piece) -> tuple[float, list[tuple[Array, float, float]], int] | None:
+    def part(piece: Piece) -> _Part | None:
         valid = piece.observation.record.valid
         if np.sum(valid) < SHORTEST:
             return None
-        taken = sum(w.white.shape[1] for w in piece.windows) / len(o.series)
-        outputs = []
-        for flat in np.split(piece.white, len(o.series), axis=1):
-            rest, rank, seen = _left(flat, valid, r.rate if o.kind != "channels" else None, band)
-            y = flat[-1]
-            # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
-            e = np.zeros(len(valid))
-            e[valid] = rest * np.sqrt(len(y) / max(1.0, len(y) - rank))
-            gain = noise_gain(r.rate) if o.kind == "channels" else 1.0
-            free = len(y) * max(0.1, 1 - (rank + taken) / (gain * len(y)))
-            outputs.append((e, float(np.sum(rest**2)) / gain, free))
-            first = piece.segment.rows.start / r.rate
-            disturbed.extend(replace(d, at=d.at + first) if d.kind == "jump" else d for d in seen)
-        return float(np.mean(valid)), outputs, piece.segment.rows.start
+        each = np.split(piece.white, len(o.series), axis=1)
+        return _Part(
+            rows=piece.segment.rows,
+            valid=valid,
+            outputs=tuple(left_over(flat, valid, rate, band) for flat in each),
+            taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
+            random={e: tuple(flat[place] ** 2 for flat in each) for place, e in shown if e is not None},
+        )
 
-    for part in passed(at, o, plain, left, chosen=spread(flight_segments(o), NOISE_SEGMENTS)):
-        if part is None:
-            continue
-        share.append(part[0])
-        begun.append(part[2])
-        for m, (e, square, free) in enumerate(part[1]):
-            found[m].append(e)
-            squares[m] += square
-            freedom[m] += free
-    models, filters = [], []
-    bursts: list[tuple[int, int, float]] = []
-    for m, e_m in enumerate(found):
-        if o.kind == "channels":
-            # Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
-            sigma = float(np.sqrt(squares[m] / freedom[m]))
-            flat_psd = np.full(2, np.log(2 * sigma**2 / r.rate))
-            models.append(NoiseModel(r.rate, np.array([-20.0, 20.0]), flat_psd, np.zeros(2)))
-            filters.append(np.array([1.0 / sigma]))
-            continue
-        noise, loud = quiet_estimate(e_m, r.rate, band)
-        bursts += [
-            (first + b.start, first + b.stop, b.factor)
-            for first, x in zip(begun, loud, strict=True)
-            for b in x
-        ]
-        # Short gaps are closed by zeros, which lowers the density by the fraction that is missing.
-        noise = replace(noise, log_psd=noise.log_psd - np.log(np.mean(share)))
-        models.append(noise)
-        filters.append(noise.whitening_filter(int(min(TAPS, len(r.time)))))
-    return Noise(
-        tuple(models), tuple(filters), tuple(sorted(bursts)), in_words(sorted(disturbed, key=lambda d: d.at))
+    chosen = spread(flight_segments(o), NOISE_SEGMENTS)
+    return [p for p in passed(at, o, plain, part, chosen=chosen) if p is not None]
+
+
+def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
+    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated."""
+    gain = noise_gain(o.record.rate)
+    squares = free = 0.0
+    for p in parts:
+        (x,) = p.outputs
+        squares += float(np.sum(x.rest**2)) / gain
+        # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
+        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * len(x.rest)))
+    sigma = float(np.sqrt(squares / free))
+    density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
+    model = NoiseModel(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
+    return Noise((model,), (np.array([1.0 / sigma]),))
+
+
+def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
+    """Lines and jumps of all segments, in order."""
+    found = [
+        replace(d, at=d.at + p.rows.start / rate) if d.kind == "jump" else d
+        for p in parts
+        for x in p.outputs
+        for d in x.found
+    ]
+    return sorted(found, key=lambda d: d.at)
+
+
+def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
+    """How loud the noise is from sample to sample, bursts left out: they have been said."""
+    names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in o.record.wide)]
+    names += ["phi"] if o.record.turning else []
+    names += [] if o.record.valid.all() else ["gap"]
+    quiet = np.array(o.record.valid)
+    for start, stop, _ in noise.bursts:
+        quiet[start:stop] = False
+    white: list[Array] = []
+    quantities: dict[str, list[Array]] = {n: [] for n in names}
+    rivals: dict[str, list[Array]] = {}
+    for p in parts:
+        r = o.record.part(p.rows)
+        heard = quiet[p.rows]
+        for m, taps in enumerate(noise.filters):
+            white.append(filtered(p.rest(m)[None], taps)[0][heard])
+            for n in names:
+                quantities[n].append(r.quantity(n)[heard])
+            for e, variance in p.random.items():
+                rivals.setdefault(e, []).append(variance[m][heard[p.valid]])
+    return noise_level.estimated(
+        np.concatenate(white),
+        {n: np.concatenate(x) for n, x in quantities.items()},
+        {e: np.concatenate(x) for e, x in rivals.items()},
     )
-
-
-def _left(
-    flat: Array, valid: NDArray[np.bool_], rate: float | None, band: tuple[float, float] | None
-) -> tuple[Array, float, list[Disturbance]]:
-    """What columns leave of the last of flat (n + 1, rows), and lines and jumps in it; how many these count as; and these.
-
-    No line is looked for in ``band``. Without ``rate`` lines and jumps are not looked for.
-    """
-    solution, rank = _least_squares(flat)
-    rest = flat[-1] - solution @ flat[:-1]
-    found: list[Disturbance] = []
-    time = np.flatnonzero(valid) / (rate or 1.0)
-    for _ in range(ROUNDS if rate else 0):
-        e = np.zeros(len(valid))
-        e[valid] = rest
-        more = disturbances(e, valid, rate or 1.0, band)
-        if not more:
-            break
-        found += more
-        wide = np.vstack([*(d.columns(time) for d in found), flat])
-        solution, rank = _least_squares(wide)
-        rest = flat[-1] - solution @ wide[:-1]
-    return rest, rank, found
 
 
 def spread(found: Sequence[Segment], most: int) -> list[Segment]:
@@ -135,23 +187,3 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
     if len(found) <= most:
         return list(found)
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
-
-
-ABSENT = 1e-11
-"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
-
-
-def _least_squares(columns: Array) -> tuple[Array, float]:
-    """Coefficients (n,) that fit the last of columns (n + 1, rows), and how many they count as.
-
-    Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
-    on which side of an edge one is.
-    """
-    R = triangle(columns)
-    n = len(R) - 1
-    norms = np.linalg.norm(R[:, :n], axis=0)
-    norms[norms == 0.0] = 1.0
-    U, s, Vt = np.linalg.svd(R[:n, :n] / norms)
-    faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
-    solution = Vt.T @ (faded / np.maximum(s, 1e-300) * (U.T @ R[:n, n]))
-    return np.asarray(solution / norms), float(np.sum(faded))

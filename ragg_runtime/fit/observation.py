@@ -20,6 +20,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record, recorded
 from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -85,8 +86,8 @@ class Observation:
     name: str
     output: Output = PAPER.outputs[0]
     place: int = 0
-    memo: list[tuple[Sequence[Array], list[Any]]] = field(default_factory=list, compare=False, repr=False)
-    """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some filters."""
+    memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
+    """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some noise."""
 
     @cached_property
     def data(self) -> Array:

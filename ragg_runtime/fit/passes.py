@@ -18,6 +18,7 @@ from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output, output_weights
 from ragg_runtime.fit.segments import ROWS, Segment, segments
 from ragg_runtime.fit.unknown_gradient import Window
+from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -103,14 +104,14 @@ def passed(
         part = o.part(s.rows)
         columns = linearised(at, part)
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
-        windows = unknown_gradient.windows(o, s.rows, noise.filters)
+        windows = unknown_gradient.windows(o, s.rows, noise)
         if whitened:
             tail = None
             if k and memory:
                 tail = tails[k - 1].result()  # the segment before was begun before
                 tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
-            flat = whitened_columns(columns, noise, tail, part.record.valid)
+            flat = whitened_columns(columns, noise, tail, part.record)
             unknown_gradient.project(flat, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
         return work(Piece(s, part, columns, n_base, flat, sample, windows))
@@ -129,11 +130,13 @@ def passed(
         yield made
 
 
-def whitened_columns(columns: Array, noise: Noise, tail: Array | None, valid: NDArray[np.bool_]) -> Array:
-    """(n + 1, rows): columns (n + 1, m, N) through the filters, one output after the other."""
+def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: Record) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) through the filters, over the noise's level, one output after the other."""
     rows = []
+    valid, level = record.valid, noise.level.of(record.quantity)
     for m, taps in enumerate(noise.filters):
         y = filtered(columns[:, m], taps, None if tail is None else tail[:, m])
+        y = y / level if noise.level.parts else y
         rows.append(y if valid.all() else y[:, valid])
     return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
 

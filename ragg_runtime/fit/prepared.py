@@ -70,7 +70,7 @@ class Flown:
             record = piece.observation.record
             for e, instant in instants.items():
                 columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
-            part = whitened_columns(columns[moved], self.noise, None, record.valid)
+            part = whitened_columns(columns[moved], self.noise, None, record)
             unknown_gradient.project(part, piece.windows)
             white[moved] = part
             kept.append(replace(piece, columns=columns, white=white))

@@ -6,10 +6,15 @@ import numpy as np
 from scipy import stats
 
 
-def log_sf(chi2: float, rank: int) -> float:
-    """Logarithm of the chi-square survival function, also where the function itself underflows."""
+def log_sf(chi2: float, rank: int, freedom: float = np.inf) -> float:
+    """Logarithm of the chi-square survival function, also where the function itself underflows.
+
+    ``freedom``: degrees of freedom of the noise's variance, where that was estimated: chi2 / rank then follows Fisher's F.
+    """
     if rank == 0:
         return 0.0
+    if np.isfinite(freedom):
+        return log_sf_f(chi2 / rank, rank, freedom)
     value = float(stats.chi2.logsf(chi2, rank))
     if np.isfinite(value):
         return value
@@ -18,6 +23,14 @@ def log_sf(chi2: float, rank: int) -> float:
 
     h = rank / 2
     return float(-chi2 / 2 + (h - 1) * np.log(chi2 / 2) - gammaln(h))
+
+
+def log_sf_t(z: float, freedom: float) -> float:
+    """Logarithm of the survival function of Student's t (of the normal distribution where ``freedom`` is infinite)."""
+    if np.isfinite(freedom) and freedom > 0.0:
+        value = log_sf_f(z**2, 1.0, freedom) - float(np.log(2.0)) if z > 0.0 else np.nan
+        return value if z > 0.0 else float(stats.t.logsf(z, freedom))
+    return float(stats.norm.logsf(z))
 
 
 def log_sf_f(ratio: float, d1: float, d2: float) -> float:

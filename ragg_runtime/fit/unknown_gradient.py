@@ -20,6 +20,7 @@ from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import orthonormal
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.fir import Floats, filtered
+from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -96,26 +97,24 @@ def splines(time: Array, phi: Array) -> Array:
     return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
 
 
-def windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Window]:
-    """The windows of one segment of a flight; none if the gradient is known.
-
-    ``filters`` whiten the outputs.
-    """
+def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
+    """The windows of one segment of a flight, whitened; none if the gradient is known."""
     if not unknown(o):
         return []
     if (rows.start, rows.stop) != (0, len(o.record.time)):
-        return _windows(o, rows, filters)
+        return _windows(o, rows, noise)
     # a short flight asks the same in every pass
     for known, found in o.memo:
-        if all(a is b for a, b in zip(known, filters, strict=True)):
+        if known is noise:
             return found
-    found = _windows(o, rows, filters)
-    o.memo[:] = [*o.memo[-1:], (filters, found)]
+    found = _windows(o, rows, noise)
+    o.memo[:] = [*o.memo[-1:], (noise, found)]
     return found
 
 
-def _windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Window]:
-    r = o.record
+def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
+    r, filters = o.record, noise.filters
+    level = np.ones(rows.stop - rows.start) * noise.level.of(r.part(rows).quantity)
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
@@ -130,7 +129,10 @@ def _windows(o: Observation, rows: slice, filters: Sequence[Array]) -> list[Wind
         inside = here[lead:]
         shares = _shares(o, X)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
-        parts = [filtered(x, taps, lead=lead)[:, inside] for x, taps in zip(shares, filters, strict=True)]
+        loud = level[a - rows.start : b - rows.start][inside]
+        parts = [
+            filtered(x, taps, lead=lead)[:, inside] / loud for x, taps in zip(shares, filters, strict=True)
+        ]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
         samples = slice(int(a) - rows.start, int(b) - rows.start)

@@ -73,27 +73,39 @@ class Derivative:
 
 
 def planned(omegas: Sequence[Array], rate: float) -> Derivative:
-    """How to differentiate these rates (N,): the longest run without a gap of the first HEAD samples decides."""
+    """How to differentiate these rates (N,): the runs without a gap of the first HEAD samples decide.
+
+    Those that are long enough to tell what the short windows do; where none is, the short windows' one-sided ends are not
+    relied upon.
+    """
     omegas = [x[:HEAD] for x in omegas]
     whole = np.asarray(np.isfinite(omegas).all(axis=0))
-    longest = max(runs(whole), key=lambda r: r.stop - r.start, default=slice(0, 0))
-    if longest.stop - longest.start < 8 * REACH:
-        return Derivative()
-    series = [x[longest] - x[longest.start] for x in omegas]
-    return Derivative(max(_unsure(x) for x in series))
+    longest = max((r.stop - r.start for r in runs(whole)), default=0)
+    long = [r for r in runs(whole) if r.stop - r.start >= min(8 * REACH, max(TELLING, longest // 2))]
+    if not long:
+        return Derivative(0 if whole.all() else WINDOW // 2)
+    return Derivative(max(_unsure([x[r] - x[r.start] for r in long]) for x in omegas))
 
 
-def _unsure(x: Array) -> int:
-    """Samples next to an end at which the short windows are not good enough, by what they do amidst the record."""
-    n = len(x)
-    inner = slice(REACH, n - REACH)
-    best = ndimage.correlate1d(x, _wide(), mode="nearest")[inner]
-    f, p = signal.welch(x, 2.0, window="hann", nperseg=min(256, n // 4), detrend="constant")
+TELLING = 3 * REACH
+"""Shortest run of which the middle is differentiated by the long window, for the short ones to be compared with it."""
+
+
+def _unsure(series: Sequence[Array]) -> int:
+    """Samples next to an end at which the short windows are not good enough, by what they do amidst these runs."""
+    inner = [slice(REACH, len(x) - REACH) for x in series]
+
+    def made(taps: Array, origin: int = 0) -> Array:
+        parts = [ndimage.correlate1d(x, taps, mode="nearest", origin=origin) for x in series]
+        return np.concatenate([y[i] for y, i in zip(parts, inner, strict=True)])
+
+    best = made(_wide())
+    longest = max(series, key=len)
+    f, p = signal.welch(longest, 2.0, window="hann", nperseg=min(256, len(longest) // 4), detrend="constant")
     noise = np.sqrt(np.median(p[f > BAND][:-1]))
     limit = max(ROUGH * float(np.std(best)), NOISIER * float(noise * np.linalg.norm(_wide())))
     for at in range(WINDOW // 2, -1, -1):
-        short = ndimage.correlate1d(x, weights(WINDOW, at), mode="nearest", origin=at - WINDOW // 2)[inner]
-        if np.sqrt(np.mean((short - best) ** 2)) > limit:
+        if np.sqrt(np.mean((made(weights(WINDOW, at), at - WINDOW // 2) - best) ** 2)) > limit:
             return REACH if at == WINDOW // 2 else at + 1
     return 0
 

@@ -14,12 +14,12 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared import Flown, Projector
+from ragg_runtime.fit.significance import log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.spectral_line import Periodogram
 from ragg_runtime.lack_of_fit.time_varying import BlockScores
@@ -273,7 +273,8 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     norm = np.sqrt(np.where(good, left2, np.inf))
     tried = int(np.sum(good))
     z = s.sums.dot / norm
-    first = _log_p(z, tried)
+    freedom = s.flown.noise.freedom
+    first = _log_p(z, tried, freedom)
     if first >= np.log(FAMILY):
         return Omnibus(first, tried, (), 0.0, s.sums.square)
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
@@ -284,7 +285,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     chi2 = 0.0
     while len(taken) < most:
         now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
-        if _log_p(now, tried) >= np.log(FAMILY):
+        if _log_p(now, tried, freedom) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
         k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
@@ -307,7 +308,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
 
 
-def _log_p(z: Array, tried: int) -> float:
-    """p-value, as a logarithm, of the largest of so many standard normal deviates."""
+def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
+    """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
     top = float(np.max(np.abs(z), initial=0.0))
-    return min(0.0, float(stats.norm.logsf(top)) + float(np.log(2 * max(tried, 1) / SHARES[0])))
+    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))

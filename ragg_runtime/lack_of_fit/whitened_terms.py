@@ -64,8 +64,10 @@ class Directions:
         r = piece.observation.record
         self.filters = [taps[:MEMORY] for taps in flown.noise.filters]
         self.size = len(r.time)
-        self.round = piece.observation.kind != "channels" and bool(r.valid.all())
-        """Whether terms can go round: not past gaps, nor through the demodulator's filter."""
+        self.level = flown.noise.level.of(r.quantity)
+        steady = not flown.noise.level.parts
+        self.round = piece.observation.kind != "channels" and bool(r.valid.all()) and steady
+        """Whether terms can go round: not past gaps, nor through the demodulator's filter, nor where the noise changes its level."""
         if self.round:
             cut = [np.asarray(taps[: self.size]) for taps in self.filters]
             self.gains = [
@@ -87,12 +89,15 @@ class Directions:
                 x = narrow(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
             parts = [
-                _kept(filtered(x, np.asarray(w * taps), lead=lead), valid)
+                _kept(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)
                 for w, taps in zip(o.weights, self.filters, strict=True)
             ]
             return at, x[:, lead:], self._without_gradient(parts)
 
         yield from mapped(through, range(len(chunks)))
+
+    def _even(self, X: Singles) -> Singles:
+        return X if isinstance(self.level, float) else np.asarray(X / self.level.astype(np.float32))
 
     def gone_round(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """As :meth:`whitened`, through the periodic filter."""

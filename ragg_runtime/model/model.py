@@ -80,6 +80,7 @@ class Effect:
     channels: tuple[str, ...]
     kind: str
     parameters: tuple[EffectParameter, ...]
+    either: bool = False
 
 
 MANY = 200_000

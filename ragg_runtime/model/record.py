@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
-from ragg_runtime.model.model import Chain, Effect
+from ragg_runtime.model.model import Chain
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -114,6 +114,18 @@ class Record:
         """A channel, or the time derivative ``d_<channel>``, ``d2_<channel>`` of one; ``None`` if unknown."""
         found = self._wide(name)
         return None if found is None else self._inner(found)
+
+    def quantity(self, name: str) -> Array:
+        """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
+        not valid), or ``abs(CHANNEL)``.
+        """
+        if name == "time":
+            return self.time
+        if name == "gap":
+            return _from_gap(self.valid)
+        if name == "phi":
+            return np.asarray(np.mod(self.phi, 2 * np.pi))
+        return np.abs(self.channels[name[4:-1]])
 
     def part(self, rows: slice) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours."""
@@ -229,6 +241,26 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     )
 
 
-def missing_channels(e: Effect, r: Record) -> tuple[str, ...]:
-    """The channels that an effect needs and the flight does not have."""
-    return tuple(c for c in e.channels if c not in r.wide)
+def _from_gap(valid: NDArray[np.bool_]) -> Array:
+    """(N,): how many samples each is from the nearest one that is not valid; N if all are."""
+    n = len(valid)
+    at = np.arange(n)
+    before = at - np.maximum.accumulate(np.where(valid, -n, at))
+    after = np.minimum.accumulate(np.where(valid, 2 * n, at)[::-1])[::-1] - at
+    return np.minimum(np.minimum(before, after), n).astype(np.float64)
+
+
+class Needs(Protocol):
+    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
+
+    @property
+    def channels(self) -> tuple[str, ...]: ...
+
+    @property
+    def either(self) -> bool: ...
+
+
+def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
+    """The channels that an effect needs and a flight, which has those recorded, does not have."""
+    missing = tuple(c for c in e.channels if c not in recorded)
+    return () if e.either and len(missing) < len(e.channels) else missing

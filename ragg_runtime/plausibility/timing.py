@@ -85,10 +85,10 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     percent = 100 * (best / f0 - 1)
     return [
         Found(
-            f"the spin rate is {best:.6g} Hz, not the model's {f0:.6g} Hz ({percent:+.2g} %)"
+            f"the spin rate is {best:.9g} Hz, not the model's {f0:.9g} Hz ({percent:+.2g} %)"
             if not encoder
             else f"the spin rate is {best:.6g} Hz, from angle 0 at the first sample; spin_angle says otherwise",
-            f'write spin_frequency = "{best:.6g} Hz" in model.toml, or record spin_angle',
+            f'write spin_frequency = "{best:.9g} Hz" in model.toml, or record spin_angle',
             turned,
         ),
         Found(

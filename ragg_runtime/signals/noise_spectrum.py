@@ -12,11 +12,13 @@ perfectly white.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate, optimize, signal
+
+from ragg_runtime.signals.noise_level import Level
 
 Array = NDArray[np.float64]
 
@@ -95,17 +97,21 @@ class NoiseModel:
 
 
 def estimate(
-    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None = None
+    residuals: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None = None,
+    kept: Sequence[Array] | None = None,
 ) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
 
-    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise.
+    Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
+    every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all).
 
     First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate, without)
+    f, p, count = _periodogram(residuals, rate, without, kept)
     coarse = _corrected(f, p, count, _red_and_white(f, p, count), None)
     fine = _corrected(f, p, count, _red_and_white(*_lower(f, p, count)), rate)
     # Twice the gain in log likelihood against the number of coefficients (BIC).
@@ -179,30 +185,45 @@ def _corrected(
     return _Correction(base, lambda g: np.asarray(spline(np.clip(scale(g), x[0], x[-1]))), size, cost)
 
 
+LEFT = 0.1
+"""Share of the noise that a fit must have left in a group of frequencies for them to tell its density."""
+
+
 def _periodogram(
-    residuals: Sequence[Array], rate: float, without: tuple[float, float] | None
+    residuals: Sequence[Array],
+    rate: float,
+    without: tuple[float, float] | None,
+    kept: Sequence[Array] | None,
 ) -> tuple[Array, Array, Array]:
-    """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency)."""
+    """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency).
+
+    The power in a group of bins over what a fit has left of unit noise there is its density without bias, and as many
+    bins as are left tell it.
+    """
     longest = max(len(r) for r in residuals)
-    usable = [r for r in residuals if len(r) >= max(64, longest // 4)]
+    usable = [k for k, r in enumerate(residuals) if len(r) >= max(64, longest // 4)]
     if not usable:
         raise ValueError("no stretch long enough to estimate the noise from")
-    frequency, density = [], []
-    for r in usable:
-        f, p = signal.periodogram(r, rate, window="hann", detrend="constant")
+    frequency, density, share = [], [], []
+    for k in usable:
+        f, p = signal.periodogram(residuals[k], rate, window="hann", detrend="constant")
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
-        kept = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
-        kept[:LOWEST] = kept[-1:] = False
-        frequency.append(f[kept])
-        density.append(without_lines(p[kept]))
-    f, p = np.concatenate(frequency), np.concatenate(density)
-    edges = np.geomspace(f.min() * 0.999, f.max() * 1.001, 120)
-    which = np.digitize(f, edges)
-    bins = np.unique(which)
-    n = np.array([np.sum(which == k) for k in bins], dtype=float)
-    mean_f = np.array([np.exp(np.mean(np.log(f[which == k]))) for k in bins])
-    mean_p = np.array([np.mean(p[which == k]) for k in bins])
-    return mean_f, mean_p, n / 1.5  # neighbouring bins of a Hann periodogram are correlated
+        used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
+        used[:LOWEST] = used[-1:] = False
+        frequency.append(f[used])
+        density.append(without_lines(p[used]))
+        share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
+    f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
+    which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
+    n, power, free, log_f = (
+        np.asarray(np.bincount(which, x), dtype=np.float64) for x in (np.ones(len(f)), p, left, np.log(f))
+    )
+    told = np.flatnonzero((n > 0) & (free >= LEFT * np.maximum(n, 1)))
+    if len(told) < KNOTS:  # so many columns that nothing is left of most: all the same
+        told = np.flatnonzero(n > 0)
+        free = n * max(LEFT, float(np.mean(left)))
+    # neighbouring bins of a Hann periodogram are correlated
+    return np.exp(log_f[told] / n[told]), power[told] / free[told], free[told] / 1.5
 
 
 LINE = 25.0
@@ -240,7 +261,7 @@ def without_lines(p: Array) -> Array:
 
 def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]:
     """alpha f^-b + omega_T by maximum (Whittle) likelihood, with a weak prior that the noise is white."""
-    white = float(np.median(p[f > np.sqrt(f[0] * f[-1])]))
+    white = float(np.median(p[f >= np.sqrt(f[0] * f[-1])]))
 
     def density(theta: Array, f: Array) -> Array:
         return np.asarray(white * (np.exp(theta[0]) + np.exp(theta[1]) * (f / 0.1) ** (-theta[2])))
@@ -258,10 +279,13 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 @dataclass(frozen=True)
 class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
-    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either.
+    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
+    ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
     """
 
     models: tuple[NoiseModel, ...]
     filters: tuple[Array, ...]
     bursts: tuple[tuple[int, int, float], ...] = ()
     disturbed: str | None = None
+    level: Level = field(default_factory=Level)
+    freedom: float = np.inf

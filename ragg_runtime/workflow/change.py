@@ -21,6 +21,7 @@ from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.record import missing_channels
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import replace_model_dir
 from ragg_runtime.model_dir.history import Step
@@ -151,7 +152,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = [c for c in symbolic.channels if c not in x.channels]
+        missing = missing_channels(symbolic, x.channels)
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",

@@ -112,7 +112,7 @@ def test_channels_and_kinds() -> None:
     assert {e.id: e.channels for e in known if e.channels} == {
         "magnetic-bias": ("B_x", "B_y", "B_z"),
         "pressure-bias": ("pressure",),
-        "self-gradient": ("roll",),
+        "self-gradient": ("roll", "pitch"),
         "thermal-bias": ("temperature",),
         "thermal-scale": ("temperature",),
     }

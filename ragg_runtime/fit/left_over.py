@@ -1,0 +1,199 @@
+"""What columns leave of a record's output, and how much of the noise they have taken with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg, signal
+
+from ragg_runtime.fit.disturbances import Disturbance, disturbances
+from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.noise_spectrum import estimate
+
+Array = NDArray[np.float64]
+
+ROUNDS = 6
+"""Most times that lines and jumps are looked for in what is left beside those before."""
+
+
+@dataclass(frozen=True)
+class Left:
+    """What columns leave of the last one.
+
+    Attributes
+    ----------
+    rest
+        (rows,): at the valid samples.
+    rank
+        How many degrees of freedom the columns count as.
+    kept
+        Share of white noise that they leave at each frequency of the periodogram; empty where that is not asked for.
+    found
+        Lines and jumps that were fitted beside them.
+    columns, directions
+        All that was fitted (n, rows), and (n, n): columns times it are orthonormal.
+    """
+
+    rest: Array
+    rank: float
+    kept: Array
+    found: list[Disturbance]
+    columns: Array = field(repr=False)
+    directions: Array = field(repr=False)
+
+
+def left_over(
+    flat: Array, valid: NDArray[np.bool_], rate: float | None, band: tuple[float, float] | None
+) -> Left:
+    """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
+
+    No line is looked for in ``band``. Without ``rate`` (of a demodulated channel) neither they nor ``kept`` are looked for.
+    """
+    left = _fitted(flat, flat, valid, rate, [])
+    if rate is None:
+        return replace(left, columns=np.empty(0), directions=np.empty(0))
+    time = np.flatnonzero(valid) / rate
+
+    def beside(found: list[Disturbance]) -> Left:
+        wide = np.vstack([*(d.columns(time) for d in found), flat])
+        return _fitted(wide, flat, valid, rate, found)
+
+    for _ in range(ROUNDS):
+        seen = disturbances(_placed(left.rest, valid), valid, rate, band)
+        lines = [d for d in seen if d.kind == "line"]
+        jump = None if lines else _jump(left, valid, rate)
+        if jump is not None:  # to the sample; those that a mean shows are of no use beside it
+            without = beside([*left.found, jump])
+            if _told(left, without, valid, rate, band):
+                left = without
+                continue
+        if not seen:
+            break
+        left = beside([*left.found, *(lines or seen)])
+    return replace(left, columns=np.empty(0), directions=np.empty(0))
+
+
+def _placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
+    """(N,): what is left, zero where a sample is not valid."""
+    e = np.zeros(len(valid))
+    e[valid] = rest
+    return e
+
+
+def _fitted(
+    wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
+) -> Left:
+    fit = _least_squares(wide)
+    return Left(
+        rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
+        rank=fit.rank,
+        kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
+        found=found,
+        columns=wide[:-1],
+        directions=fit.directions,
+    )
+
+
+JUMP = 50.0
+"""Chi-square, in the noise that is estimated beside it, of a jump that the columns hide: the largest of some hundred chance
+ones of noise, red or white, stays below 25."""
+
+INSTANTS = 96
+"""Instants among which it is sought, and again about the best of them, to the sample."""
+
+
+def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
+    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do.
+
+    Columns that are slow bend to a jump until no difference of means shows it; what it explains beside them does.
+    """
+    n = len(left.rest)
+    low, high = 0, n
+    while True:
+        edges = np.unique(np.linspace(low, high, INSTANTS + 1).astype(np.intp))[1:-1]
+        starts = np.concatenate([[0], edges])
+        spanned = left.directions.T @ np.add.reduceat(left.columns, starts, axis=1)
+        after, shared = (
+            np.cumsum(x[..., ::-1], axis=-1)[..., ::-1][..., 1:]
+            for x in (np.add.reduceat(left.rest, starts), spanned)
+        )
+        own = (n - edges) - np.sum(shared**2, axis=0)
+        own = np.where(own > 1e-3 * np.minimum(edges, n - edges), own, np.inf)
+        best = int(np.argmax(after**2 / own))
+        if high - low <= INSTANTS:
+            break
+        reach = -(-(high - low) // INSTANTS)
+        low, high = max(0, int(edges[best]) - reach - 1), min(n, int(edges[best]) + reach + 1)
+    variance = float(left.rest @ left.rest) / max(1.0, n - left.rank)
+    if not float(after[best] ** 2 / own[best]) > JUMP * variance:
+        return None
+    size = abs(float(after[best] / own[best])) / float(np.sqrt(variance))
+    return Disturbance("jump", float(np.flatnonzero(valid)[edges[best]] / rate), size)
+
+
+def _told(
+    before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
+) -> bool:
+    """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
+    model = estimate([_placed(after.rest, valid)], rate, band, [after.kept])
+    taps = model.whitening_filter(len(valid))
+    gone = filtered(_placed(before.rest - after.rest, valid)[None], taps)[0][valid]
+    return float(gone @ gone) > JUMP
+
+
+EVERY = 1024
+"""Bins of a periodogram for which the share that columns leave is computed; it is interpolated in between."""
+
+
+def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
+    """Share of white noise that is left at each frequency once columns (n, rows) are fitted, gaps counted as lost.
+
+    A fit leaves |v|^2 - |Q'v|^2 of the power along any direction v, with Q what the columns span (their leverage); here v
+    is a windowed wave. Without it the noise would look quietest where the columns are: on a record of a minute by three
+    times. ``directions`` (n, k): columns times it are Q.
+    """
+    window = signal.get_window("hann", len(valid))
+    bins = len(valid) // 2 + 1
+    some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
+    waves = np.empty((len(columns), len(some)), dtype=np.complex128)
+    x = np.zeros(len(valid))
+    for k, column in enumerate(columns):
+        x[valid] = column * window[valid]
+        waves[k] = np.fft.rfft(x)[some]
+    taken = np.sum(np.abs(directions.T @ waves) ** 2, axis=0)
+    left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
+    return np.asarray(np.interp(np.arange(bins), some, np.maximum(left, 0.0)))
+
+
+ABSENT = 1e-11
+"""Relative size of a direction of (normalised) columns that is rounding rather than physics."""
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """Coefficients (n,), how many they count as, and ``directions`` (n, n): columns times it are orthonormal (or fade)."""
+
+    solution: Array
+    rank: float
+    directions: Array
+
+
+def _least_squares(columns: Array) -> _Fit:
+    """The fit of columns (n + 1, rows) to the last of them.
+
+    Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
+    on which side of an edge one is.
+    """
+    R = triangle(columns)
+    n = len(R) - 1
+    norms = np.linalg.norm(R[:, :n], axis=0)
+    norms[norms == 0.0] = 1.0
+    U, s, Vt = linalg.svd(R[:n, :n] / norms, lapack_driver="gesvd")
+    faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
+    inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
+    solution = inverse @ (faded * (U.T @ R[:n, n]))
+    lost = np.sqrt(faded * (2.0 - faded))  # what a faded fit takes of the noise's power
+    return _Fit(solution=solution, rank=float(np.sum(faded)), directions=inverse * lost)

@@ -1,0 +1,193 @@
+"""How loud a noise is from sample to sample: it may change in time, with the motion, or with the disc's angle.
+
+White noise of a level that is taken for constant where it changes deceives every test: loud spells weigh too much, and a
+term that is large where the noise is loud looks significant. A noise whose level follows what is known is made white of
+unit variance by one factor a sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
+Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
+against groups of samples, with their own fourth moment, so that heavy tails are no evidence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from ragg_runtime.base import false_alarms
+
+Array = NDArray[np.float64]
+
+CHANGES = false_alarms.LEVEL
+"""p-value, over all that is asked, from which the level follows something."""
+
+SPELLS = 48
+"""Stretches of time whose levels are compared."""
+
+GROUPS = 8
+"""Groups, of equal size, of samples in the order of some quantity."""
+
+SECTORS = 16
+"""Sectors of the disc's angle: a level that swells twice a turn takes eight for each time."""
+
+NEAR = (1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5)
+"""Samples from a gap between which groups are divided: what is derived there is poorer, and a filter starts anew."""
+
+FEWEST = 20
+"""Samples that a group must have."""
+
+MOST = 3
+"""Most things that the level follows at once."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """A factor of the level: ``values`` (k,) between ``edges`` (k - 1,) of a quantity, which has a name."""
+
+    name: str
+    edges: Array
+    values: Array
+
+    def of(self, quantity: Array) -> Array:
+        """(N,): the factor where the quantity (N,) is so large."""
+        return np.asarray(self.values[np.searchsorted(self.edges, quantity, side="right")])
+
+    @property
+    def ratio(self) -> float:
+        """Largest over smallest."""
+        return float(np.max(self.values) / np.min(self.values))
+
+
+@dataclass(frozen=True)
+class Level:
+    """The product of its parts, of mean square one over the record; without parts one everywhere."""
+
+    parts: tuple[Part, ...] = ()
+    scale: float = 1.0
+
+    def of(self, quantity: Callable[[str], Array]) -> Array | float:
+        """(N,): the level where quantities, by name, are (N,)."""
+        level: Array | float = self.scale
+        for p in self.parts:
+            level = level * p.of(quantity(p.name))
+        return level
+
+
+def estimated(
+    white: Array,
+    quantities: Mapping[str, Array],
+    rivals: Mapping[str, Array],
+) -> Level:
+    """The level of whitened residuals (N,) as a function of ``quantities``, (N,) each; ``time`` and ``phi`` have a meaning.
+
+    Nothing is concluded once one of the ``rivals``, variances (N,) that random effects would add, explains it best: that is
+    for a test of that effect.
+    """
+    parts: list[Part] = []
+    u = white
+    asked = len(quantities) + len(rivals)
+    while len(parts) < MOST:
+        tests = [(*_test(u, n, x), n) for n, x in (*quantities.items(), *rivals.items())]
+        log_p, part, name = min(tests, key=lambda t: (t[0], t[2]))
+        if part is None or name in rivals or log_p + np.log(asked) > np.log(CHANGES):
+            break
+        parts.append(part)
+        u = u / part.of(quantities[name])
+    level = np.ones(len(white))
+    for p in parts:
+        level *= p.of(quantities[p.name])
+    return Level(tuple(parts), 1.0 / float(np.sqrt(np.mean(level**2)))) if parts else Level()
+
+
+def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
+    """Logarithm of the p-value that the mean square of u (N,) is the same in all groups of x (N,), and the level in each."""
+    edges = _edges(name, x)
+    if not len(edges):
+        return 0.0, None
+    square = u**2
+    which = np.searchsorted(edges, x, side="right")
+    count, power = np.bincount(which), np.bincount(which, square)
+    if len(count) <= len(edges) or np.min(count) < FEWEST:
+        return 0.0, None
+    mean = float(np.mean(square))
+    ratio = float(np.mean(square**2)) / mean**2 - 1.0
+    mean_of: Array = power / count
+    chi2 = float(np.sum(count * (mean_of / mean - 1.0) ** 2)) / max(ratio, 1e-3)
+    log_p = float(stats.chi2.logsf(chi2, len(edges)))
+    if name == "time":
+        # the fourth moment without the changes themselves
+        inner = float(np.mean(square**2)) / float(np.average(mean_of**2, weights=count)) - 1.0
+        edges, mean_of = _stretches(edges, count.astype(np.float64), np.asarray(power), max(2.0, inner))
+        if not len(edges):
+            return 0.0, None
+    return max(log_p, -1e6), Part(name, edges, np.sqrt(mean_of / mean))
+
+
+def _edges(name: str, x: Array) -> Array:
+    if name == "time":
+        spells = min(SPELLS, len(x) // (2 * FEWEST))
+        return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, spells + 1)[1:-1]), dtype=np.float64)
+    if name == "gap":
+        fewest = np.array([min(np.sum(x <= edge), np.sum(x > edge)) for edge in NEAR])
+        return np.array(NEAR)[fewest >= 2 * FEWEST]
+    if name == "phi":
+        return np.linspace(0.0, 2 * np.pi, SECTORS + 1)[1:-1]
+    edges: Array = np.unique(np.quantile(x, np.arange(1, GROUPS) / GROUPS)).astype(np.float64)
+    return edges[(edges > np.min(x)) & (edges <= np.max(x))]
+
+
+def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[Array, Array]:
+    """Edges between stretches of constant level, and their mean squares: the partition of least Gaussian cost (BIC).
+
+    A change costs its level and its instant; ``ratio`` is the variance of squares over their squared mean, 2 of a Gaussian.
+    """
+    n = len(count)
+    C, S = (np.concatenate([[0.0], np.cumsum(v)]) for v in (count, power))
+    penalty = 2.0 * np.log(C[-1]) * ratio / 2.0
+    best, last = np.full(n + 1, np.inf), np.zeros(n + 1, dtype=np.intp)
+    best[0] = -penalty
+    for b in range(1, n + 1):
+        a = np.arange(b)
+        cost = best[a] + (C[b] - C[a]) * np.log(np.maximum((S[b] - S[a]) / (C[b] - C[a]), 1e-300)) + penalty
+        last[b] = int(np.argmin(cost))
+        best[b] = cost[last[b]]
+    ends = [n]
+    while ends[-1] > 0:
+        ends.append(int(last[ends[-1]]))
+    cuts = np.array(ends[::-1])
+    return np.asarray(edges[cuts[1:-1] - 1]), np.asarray(np.diff(S[cuts]) / np.diff(C[cuts]))
+
+
+def with_bursts(level: Level, bursts: Sequence[tuple[int, int, float]], time: Array) -> Level:
+    """The level with bursts in it: first and last sample of each and its power over the noise's; ``time`` (N,) s.
+
+    Its mean square is one outside of them.
+    """
+    if not bursts:
+        return level
+    edges: list[float] = []
+    values = [1.0]
+    for start, stop, factor in sorted(bursts):
+        if edges and edges[-1] == time[start]:
+            values[-1] = float(np.sqrt(factor))
+        else:
+            edges.append(float(time[start]))
+            values.append(float(np.sqrt(factor)))
+        edges.append(float(time[stop]) if stop < len(time) else np.inf)
+        values.append(1.0)
+    return replace(level, parts=(*level.parts, Part("time", np.array(edges), np.array(values))))
+
+
+def in_words(level: Level) -> str | None:
+    """What the level follows, in one sentence; ``None`` if it is constant."""
+    if not level.parts:
+        return None
+    names = {
+        "time": "in the course of the record",
+        "phi": "with the angle of the disc",
+        "gap": "next to gaps",
+    }
+    said = [f"{names.get(p.name, f'with {p.name}')} ({p.ratio:.2g} times)" for p in level.parts]
+    return f"the noise changes its level {' and '.join(said)}; every sample is weighed by it"

@@ -1,0 +1,121 @@
+"""The noise of short and of uneven records: its spectrum where columns take most of it, and its level."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from ragg_runtime.fit.left_over import left_over
+from ragg_runtime.fit.significance import log_sf, log_sf_t
+from ragg_runtime.signals.noise_level import Level, estimated, in_words, with_bursts
+from ragg_runtime.signals.noise_spectrum import estimate
+
+Array = NDArray[np.float64]
+
+RATE = 16.0
+
+
+def slow_columns(n: int, count: int, rng: np.random.Generator) -> Array:
+    """(count, n): random series below 1 Hz."""
+    x = np.fft.rfft(rng.normal(size=(count, n)))
+    x[:, np.fft.rfftfreq(n, 1 / RATE) > 1.0] = 0.0
+    return np.fft.irfft(x, n)
+
+
+def test_what_columns_take_of_the_noise_is_no_quiet() -> None:
+    """White noise of a minute, fitted by 80 slow columns: its density below 1 Hz came out three times too small."""
+    found = []
+    valid = np.ones(960, dtype=bool)
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        flat = np.vstack([slow_columns(960, 80, rng), rng.normal(size=960)])
+        left = left_over(flat, valid, RATE, None)
+        assert left.rank == pytest.approx(80)
+        found.append(estimate([left.rest], RATE, None, [left.kept]).psd(np.array([0.2, 0.5, 4.0])))
+        blind = estimate([left.rest], RATE).psd(np.array([0.5]))
+    assert np.exp(np.mean(np.log(found), axis=0)) == pytest.approx(2 / RATE, rel=0.25)
+    assert blind[0] < 0.5 * 2 / RATE
+
+
+@pytest.mark.parametrize("size", [2.0, 30.0])
+def test_a_jump_to_which_slow_columns_bend_is_found(size: float) -> None:
+    rng = np.random.default_rng(5)
+    n = 4800
+    time = np.arange(n) / RATE
+    powers = np.linspace(-1.0, 1.0, n) ** np.arange(9)[:, None]
+    y = rng.normal(size=n) + size * (time >= 113.0)
+    left = left_over(np.vstack([powers, y]), np.ones(n, dtype=bool), RATE, None)
+    assert [d.kind for d in left.found] == ["jump"]
+    assert left.found[0].at == pytest.approx(113.0, abs=2.0 / size)
+    assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
+
+
+def test_red_noise_does_not_jump() -> None:
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        x = np.fft.rfft(rng.normal(size=9600))
+        f = np.fft.rfftfreq(9600, 1 / RATE)
+        y = np.fft.irfft(x * np.sqrt(1 + 0.1 / np.maximum(f, f[1])), 9600)[:4800]
+        flat = np.vstack([np.ones(4800), y])
+        assert not left_over(flat, np.ones(4800, dtype=bool), RATE, None).found
+
+
+def quantities(n: int, rng: np.random.Generator) -> dict[str, Array]:
+    return {
+        "time": np.arange(n) / RATE,
+        "abs(a_x)": np.abs(rng.normal(size=n)),
+        "phi": np.mod(np.arange(n) * 0.1, 2 * np.pi),
+    }
+
+
+def test_even_noise_has_no_level_even_if_its_tails_are_heavy() -> None:
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        x = quantities(4800, rng)
+        assert not estimated(rng.normal(size=4800), x, {}).parts
+        assert not estimated(rng.standard_t(3, size=4800), x, {}).parts
+
+
+@pytest.mark.parametrize("name", ["time", "abs(a_x)", "phi"])
+def test_the_level_is_found_and_undone(name: str) -> None:
+    rng = np.random.default_rng(7)
+    x = quantities(4800, rng)
+    loud = {
+        "time": np.where(x["time"] > 100.0, 10.0, 1.0),
+        "abs(a_x)": 0.2 + x["abs(a_x)"],
+        "phi": 1.0 + 0.8 * np.cos(2 * x["phi"]),
+    }[name]
+    level = estimated(loud * rng.normal(size=4800), x, {})
+    assert level.parts[0].name == name
+    found = level.of(x.__getitem__)
+    assert np.mean(found**2) == pytest.approx(1.0)
+    ratio = found / loud
+    assert np.std(ratio) < 0.2 * np.mean(ratio)
+    said = in_words(level)
+    assert said is not None and "changes its level" in said
+
+
+def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
+    rng = np.random.default_rng(8)
+    x = quantities(4800, rng)
+    share = (x["abs(a_x)"] * np.cos(x["phi"])) ** 2
+    assert not estimated(np.sqrt(0.1 + share) * rng.normal(size=4800), x, {"jitter": share}).parts
+
+
+def test_bursts_are_weighed_down() -> None:
+    time = np.arange(1000) / RATE
+    level = with_bursts(Level(), [(100, 200, 16.0), (200, 300, 25.0), (900, 1000, 4.0)], time)
+    expected = np.ones(1000)
+    expected[100:200], expected[200:300], expected[900:] = 4.0, 5.0, 2.0
+    assert level.of({"time": time}.__getitem__) == pytest.approx(expected)
+    assert with_bursts(replace(level), [], time) is not None
+
+
+def test_few_degrees_of_freedom_have_heavier_tails() -> None:
+    assert log_sf(25.0, 1, 50.0) > log_sf(25.0, 1) + 1.0
+    assert log_sf(25.0, 1, 1e9) == pytest.approx(log_sf(25.0, 1), rel=1e-6)
+    assert log_sf_t(5.0, 40.0) == pytest.approx(np.log(5.9e-6), abs=0.1)
+    assert log_sf_t(5.0, np.inf) == pytest.approx(np.log(2.87e-7), abs=0.01)

@@ -1,0 +1,71 @@
+"""What a verdict needs besides quiet: an output that follows the motion, channels enough, and noise that is even."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ragg_runtime.diagnosis.comparison import compare
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.evidence import selection
+from ragg_runtime.fit.fitted import fit
+from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import packaged
+from ragg_runtime.reference.scenario import scenario
+
+
+def flown(seed: int = 3, duration: float = 90.0) -> tuple[Instrument, Flight]:
+    s = scenario(seed, duration=duration)
+    return s.sheet, s.simulate().flight()
+
+
+def test_an_output_in_which_nothing_follows_the_motion_is_not_adequate() -> None:
+    sheet, x = flown()
+    shuffled = np.random.default_rng(1).permutation(x.outputs["G_out"])
+    d = diagnose(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    assert (d.verdict, d.found) == ("unexplained", ())
+    assert "nothing in the output follows the motion" in str(d.as_json()["reason"])
+    assert d.explained is not None and d.explained.share < 0.5
+    c = compare(packaged(), sheet, [replace(x, outputs={"G_out": shuffled})])
+    assert not c.adequate
+
+
+def test_a_right_model_explains_nearly_all() -> None:
+    sheet, x = flown()
+    c = compare(packaged(), sheet, [x])
+    said = c.as_json()["explained"]
+    assert c.adequate and isinstance(said, dict)
+    assert 0.999 < said["share"] < 1.0
+
+
+def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
+    s = scenario(11, duration=300.0)
+    sim = s.simulate()
+    x = sim.flight()
+    a = np.abs(x.channels["a_x"])
+    noise = (sim.G_out - sim.G_out_noise_free) * (0.2 + a / np.sqrt(np.mean(a**2)))
+    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": sim.G_out_noise_free + noise})])
+    assert d.verdict == "adequate"
+    assert "the noise changes its level with abs(a_x)" in str(d.as_json()["reason"])
+
+
+@pytest.mark.parametrize(
+    ("lost", "testable"),
+    [
+        (("B_z", "pitch"), {"magnetic-bias", "self-gradient"}),
+        (("roll",), {"magnetic-bias", "self-gradient"}),
+        (("B_x", "B_y", "B_z"), {"self-gradient"}),
+        (("roll", "pitch"), {"magnetic-bias"}),
+    ],
+)
+def test_an_effect_is_tested_with_the_channels_that_are_there(
+    lost: tuple[str, ...], testable: set[str]
+) -> None:
+    sheet, x = flown(duration=40.0)
+    x = replace(x, channels={n: v for n, v in x.channels.items() if n not in lost})
+    found = selection.testable_effects(fit(packaged(), sheet, observations_of([x], sheet)))
+    assert {"magnetic-bias", "self-gradient"} & set(found) == testable
