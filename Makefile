@@ -76,10 +76,10 @@ faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
 fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for longer)
 	$(BIN)/python -m tests.fuzz --seconds 50 $(FUZZ)
 
-fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off (some hours)
+fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off
 	$(BIN)/python -m tests.fuzz --campaign 1000000 --seconds 1e9
 
-promises: $(STAMP)  ## measure and write the figures of docs/trust.md (an hour)
+promises: $(STAMP)  ## measure and write the figures of docs/trust.md
 	$(BIN)/python -m tests.promises
 
 package:  ## build wheel and sdist, install into an empty environment, run the demo there

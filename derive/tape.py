@@ -40,6 +40,10 @@ def partials(e: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
                     descend(part, sp.Mul(factor, *e.args[:n], *e.args[n + 1 :]))
         elif isinstance(e, sp.Heaviside):
             pass  # flat but at the instant of the step itself
+        elif isinstance(e, (sp.sign, sp.Abs)) and not e.args[0].is_extended_real:
+            # SymPy leaves these open where it cannot know that their argument, a quotient say, is a real number.
+            if isinstance(e, sp.Abs):
+                descend(e.args[0], factor * sp.sign(e.args[0]))
         elif e.is_Pow and e.exp.is_Number:
             descend(e.base, sp.Mul(factor, e.exp, sp.Pow(e.base, e.exp - 1)))
         else:

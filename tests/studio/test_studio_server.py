@@ -12,7 +12,7 @@ from pathlib import Path
 import httpx
 import numpy as np
 import pytest
-from serving import DEMO, Served, new, ragg, served, settled
+from serving import DEMO, Served, brief, new, ragg, served, settled
 
 from ragg_runtime.model_dir.directory import load_model_dir
 
@@ -279,7 +279,7 @@ def test_a_stretch_is_left_out_and_taken_back(client: httpx.Client) -> None:
 
 def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
-    flight.write_bytes(DEMO.read_bytes())
+    brief(flight)
     new(model)
     with (
         served(model, flight) as s,
@@ -313,7 +313,7 @@ def test_a_shell_and_two_tabs_change_one_directory(tmp_path: Path) -> None:
 
 def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
-    flight.write_bytes(DEMO.read_bytes())
+    brief(flight)
     new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
@@ -333,7 +333,7 @@ def test_a_server_that_is_killed_leaves_a_whole_model(tmp_path: Path) -> None:
 
 def test_work_is_cancelled_without_loss(tmp_path: Path) -> None:
     model, flight = tmp_path / "model", tmp_path / "flight.parquet"
-    flight.write_bytes(DEMO.read_bytes())
+    brief(flight)
     new(model)
     with served(model, flight) as s, s.client() as c:
         settled(c)
