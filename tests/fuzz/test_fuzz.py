@@ -50,7 +50,8 @@ def test_mutants(name: str) -> None:
                 error.add_note(f"the input: {data[:2000]!r}")
                 raise
     assert outcomes["read"] > 0, "the mutations leave nothing whole: the fuzzer tests nothing"
-    assert outcomes["refused"] > 0
+    if name != "generated_model":  # drawn from the grammar: most are well formed
+        assert outcomes["refused"] > 0
 
 
 def test_the_seeds_are_what_the_program_writes() -> None:

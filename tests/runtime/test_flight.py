@@ -156,7 +156,12 @@ def test_gaps_are_filled_in_and_marked(load: Load) -> None:
     keep[120] = False
     found = load({n: v[keep] for n, v in table.items()})
     assert len(found) == N
-    assert np.array_equal(found.valid, keep)
+    # omegadot is derived; of runs as short as these nothing tells how good it is at their ends
+    trusted = keep.copy()
+    for first, last in ((0, 50), (60, 120), (121, N)):
+        poor = (last - first) // 8
+        trusted[first : first + poor] = trusted[last - poor : last] = False
+    assert np.array_equal(found.valid, trusted)
     assert found.time == pytest.approx(table["time"])
     assert found.rate == pytest.approx(RATE)
     assert np.array_equal(found.channels["a_z"][keep], table["a_z"][keep])
@@ -217,7 +222,7 @@ def test_jitter(load: Load) -> None:
     found = load(table)
     assert any("jitters" in note for note in found.notes)
     assert found.rate == pytest.approx(RATE, rel=1e-4)
-    assert found.valid.all()
+    assert found.valid[12:-12].all()  # jitter is noise of omegadot, which is derived poorly at the ends
     table["time"] = table["time"] + rng.uniform(-0.4, 0.4, N) / RATE
     with pytest.raises(UserError, match="not uniformly sampled"):
         load(table)
