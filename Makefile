@@ -33,10 +33,10 @@ derive: $(STAMP)  ## derive every model and generate all code and pages anew
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
-# Two workers share the cores: a thread pool of linear algebra in each would only get in the way.
+# Two workers share the cores, and each takes whole files, whose fixtures are then made once: a thread pool of linear algebra in each would only get in the way.
 test: export OPENBLAS_NUM_THREADS := 1
 test: $(STAMP)  ## run the tests
-	$(BIN)/python -m pytest -q -n 2
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile
 
 lint: $(STAMP)  ## style, types, layers
 	$(BIN)/ruff check .
@@ -91,7 +91,7 @@ test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	$(PYTHON) -m venv .venv-oldest
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-oldest.lock
 	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
-	.venv-oldest/bin/python -m pytest -q -n 2 -W default tests/runtime tests/fuzz tests/derive/test_expression.py
+	.venv-oldest/bin/python -m pytest -q -n 2 --dist loadfile -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
 # What works on the lock itself: an environment of its own, so that nothing of it is in the lock.
 TOOLS := .venv-tools/.complete

@@ -8,6 +8,7 @@ from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
@@ -150,11 +151,13 @@ class Fitted:
         n = self.n_base
         picked = [*range(n), *(n + k for k in extra)]
         k = len(picked)
-        R = with_prior(T[:, [*picked, T.shape[1] - 1]], range(n, k))
-        inverse = np.linalg.inv(R[:k, :k])
+        # the base columns are triangular already: what the extra ones leave below them is all that is new
+        below = with_prior(T[n:, [*picked[n:], -1]], range(k - n))
+        R = np.vstack([T[:n, picked], np.hstack([np.zeros((k - n, n)), below[: k - n, : k - n]])])
+        inverse, _ = linalg.lapack.dtrtri(R)
         blocks = list(FITTED_BLOCKS if held_out else range(BLOCKS))
         biases = columns.null_biases(self.calibration.columns)
-        coefficients = inverse @ R[:k, k]
+        coefficients = inverse @ np.concatenate([T[:n, -1], below[: k - n, -1]])
         for place in dict.fromkeys(o.place for o in self.observations):
             own = [x[blocks] for x, o in zip(self.sums, self.observations, strict=True) if o.place == place]
             sums = np.sum(own, axis=(0, 1))[[*picked, -1]]
