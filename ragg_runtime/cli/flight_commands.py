@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -26,6 +26,7 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
+    from ragg_runtime.flight import Flight
     from ragg_runtime.workflow import loop
 
 
@@ -69,14 +70,7 @@ def compare(
     def page() -> str:
         from ragg_runtime.report import compare_html
 
-        title = f"{m.name} and {', '.join(x.name for x in read)}"
-        return compare_html(
-            c,
-            title=title,
-            command=command_line(),
-            sources=loop.sources(m, read),
-            notes=terminal.notes(m, read),
-        )
+        return compare_html(c, **_about(m, read))
 
     write_report(report_file, page)
     emit(
@@ -122,14 +116,7 @@ def diagnose(
     def page() -> str:
         from ragg_runtime.report import diagnose_html
 
-        title = f"{m.name} and {', '.join(x.name for x in read)}"
-        return diagnose_html(
-            d,
-            title=title,
-            command=command_line(),
-            sources=loop.sources(m, read),
-            notes=terminal.notes(m, read),
-        )
+        return diagnose_html(d, **_about(m, read))
 
     write_report(report_file, page)
     emit(
@@ -250,10 +237,7 @@ def add(
                 [s.as_json() for s in result.loaded.directory.history],
                 result.before,
                 result.after,
-                title=f"{m.name}: {effect} added",
-                command=command_line(),
-                sources=loop.sources(result.loaded, read),
-                notes=terminal.notes(result.loaded, read),
+                **_about(result.loaded, read, f"{m.name}: {effect} added"),
             )
 
         with telling():
@@ -272,6 +256,19 @@ def add(
             remedy=f"see what else is missing: {terminal.command('diagnose', model_dir, read, mapping)}; "
             "or what is wrong with the record",
         )
+
+
+def _about(m: loop.Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
+    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
+
+    return {
+        "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
+        "command": command_line(),
+        "sources": loop.sources(m, read),
+        "notes": terminal.notes(m, read),
+    }
 
 
 COMMANDS = (compare, diagnose, add, survey)

@@ -62,7 +62,7 @@ def left_over(
         return _fitted(wide, flat, valid, rate, found)
 
     for _ in range(ROUNDS):
-        seen = disturbances(_placed(left.rest, valid), valid, rate, band)
+        seen = disturbances(placed(left.rest, valid), valid, rate, band)
         lines = [d for d in seen if d.kind == "line"]
         jump = None if lines else _jump(left, valid, rate)
         if jump is not None:  # to the sample; those that a mean shows are of no use beside it
@@ -76,7 +76,7 @@ def left_over(
     return replace(left, columns=np.empty(0), directions=np.empty(0))
 
 
-def _placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
+def placed(rest: Array, valid: NDArray[np.bool_]) -> Array:
     """(N,): what is left, zero where a sample is not valid."""
     e = np.zeros(len(valid))
     e[valid] = rest
@@ -138,9 +138,9 @@ def _told(
     before: Left, after: Left, valid: NDArray[np.bool_], rate: float, band: tuple[float, float] | None
 ) -> bool:
     """Whether what was fitted last stands out of the noise that is left without it: red noise looks like jumps, too."""
-    model = estimate([_placed(after.rest, valid)], rate, band, [after.kept])
+    model = estimate([placed(after.rest, valid)], rate, band, [after.kept])
     taps = model.whitening_filter(len(valid))
-    gone = filtered(_placed(before.rest - after.rest, valid)[None], taps)[0][valid]
+    gone = filtered(placed(before.rest - after.rest, valid)[None], taps)[0][valid]
     return float(gone @ gone) > JUMP
 
 

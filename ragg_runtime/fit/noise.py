@@ -13,12 +13,13 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, in_words
-from ragg_runtime.fit.left_over import Left, left_over
+from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.flight.record import SPECIFIC_FORCE
+from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
@@ -51,9 +52,7 @@ class _Part:
 
     def rest(self, m: int) -> Array:
         """(N,): of an output, zero where a sample is not valid."""
-        e = np.zeros(len(self.valid))
-        e[self.valid] = self.outputs[m].rest
-        return e
+        return placed(self.outputs[m].rest, self.valid)
 
 
 def estimate_noise(at: Point, o: Observation) -> Noise:
@@ -83,7 +82,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
 def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
     """The noise's spectra and bursts, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
-    loud = [level.of(o.record.part(p.rows).quantity) for p in parts]
+    loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
     models, filters = [], []
     bursts: list[tuple[int, int, float]] = []
     for m in range(len(o.series)):

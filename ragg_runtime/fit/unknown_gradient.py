@@ -18,7 +18,7 @@ from scipy import interpolate
 
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import orthonormal
-from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.model.record import GRADIENTS, quantities_of
 from ragg_runtime.signals.fir import Floats, filtered
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -114,7 +114,7 @@ def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
 
 def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
     r, filters = o.record, noise.filters
-    level = np.ones(rows.stop - rows.start) * noise.level.of(r.part(rows).quantity)
+    level = np.ones(rows.stop - rows.start) * noise.level.of(quantities_of(r, rows))
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))

@@ -285,8 +285,7 @@ def scale(o: Output, k1: Array, R: Array) -> float:
         total = float(np.sum(k1[members] * R[members] * seen.real))
     else:
         total = abs(gain(o, k1, R))
-    single = float(np.sum(np.abs(k1[members] * R[members])))
-    return total if abs(total) > CANCELLED * single else single
+    return total if sees(o, k1, R) else float(np.sum(np.abs(k1[members] * R[members])))
 
 
 def _seen(o: Output) -> Complex:

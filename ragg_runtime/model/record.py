@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, Protocol
@@ -239,6 +239,11 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         turning=turning,
         axes=None if disc.level else disc.across,
     )
+
+
+def quantities_of(r: Record, rows: slice) -> Callable[[str], Array]:
+    """:meth:`Record.quantity` of some samples, which are copied only if one is asked for."""
+    return lambda name: r.part(rows).quantity(name)
 
 
 def _from_gap(valid: NDArray[np.bool_]) -> Array:

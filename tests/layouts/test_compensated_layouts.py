@@ -17,15 +17,11 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
-from ragg_runtime.reference import simulate
-from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.instruments import perturbed
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.signals.tensor import COMPONENTS
 from tests.layouts import sheets
+from tests.layouts.flown import RATE, flown_by
 
 DURATION = 600.0
-RATE = 16.0
 DISCS = {
     "umbrella": (sheets.umbrella(), 12),
     "complements": (sheets.complements(), 8),
@@ -38,18 +34,7 @@ def flown(which: str) -> tuple[Instrument, Flight]:
     """A flight by the reference over a gradient that varies; the sheet knows the instrument to a third of its errors."""
     discs, count = DISCS[which]
     sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
-    white = eotvos_noise(2e-9, 0.1)
-    s = simulate(
-        perturbed(sheet, np.random.default_rng(5), 0.3),
-        draw_motion(np.random.default_rng(3), DURATION),
-        DURATION,
-        RATE,
-        gravity=draw_gradient(np.random.default_rng(4)),
-        noise=Noise(alpha=0.0, b=1.0, omega_T=white.omega_T),
-        kinematics="full",
-        effects={"second-order-misalignment": {"kappa": 0.0}},
-    )
-    return sheet, s.flight()
+    return sheet, flown_by(sheet, DURATION)
 
 
 @cache

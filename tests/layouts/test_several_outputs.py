@@ -11,12 +11,9 @@ from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
-from ragg_runtime.reference import simulate
-from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.instruments import perturbed
-from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.signals.tensor import tensor
 from tests.layouts import sheets
+from tests.layouts.flown import flown_by
 
 TURN = np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0]
 TRUE = TURN @ np.diag([900.0, -300.0, -600.0]) @ TURN.T
@@ -63,19 +60,10 @@ def test_two_discs_are_refused() -> None:
 
 def flown(discs: list[str], count: int, duration: float = 600.0) -> several_outputs.Together:
     sheet = parse_instrument(sheets.sheet(discs, count, sheets.FULL))
-    white = eotvos_noise(2e-9, 0.1)
-    s = simulate(
-        perturbed(sheet, np.random.default_rng(5), 0.3),
-        draw_motion(np.random.default_rng(3), duration),
-        duration,
-        16.0,
-        gravity=draw_gradient(np.random.default_rng(4)),
-        noise=Noise(alpha=0.0, b=1.0, omega_T=white.omega_T),
-        kinematics="full",
-        effects={"second-order-misalignment": {"kappa": 0.0}},
-    )
     model, _ = derive.derived((), (), sheet.form, sheet.layout)
-    (found,) = several_outputs.together(fit(model, sheet, observations_of([s.flight()], sheet)))
+    (found,) = several_outputs.together(
+        fit(model, sheet, observations_of([flown_by(sheet, duration)], sheet))
+    )
     return found
 
 
