@@ -85,6 +85,12 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
     return found
 
 
+def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
+    """Which of the fitted parameters an output's accelerometers have, or share with others."""
+    members = instrument.layout.outputs[place].members
+    return [k for k, c in enumerate(columns) if c.accelerometer is None or c.accelerometer - 1 in members]
+
+
 def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)

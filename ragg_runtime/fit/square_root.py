@@ -50,3 +50,12 @@ def join(triangles: Sequence[Array]) -> Array:
     if len(triangles) == 1:
         return triangles[0]
     return triangle(np.vstack(triangles).T)
+
+
+def of_some(root: Array, own: Sequence[int]) -> Array:
+    """(n, n): what a root (all, all) of an information knows of some parameters, whatever the others are."""
+    others = [k for k in range(len(root)) if k not in set(own)]
+    if not others:
+        return root
+    whole = np.asarray(np.linalg.qr(root[:, [*others, *own]], mode="r"))
+    return whole[len(others) :, len(others) :]

@@ -202,12 +202,6 @@ def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> 
 
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
-    if not m.instrument.layout.like_paper:
-        raise UserError(
-            "only the paper's layout is exported so far: one disc of four accelerometers, one output",
-            where=m.directory.path,
-            found=f"{len(m.instrument.layout.outputs)} outputs",
-        )
     saved, origin = None, "values of model.toml, not calibrated"
     if m.directory.calibration is not None:
         try:

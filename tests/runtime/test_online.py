@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, Online, Tuning
 from ragg_runtime.export.online import table
 from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
@@ -122,6 +123,13 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
     return model, folder / "c", two
 
 
+def samples(o: Observation, G: Array) -> str:
+    """A record as CSV in SI units."""
+    r = o.record
+    columns = {"time": r.time, **{n: x for n, x in r.channels.items() if n in SI_UNITS}, "G_out": G}
+    return table({f"{n} [{SI_UNITS[n]}]": x for n, x in columns.items()})
+
+
 @pytest.mark.parametrize("walk", [0.0, 1.0])
 def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Path]) -> None:
     model, folder, two = exported
@@ -132,13 +140,10 @@ def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Pat
     valid[500:700] = False
     o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid))
     c = after.contents(m)
-    inputs = o.record.inputs(m.model.chain)
-    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
-    columns["G_out"] = np.where(valid, o.series[0], np.nan)
-    sigma, forget = 4 * c.scale_factor, 60.0
+    sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
     done = subprocess.run(
         [folder / "ragg_online", f"{sigma:.17g}", str(walk), str(forget)],
-        input=table(columns), capture_output=True, text=True, check=False,
+        input=samples(o, np.where(valid, o.series[0], np.nan)), capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
@@ -161,13 +166,11 @@ def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> No
         slice(0, 2048)
     )  # 32 turns of the disc: it goes on where it began
     o = observe(x, m.instrument)
-    inputs = o.record.inputs(m.model.chain)
-    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
     make(folder, "CFLAGS=-std=c17 -O3", "-B", "ragg_online")
-    sigma = 4 * after.contents(m).scale_factor
+    sigma = 4 * after.contents(m).outputs()[0].scale_factor
     done = subprocess.run(
         [folder / "ragg_online", f"{sigma:.17g}", "1", "300", "100"],
-        input=table(columns | {"G_out": o.series[0]}), capture_output=True, text=True, check=True,
+        input=samples(o, o.series[0]), capture_output=True, text=True, check=True,
     )  # fmt: skip
     p = np.array([float(line[2:]) for line in done.stdout.splitlines()])
     f = Online(m.model, m.instrument, Tuning(noise=sigma))
