@@ -10,6 +10,7 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command
 from ragg_runtime.cli.shared import DIRECTORY, command_line, emit, json_option, load, under_way, write_report
 
@@ -21,19 +22,26 @@ if TYPE_CHECKING:
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
+@click.option(
+    "--save",
+    is_flag=True,
+    help="Keep the calibration (and the mapping, if one is given) in the model directory, for --frozen.",
+)
+@mapping_option
 @json_option
-def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
+def calibrate(
+    model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None, json_file: str | None
+) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
     from ragg_runtime.cli import terminal, terminal_after
     from ragg_runtime.workflow import after, loop
 
     m = load(model_dir)
     under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, read))):
-        kept = after.calibrate(m, read, save)
+        kept = after.calibrate(m, read, save, mapping)
     origin = terminal.origin(kept.loaded, read, command_line())
     emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
 
@@ -63,6 +71,7 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
     show_default=True,
     help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
 )
+@mapping_option
 @json_option
 def compensate(
     model_dir: Path,
@@ -70,6 +79,7 @@ def compensate(
     output: Path,
     calibration: Kind,
     demodulator: str,
+    mapping: Path | None,
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
@@ -85,7 +95,7 @@ def compensate(
     m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     under_way(f"reading {len(flights)} flight(s)")
-    read = after.read_for_compensation(m, flights)
+    read = after.read_for_compensation(m, flights, mapping)
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, output)
@@ -120,7 +130,11 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 
 
 def compare_frozen(
-    m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    m: Loaded,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """``ragg compare --frozen``."""
     from ragg_runtime.cli import terminal, terminal_after
@@ -129,7 +143,7 @@ def compare_frozen(
 
     odd = _calibration_notes(m)
     under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     under_way("comparing with the calibration that was kept")
     with progress.shown("compare", sum(map(len, read))):
         h = after.compare_frozen(m, read)
@@ -150,7 +164,7 @@ def compare_frozen(
     emit(
         h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
         json_file,
-        terminal_after.held(h, read, m.directory.path),
+        terminal_after.held(h, read, m.directory.path, mapping),
     )
 
 

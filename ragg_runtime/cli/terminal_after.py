@@ -45,11 +45,11 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
     return "\n".join(lines)
 
 
-def held(h: Held, flights: Sequence[Flight], model_dir: Path) -> str:
+def held(h: Held, flights: Sequence[Flight], model_dir: Path, mapping: Path | None = None) -> str:
     """The result of ``compare --frozen``."""
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
     moved = [r for r in rows if abs(r["z"]) > MOVED]
-    lines = [compared(h.comparison, flights, model_dir), "", sentence(h)]
+    lines = [compared(h.comparison, flights, model_dir, mapping), "", sentence(h)]
     if moved:
         lines.append("what moved since (frozen, now):")
         lines += [
