@@ -1,4 +1,4 @@
-"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``export``."""
+"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``online``, ``export``."""
 
 from __future__ import annotations
 
@@ -12,7 +12,16 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command
-from ragg_runtime.cli.shared import DIRECTORY, command_line, emit, json_option, load, under_way, write_report
+from ragg_runtime.cli.shared import (
+    DIRECTORY,
+    Finite,
+    command_line,
+    emit,
+    json_option,
+    load,
+    under_way,
+    write_report,
+)
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
@@ -84,14 +93,9 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
-    format_for(output)
-    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
-        raise UserError(
-            "a result would be written over what the command reads", where=output, remedy="name another file"
-        )
+    _writable(output, flights)
     m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     under_way(f"reading {len(flights)} flight(s)")
@@ -103,6 +107,64 @@ def compensate(
     emit(
         c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
     )
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    type=DIRECTORY,
+    required=True,
+    metavar="OUT",
+    help="File to write (.csv, .parquet, .nc).",
+)
+@click.option(
+    "--noise",
+    type=Finite(0.0, min_open=True),
+    help="Eo/sqrt(Hz), cross channel (default: what the saved calibration left).",
+)
+@click.option(
+    "--walk",
+    type=Finite(0.0),
+    help="How fast the gradient may wander, Eo/sqrt(s) (default: as fast as a low-pass of 0.2 Hz follows it).",
+)
+@click.option(
+    "--forget",
+    type=Finite(0.0, min_open=True),
+    help="Time constant, s, of what is forgotten (default: nothing).",
+)
+@mapping_option
+@json_option
+def online(
+    model_dir: Path,
+    flights: Sequence[Path],
+    output: Path,
+    noise: float | None,
+    walk: float | None,
+    forget: float | None,
+    mapping: Path | None,
+    json_file: str | None,
+) -> None:
+    """Calibrate and compensate sample by sample, as a computer on board would (`export --c`: the same filter in C).
+
+    Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
+    """
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.workflow import after
+    from ragg_runtime.workflow import online as _online
+
+    _writable(output, flights)
+    m = load(model_dir)
+    odd = [] if m.directory.calibration is None else _calibration_notes(m)
+    under_way(f"reading {len(flights)} flight(s)")
+    read = after.read_for_compensation(m, flights, mapping)
+    under_way("following")
+    with progress.shown("compare", sum(map(len, read))):
+        w = _online.online(m, read, noise, walk, forget or float("inf"), output)
+    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    emit(w.as_json() | {"output": str(output)} | origin, json_file, terminal_after.watched(w, output, read))
 
 
 @click.command(cls=Command)
@@ -168,6 +230,17 @@ def compare_frozen(
     )
 
 
+def _writable(output: Path, flights: Sequence[Path]) -> None:
+    """UserError if a series cannot be written there."""
+    from ragg_runtime.compensation.output import format_for
+
+    format_for(output)
+    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
+        raise UserError(
+            "a result would be written over what the command reads", where=output, remedy="name another file"
+        )
+
+
 def _calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the saved calibration, told on stderr as well."""
     from ragg_runtime.workflow import after
@@ -178,5 +251,5 @@ def _calibration_notes(m: Loaded) -> list[str]:
     return odd
 
 
-COMMANDS = (calibrate, compensate, export)
+COMMANDS = (calibrate, compensate, online, export)
 """What the command line registers."""

@@ -32,6 +32,10 @@ UPDATE = 0.25
 FADE = 10.0
 """Parameters forget in steps of so many seconds."""
 
+STEEPER = 2.0
+"""Walk of the inline channel over that of the cross one: Gamma_xx - Gamma_yy of a field without a preferred direction varies
+twice as much as Gamma_xy, and its noise is twice as large."""
+
 UNKNOWN_EO = 1e4
 """Standard deviation of the gradient before anything is known, Eo: three times the Earth's own."""
 
@@ -45,8 +49,8 @@ class Tuning:
     noise
         Standard deviation of a sample of G_out, V.
     walk
-        Of the gradient, Eo/sqrt(s); 0: it is constant. The filter follows it with a time constant, s, of the noise's
-        density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
+        Of the cross channel, Eo/sqrt(s), the inline one twice as much; 0: they are constant. The filter follows both with a
+        time constant, s, of the noise's density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
     forget
         Time constant, s, with which parameters forget the flight; a drift is followed with this lag. Infinite: never.
     """
@@ -149,7 +153,7 @@ class Online:
             return
         n = len(self.columns)
         whole = np.zeros((n + 4, n + 5))
-        whole[:2, :2] = np.eye(2) / (self.tuning.walk * np.sqrt(t))
+        whole[:2, :2] = np.diag([1.0 / STEEPER, 1.0]) / (self.tuning.walk * np.sqrt(t))
         whole[2:, :2] = -self.R[:, n : n + 2]
         whole[2:, 2:] = self.R
         self.R = _triangle(whole)[2:, 2:]

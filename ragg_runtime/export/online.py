@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.export.contents import Contents
+from ragg_runtime.export.contents import Contents, Out
 from ragg_runtime.export.values import comment, text
 from ragg_runtime.fit.columns import base_columns, own_columns
 from ragg_runtime.fit.square_root import of_some
@@ -23,15 +23,7 @@ def online_values(c: Contents) -> str:
     """
     outputs = [(k, o) for k, o in enumerate(c.outputs()) if o.sees]
     fitted = [_fitted(c, k) for k, _ in outputs]
-    starts = [_start(c, k) for k, _ in outputs]
     most = max(len(rows) for rows in fitted)
-    size = most * (most + 1) // 2
-    paper = c.instrument.layout.like_paper
-    seen = (
-        f'{{"{text(o.name)}", "{text(o.ending)}", {k}, {len(o.members)}, {o.scale_factor:.17g}, {o.phase:.17g}}},'
-        for k, o in outputs
-    )
-    accelerometers = max(len(o.members) for _, o in outputs)
     return "\n".join(
         [
             "/* What the online filter begins with. SI units; scales are errors of the sheet. */",
@@ -41,31 +33,9 @@ def online_values(c: Contents) -> str:
             f"enum {{ ONLINE_INPUTS = {len(c.chain.INPUTS)}, ONLINE_PARAMETERS = {len(c.p)}, ONLINE_OUTPUTS = {len(outputs)}, "
             f"FITTED_PARAMETERS = {most}, START_AT_SHEET = {int(c.information is None)} }};",
             "",
-            "/* Name and ending of an output that sees a gradient, its number in the model, how many accelerometers it has,",
-            " * scale factor, V/Eo, and phase, rad: k (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)). */",
-            "static const struct { const char *name, *ending; int which, members; double scale_factor, phase; }",
-            "    ONLINE_OUTPUT[ONLINE_OUTPUTS] = {",
-            *(f"    {x}" for x in seen),
-            "};",
-            "",
+            *_outputs(outputs),
             "#ifdef RAGG_CHAIN_H /* for online.c alone */",
-            "#define PREDICT(which, t, in, p, angle, G) "
-            + (
-                "((void)(which), ragg_chain_output(1, t, in, p, angle, G))"
-                if paper
-                else "ragg_chain_output(which, 1, t, in, p, angle, G)"
-            ),
-            "",
-            "/* Accelerometers of an output and their signs. */",
-            f"static const struct {{ int j; double sign; }} MEMBER[ONLINE_OUTPUTS][{accelerometers}] = {{",
-            *(
-                f"    {{{', '.join(f'{{{j}, {s}.0}}' for j, s in zip(o.members, o.signs, strict=True))}}},"
-                for _, o in outputs
-            ),
-            "};",
-            "/* Parameter that is the rate of its disc. */",
-            f"static const int SPIN[ONLINE_OUTPUTS] = {{{', '.join(str(o.spin) for _, o in outputs)}}};",
-            "",
+            *_members(c, [o for _, o in outputs]),
             "static const double POINT[ONLINE_PARAMETERS] = {",
             *(f"    {float(x):.17g}," for x in c.p),
             "};",
@@ -73,16 +43,16 @@ def online_values(c: Contents) -> str:
             "/* Row of the chain's derivatives, accelerometer (-1: all, -2: none), place, scale, the sheet's value from the point on. */",
             "static const struct { int row, accelerometer, place; double scale, sheet; }",
             "    FITTED[ONLINE_OUTPUTS][FITTED_PARAMETERS] = {",
-            *(
-                line
-                for rows in fitted
-                for line in _block([*rows, *["{0, -2, 0, 0.0, 0.0},"] * (most - len(rows))])
-            ),
+            *(line for rows in fitted for line in _block([*rows, *[_NONE] * (most - len(rows))])),
             "};",
             "",
             "/* Square root of the information of the calibration, row after row of the upper triangle. */",
-            f"static const double START[ONLINE_OUTPUTS][{size}] = {{",
-            *(line for root in starts for line in _block([f"{x:.17g}," for x in _padded(root, most)])),
+            f"static const double START[ONLINE_OUTPUTS][{most * (most + 1) // 2}] = {{",
+            *(
+                line
+                for k, _ in outputs
+                for line in _block([f"{x:.17g}," for x in _padded(_start(c, k), most)])
+            ),
             "};",
             "#endif",
             "",
@@ -90,6 +60,47 @@ def online_values(c: Contents) -> str:
             "",
         ]
     )
+
+
+_NONE = "{0, -2, 0, 0.0, 0.0},"
+
+
+def _outputs(outputs: Sequence[tuple[int, Out]]) -> list[str]:
+    rows = (
+        f'{{"{text(o.name)}", "{text(o.ending)}", {k}, {len(o.members)}, {o.scale_factor:.17g}, {o.phase:.17g}}},'
+        for k, o in outputs
+    )
+    return [
+        "/* Name and ending of an output that sees a gradient, its number in the model, how many accelerometers it has,",
+        " * scale factor, V/Eo, and phase, rad: k (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)). */",
+        "static const struct { const char *name, *ending; int which, members; double scale_factor, phase; }",
+        "    ONLINE_OUTPUT[ONLINE_OUTPUTS] = {",
+        *(f"    {x}" for x in rows),
+        "};",
+        "",
+    ]
+
+
+def _members(c: Contents, outputs: Sequence[Out]) -> list[str]:
+    paper = c.instrument.layout.like_paper
+    most = max(len(o.members) for o in outputs)
+    call = (
+        "((void)(which), ragg_chain_output(1, t, in, p, angle, G))"
+        if paper
+        else "ragg_chain_output(which, 1, t, in, p, angle, G)"
+    )
+    pairs = ([f"{{{j}, {s}.0}}" for j, s in zip(o.members, o.signs, strict=True)] for o in outputs)
+    return [
+        f"#define PREDICT(which, t, in, p, angle, G) {call}",
+        "",
+        "/* Accelerometers of an output and their signs. */",
+        f"static const struct {{ int j; double sign; }} MEMBER[ONLINE_OUTPUTS][{most}] = {{",
+        *(f"    {{{', '.join(x)}}}," for x in pairs),
+        "};",
+        "/* Parameter that is the rate of its disc. */",
+        f"static const int SPIN[ONLINE_OUTPUTS] = {{{', '.join(str(o.spin) for o in outputs)}}};",
+        "",
+    ]
 
 
 def _fitted(c: Contents, place: int) -> list[str]:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
@@ -30,6 +31,7 @@ SENSELESS = 20.0
 """Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
 
 
+@one_thread
 def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     """The flight with its spikes marked as missing, and with what was done or looks odd in its notes.
 

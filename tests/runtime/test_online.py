@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -11,14 +12,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.recursive import UNKNOWN_EO, Online, Tuning
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
 from ragg_runtime.export.online import table
 from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.flight import write_flight
 from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import files, new_model, run
+from ragg_runtime.workflow.online import online
+from tests.runtime.flown_twice import files, flights, new_model, run
 from tests.runtime.test_export import STRICT, make
 
 Array = NDArray[np.float64]
@@ -176,3 +180,35 @@ def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> No
     f = Online(m.model, m.instrument, Tuning(noise=sigma))
     assert np.max(np.abs(p - f.nominal)[f.index] / f.scale) < 6
     assert "microseconds a sample" in done.stderr
+
+
+def test_the_command_follows_a_flight_within_its_uncertainty(
+    exported: tuple[Path, Path, Path], tmp_path: Path
+) -> None:
+    model, _, _ = exported
+    flight = flights()[1].part(slice(0, 6400))
+    write_flight(flight, tmp_path / "two.parquet")
+    told = run(
+        "online", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--json", tmp_path / "o.json"
+    )
+    assert "followed within 0.796 s" in told
+    rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
+    assert len(rows) == 6400 / RATE / UPDATE - 1
+    c = flight.channels
+    true = {"inline": c["Gamma_xx"] - c["Gamma_yy"], "cross": c["Gamma_xy"]}
+    for name, x in true.items():
+        error = rows[f"{name}_Eo"] - np.interp(rows["time_s"], flight.time, x / 1e-9)
+        z = (error / rows[f"{name}_std_Eo"])[rows["time_s"] > 10]
+        assert 0.6 < np.mean(np.abs(z) < 1) < 0.9
+        assert np.mean(np.abs(z) < 1.96) > 0.9
+    d = json.loads((tmp_path / "o.json").read_text())
+    assert d["started"].startswith("calibration made")
+    assert 1.0 < d["noise_Eo_per_rtHz"] < 3.0
+    k1 = [q for q in d["flights"][0]["parameters"] if q["name"] == "K1"]
+    assert [q["accelerometer"] for q in k1] == [1, 2, 3, 4]
+    fresh = new_model(tmp_path)
+    with pytest.raises(UserError, match="how large the noise is"):
+        online(loop.load(fresh), [flight])
+    w = online(loop.load(fresh), [flight.part(slice(0, 800))], noise=2.0, forget=100.0)
+    assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
+    assert set(w.series[0]) == {"time", "inline", "cross", "inline_std", "cross_std"}

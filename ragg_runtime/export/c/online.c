@@ -10,6 +10,7 @@ enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = STATES
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */
+static const double STEEPER = 2.0;     /* walk of inline over that of cross */
 static const double UNKNOWN_EO = 1e4;  /* of the gradient before anything is known */
 
 /* Turn row and into, both zero before column first, so that row vanishes there. */
@@ -34,11 +35,11 @@ static void fold(ragg_online *o, double row[WIDTH], int first) {
     }
 }
 
-/* g' = g + w, w of variance walk^2 t: w is eliminated, column by column, from the last row up, so that the triangle stays. */
+/* g' = g + w, w of variance walk^2 t (inline STEEPER times the walk): w is eliminated, column by column, from the last row up, so that the triangle stays. */
 static void walk(ragg_online *o, double t) {
     double own[2][WIDTH] = {{0.0}}, coupled[STATES][2], pivot[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (int k = 0; k < 2; ++k) {
-        pivot[k][k] = 1.0 / (o->walk * sqrt(t));
+        pivot[k][k] = 1.0 / ((k == 0 ? STEEPER : 1.0) * o->walk * sqrt(t));
     }
     for (int i = 0; i < STATES; ++i) {
         for (int k = 0; k < 2; ++k) {

@@ -21,8 +21,8 @@ typedef struct {
     double inline_Eo, cross_Eo, inline_std, cross_std;
 } ragg_gradient;
 
-/* Begin at the calibration that is built in. output: 0 ... ONLINE_OUTPUTS - 1 (see ONLINE_OUTPUT). noise: standard deviation of a sample of G_out, V. walk: of the gradient,
- * Eo/sqrt(s), 0 if it is constant. forget: time constant, s, with which parameters forget; INFINITY: never. */
+/* Begin at the calibration that is built in. output: 0 ... ONLINE_OUTPUTS - 1 (see ONLINE_OUTPUT). noise: standard deviation of a sample of G_out, V. walk: of the cross
+ * channel, Eo/sqrt(s), inline twice as much; 0 if they are constant. forget: time constant, s, with which parameters forget; INFINITY: never. */
 void ragg_online_start(ragg_online *o, int output, double noise, double walk, double forget);
 
 /* Take a sample: t, s, since the first; in, the model's inputs (gradients zero); angle of the disc, rad, or NaN for
