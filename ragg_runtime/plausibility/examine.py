@@ -15,7 +15,7 @@ from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECI
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
@@ -147,17 +147,11 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     n = len(p.flight)
     names = p.columns
     left = np.empty((len(names), n))
+    evaluator = model.compiled("auto" if model.in_machine_code and n >= MANY else "numpy")
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)
-        volts = np.stack(
-            [
-                model.chain.accelerometer(
-                    j, rows.time, np.cos(rows.phi), np.sin(rows.phi), x, model.chain.values_of(j, fitted)
-                )
-                for j in p.output.members
-            ]
-        )
+        volts = evaluator.voltages(rows.time, x, fitted, rows.phi, 1, p.output.members)
         left[:, start : start + CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
     notes = []
     for name, e in zip(names, left, strict=True):
