@@ -96,6 +96,21 @@ def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tup
     assert state(model, flight) == before
 
 
+def test_a_result_replaces_no_record_that_the_command_does_not_read(
+    given: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, _ = given
+    record = tmp_path / "south.parquet"
+    record.write_bytes(b"PAR1")
+    for command in (("history", model, "--json"), ("diagnose", model, given[1], "--report")):
+        status, said = ragg(*command, record)
+        assert status == 2
+        assert "over a record" in said
+    assert record.read_bytes() == b"PAR1"
+    record.write_bytes(b"")
+    assert ragg("history", model, "--json", record)[0] == 0
+
+
 def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(
     given: tuple[Path, Path], tmp_path: Path
 ) -> None:
