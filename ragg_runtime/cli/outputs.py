@@ -36,7 +36,7 @@ class OutputFile(click.Path):
         self.records = records
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        name = super().convert(value, param, ctx)
+        name = os.fsdecode(super().convert(value, param, ctx))
         path = Path(name)
         if not self.records and path.is_file() and path.stat().st_size:
             from ragg_runtime.flight.formats import ending_of  # only here: to import it takes a while
