@@ -27,7 +27,7 @@ from ragg_runtime.diagnosis.next_motion import (
     separation,
     signal_of,
 )
-from ragg_runtime.evidence.selection import Field
+from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit.fitted import Fitted
 
 Array = NDArray[np.float64]
@@ -81,7 +81,6 @@ class Design:
 @one_thread
 def design(
     f: Fitted,
-    field: Field,
     pairs: Sequence[tuple[str, str]],
     limits: Mapping[str, float],
     *,
@@ -92,6 +91,7 @@ def design(
 
     ``None`` if there is nothing to tell apart, or no frequency within the band.
     """
+    field = field_of(f, testable_effects(f))
     known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
     tones = tones_of(f.instrument.spin_frequency, limits, band)
     if not known or not tones:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.motion_design import Separation, design, tones_of
 from ragg_runtime.diagnosis.next_motion import AXES, Sinusoid, moved
-from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
@@ -108,8 +107,7 @@ def next_flight(
         )
     d = diagnose(m, flights, limits)
     pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
-    f = d.fitted
-    made = design(f, field_of(f, testable_effects(f)), pairs, limits, duration=duration, band=band)
+    made = design(d.fitted, pairs, limits, duration=duration, band=band)
     if made is None:
         axes = [axis for axis, _, _ in tones]
         sinusoids: tuple[Sinusoid, ...] = tuple(

@@ -143,12 +143,12 @@ def test_the_multisine_is_better_than_the_best_sinusoid(flown: tuple[Scenario, F
     field = field_of(f, selection.testable_effects(f))
     pairs = [("lag", "time-offset"), ("lag", "arm-sag")]
     best = next_motion.proposals(f, field, pairs)
-    made = motion_design.design(f, field, pairs, next_motion.LIMITS, duration=600.0, band=(0.0, 1.0))
+    made = motion_design.design(f, pairs, next_motion.LIMITS, duration=600.0, band=(0.0, 1.0))
     assert made is not None
     for p, x in zip(best, made.separations, strict=True):
         assert (p.effect, p.rival, p.now) == (x.effect, x.rival, x.now)
         assert x.then > 1.1 * p.then
-    assert motion_design.design(f, field, [], next_motion.LIMITS, duration=600.0, band=(0.0, 1.0)) is None
+    assert motion_design.design(f, [], next_motion.LIMITS, duration=600.0, band=(0.0, 1.0)) is None
 
 
 def test_where_nothing_is_left_to_tell_apart_everything_is_excited(found: Found) -> None:
