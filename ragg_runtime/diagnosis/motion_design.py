@@ -59,7 +59,7 @@ LONGEST = 1800.0
 
 @dataclass(frozen=True)
 class Separation:
-    """How far apart an effect and its rival are, in standard deviations: now, and once the motion has been flown."""
+    """By how many standard deviations a rival is ruled out if ``effect`` is what is there: now, and once the motion has been flown."""
 
     effect: str
     rival: str
@@ -93,6 +93,9 @@ def design(
     """
     field = field_of(f, testable_effects(f))
     known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
+    known = list(
+        dict.fromkeys([*known, *((r, e) for e, r in known)])
+    )  # which of the two is there is not known
     tones = tones_of(f.instrument.spin_frequency, limits, band)
     if not known or not tones:
         return None

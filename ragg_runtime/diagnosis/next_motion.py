@@ -18,7 +18,7 @@ from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
-from ragg_runtime.fit.square_root import triangle, with_prior
+from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
@@ -144,10 +144,13 @@ def signal_of(f: Fitted, field: Field, effect: str) -> Array:
 
 
 def separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
-    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1), priors in."""
+    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1).
+
+    The base has its prior in the rows; a rival has none, as in the tests (``evidence.selection``): however large, it may imitate.
+    """
     places = [n_base + n for n, _ in field.candidates[rival]]
     X = np.column_stack([rows[:, :n_base], rows[:, places], rows[:, :-1] @ signal])
-    return float(abs(with_prior(X, range(n_base, n_base + len(places)))[-1, -1]))
+    return float(abs(np.asarray(np.linalg.qr(X, mode="r"))[-1, -1]))
 
 
 def rows_of(

@@ -72,12 +72,12 @@ class NextFlight:
 
 
 def _promise(x: Separation) -> str:
+    size = f"({x.now:.2g} -> {x.then:.3g} sigma)"
     if x.then < APART:
         return (
-            f"no motion within the limits tells {x.effect} from {x.rival}: they act alike"
-            f" ({x.now:.2g} -> {x.then:.2g} sigma)"
+            f"if it is {x.effect}: no motion within the limits rules out {x.rival}, which acts alike {size}"
         )
-    return f"tells {x.effect} from {x.rival}: {x.now:.2g} -> {x.then:.3g} sigma"
+    return f"if it is {x.effect}: {x.rival} is ruled out {size}"
 
 
 def next_flight(
