@@ -130,7 +130,9 @@ def _flight(
         f = Online(m.model, m.instrument, replace(asked, noise=float(volts)), p, root, o.place)
         got = _fed(f, o)
         columns["time"] = got.time + float(x.time[0])
-        columns |= {f"{n}{endings[o.place]}": getattr(got, n) for n in CHANNELS}
+        end = endings[o.place]
+        columns |= {f"inline{end}": got.inline, f"cross{end}": got.cross}
+        columns |= {f"inline{end}_std": got.inline_std, f"cross{end}_std": got.cross_std}
         told.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters(f)})
     return columns, told
 

@@ -21,6 +21,9 @@ from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
+from ragg_runtime.model_dir.directory import ModelDir
+from ragg_runtime.workflow.loaded import Loaded
+from ragg_runtime.workflow.online import online
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument
@@ -115,3 +118,9 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
     assert np.max(np.abs(found[:, 1] - got.inline) / got.inline_std) < 1e-4
     assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
     assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
+    m = Loaded(
+        ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=(), digest=""),
+        c.model,
+    )
+    (series,) = online(m, [x], noise=2.0, walk=1.0).series
+    assert ",".join(series) == head
