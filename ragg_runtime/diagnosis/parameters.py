@@ -120,7 +120,8 @@ def visible_combinations(
     """The combinations of accelerometers' values (in scales) that the record sees.
 
     Where it sees each value by itself, those alone that it knows far better than it would of independent values: of a
-    cubic term it knows A3 to a tenth of its prior, and A3 - A4 a hundred times better. ``p`` is the model's parameter vector, for the accelerometers' :func:`gains`.
+    cubic term it knows A3 to a tenth of its prior, and A3 - A4 a hundred times better. ``p`` is the model's parameter
+    vector, for the accelerometers' :func:`gains`.
     """
     found = []
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):

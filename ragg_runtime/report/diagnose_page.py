@@ -187,7 +187,8 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
 def _fitted(d: Diagnosis, r: Ranked) -> Values:
     """Values of an effect alone; of one that was derived into the model first, those that it has there."""
     if d.staged and d.final is not None and any(q.effect == r.effect for q in d.final.calibration.columns):
-        return Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
+        best_first = sorted(effect_values.joint(d.final, r.effect), key=lambda v: -abs(v.z))
+        return Values(tuple(best_first), 0, ())
     return effect_values.values(d.fitted, r)
 
 

@@ -9,7 +9,7 @@ import { ramp, spectrogramPlot } from "../plots/spectrogram.js";
 import { spectrumLines, spectrumPlot } from "../plots/spectrum.js";
 import { timePlot } from "../plots/time.js";
 import { pointedAt } from "./effects.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 
 const UNITS = { V: ["V", "v"], Eo: ["Eo", "e"], inline: ["inline", "i"], cross: ["cross", "c"] };
 const MARGIN = 1; // windows to either side that are asked for beforehand, so that moving finds them there

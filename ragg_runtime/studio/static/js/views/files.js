@@ -2,7 +2,7 @@
 import { ask, Refused, upload } from "../api.js";
 import { fill, h, number } from "../dom.js";
 import { look, on, server } from "../store.js";
-import { doing, trouble } from "../app.js";
+import { doing, trouble } from "../doing.js";
 
 const SIZE = (b) => (b > 1e9 ? `${number(b / 1e9)} GB` : b > 1e6 ? `${number(b / 1e6)} MB` : b > 1e3 ? `${number(b / 1e3)} kB` : `${b} B`);
 
