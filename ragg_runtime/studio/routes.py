@@ -329,6 +329,10 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "beside": lambda session, body: session.beside(_step(body)),
     "try": _try,
     "keep": lambda session, body: session.keep(),
+    "compensate": lambda session, body: session.compensate(
+        _text(body, "calibration", 40), _text(body, "demodulator", 40)
+    ),
+    "quality": lambda session, body: session.control(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

@@ -246,7 +246,7 @@ def test_10_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: 
     idle(page)
     for scheme in ("light", "dark"):
         page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
-        for key in "123456":
+        for key in "1234567":
             page.locator("#main").focus()
             page.keyboard.press(key)
             expect(page.locator("#main h2").first).to_be_visible()
@@ -279,7 +279,7 @@ def test_12_figures_and_reports_are_taken_along(page: Page) -> None:
             page.locator("figure.spectrum").hover()
             page.locator("figure.spectrum").get_by_role("button", name=name).click()
         assert Path(got.value.path()).read_bytes().startswith(begin)
-    page.keyboard.press("6")
+    page.keyboard.press("7")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
     assert "ragg diagnose" in Path(got.value.path()).read_text()

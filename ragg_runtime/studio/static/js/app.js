@@ -13,6 +13,7 @@ import { parametersView } from "./views/parameters.js";
 import { sheetView } from "./views/sheet.js";
 import { historyView } from "./views/history.js";
 import { filesView } from "./views/files.js";
+import { applyView } from "./views/apply.js";
 import { takeView } from "./views/take.js";
 import { help } from "./views/help.js";
 
@@ -22,6 +23,7 @@ const VIEWS = [
   ["sheet", "Test sheet", sheetView],
   ["history", "History", historyView],
   ["files", "Files", filesView],
+  ["apply", "Apply", applyView],
   ["take", "Take away", takeView],
 ];
 const $ = (id) => document.getElementById(id);
