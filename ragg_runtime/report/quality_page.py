@@ -59,15 +59,13 @@ def shown(q: Quality) -> dict[str, Any]:
 
 
 def headline(q: Quality) -> str:
-    count = len(q.lines)
+    lines = "1 line" if len(q.lines) == 1 else f"{len(q.lines)} lines"
     wrong = sum(bool(f.failed) for f in q.lines)
     refused = f", {len(q.read.refused)} could not be used" if q.read.refused else ""
     if not q.used:
-        return f"{count} lines{refused}; the record gives no figure that has a limit."
+        return f"{lines}{refused}; the record gives no figure that has a limit."
     return (
-        f"{count} lines{refused}, {wrong} beyond a limit."
-        if wrong
-        else f"{count} lines{refused}, all within the limits."
+        f"{lines}{refused}, {wrong} beyond a limit." if wrong else f"{lines}{refused}, all within the limits."
     )
 
 

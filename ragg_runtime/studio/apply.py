@@ -92,7 +92,8 @@ def quality(m: Loaded, paths: Sequence[Path], flights: Sequence[Flight], c: Comp
             remedy="compensate them first",
         )
     with tempfile.TemporaryDirectory() as folder:
-        return qc([_line(Path(folder), x, rows, c) for x, rows in zip(flights, c.series, strict=True)])
+        pairs = zip(flights, c.series, strict=True)
+        return qc([_line(Path(folder, str(k)), x, rows, c) for k, (x, rows) in enumerate(pairs)])
 
 
 def _line(folder: Path, x: Flight, rows: Mapping[str, NDArray[Any]], c: Compensation) -> Path:
@@ -101,7 +102,8 @@ def _line(folder: Path, x: Flight, rows: Mapping[str, NDArray[Any]], c: Compensa
     beside = {n: x.channels[n] for n in BESIDE if n in x.channels}
     units = {n: c.units[n] for n in known} | {n: x.units[n] for n in beside}
     name = "".join(k if k.isalnum() or k in "-_ ." else "_" for k in x.name)[:80].lstrip(".") or "flight"
-    path = folder / f"{len(list(folder.iterdir())) + 1}-{name}.parquet"
+    folder.mkdir()
+    path = folder / f"{name}.parquet"
     with writing(path, len(rows["time"]), units) as write:
         write({n: rows[n] for n in known} | beside)
     return path
@@ -110,18 +112,18 @@ def _line(folder: Path, x: Flight, rows: Mapping[str, NDArray[Any]], c: Compensa
 def shown_compensation(c: Compensation) -> dict[str, Any]:
     """What the page says of it, in the digits of the terminal."""
     r = c.as_json()
+    meaning = {name: text for name, _, text in (t.partition(": ") for t in r["quality"].values())}
     return {
         "calibration": r["calibration"],
         "converged": r["converged"],
         "demodulator": r["demodulator"],
         "channels": [n for n, unit in c.units.items() if unit == "Eo" and f"{n}_std" in c.units],
-        "meaning": r["quality"],
-        "outputs": [_output(x) for x in r["flights"]],
+        "outputs": [_output(x, meaning) for x in r["flights"]],
         "count": len(c.series),
     }
 
 
-def _output(x: Mapping[str, Any]) -> dict[str, Any]:
+def _output(x: Mapping[str, Any], meaning: Mapping[str, str]) -> dict[str, Any]:
     density = [x["density"][k] for k in ("before", "after", "noise")]
     return {
         "flight": numbers.clean(str(x["flight"])),
@@ -131,7 +133,7 @@ def _output(x: Mapping[str, Any]) -> dict[str, Any]:
         "rows": [
             [c, *(numbers.number(d.get(f"{c}_Eo_per_rtHz")) for d in density)] for c in ("inline", "cross")
         ],
-        "quality": {k: v for k, v in x["quality"].items() if v},
+        "quality": [[count, meaning[name]] for name, count in x["quality"].items() if count],
         "contributions": [
             [numbers.clean(str(t["of"])), numbers.number(t["inline_Eo"]), numbers.number(t["cross_Eo"])]
             for t in x["contributions"]

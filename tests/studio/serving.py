@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pyarrow as pa
+import pyarrow.csv
 import pyarrow.parquet as pq
 
 from ragg_runtime.workflow import loop
@@ -56,13 +58,14 @@ def brief(flight: Path) -> None:
     pq.write_table(table.slice(0, 2 * 60 * 16), flight)
 
 
-def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "ragg_runtime", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def foreign(path: Path) -> None:
+    """Two minutes of it as a company might hand them over: other names, and no unit of the accelerations."""
+    names = {"time": "GPSTIME [s]", "G_out": "SUM [V]"}
+    names |= {f"a_{k}": f"ACC_{k.upper()}" for k in "xyz"} | {
+        f"omega_{k}": f"gyro_{k} [rad/s]" for k in "xyz"
+    }
+    table = pq.read_table(DEMO, columns=list(names)).slice(0, 2 * 60 * 16)
+    pa.csv.write_csv(table.rename_columns(list(names.values())), path)
 
 
 @contextmanager

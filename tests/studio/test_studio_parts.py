@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import math
+import re
 import struct
+import tomllib
+from pathlib import Path
 
 import numpy as np
+import pyarrow.csv
 import pytest
-from serving import DEMO, new
+from serving import DEMO, foreign, new
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
+from ragg_runtime.studio import mapping, session
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.session import branches
@@ -104,6 +111,62 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     assert branches(steps[:7]) == ([0, 1, 6], [])
     assert branches(steps[:8]) == ([0, 1], [6])
     assert branches(steps) == ([0, 1, 6], [])
+
+
+def test_modules_import_downwards_alone() -> None:
+    static = Path(session.__file__).parent / "static" / "js"
+    below = {
+        m: {
+            (m.parent / name).resolve()
+            for name in re.findall(r'^import .*? from "(\.[^"]*)";', m.read_text(), re.MULTILINE)
+        }
+        for m in static.glob("**/*.js")
+    }
+    assert len(below) > 20
+    left = {m.resolve(): {b for b in names if static in b.parents} for m, names in below.items()}
+    while left:
+        bottom = {m for m, names in left.items() if not names & set(left)}
+        assert bottom, f"these import each other: {sorted(m.name for m in left)}"
+        left = {m: names for m, names in left.items() if m not in bottom}
+
+
+def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
+    new(tmp_path / "model")
+    m = loop.load(tmp_path / "model")
+    path = tmp_path / "flight.csv"
+    foreign(path)
+    given = mapping.begun(m, path)
+    asked = [r for r in given["rows"] if r["asked"]]
+    assert [r["channel"] for r in asked] == ["a_x", "a_y", "a_z"]
+    assert "not answered" in mapping.tried(m, path, given)["error"]["what"]
+    for r in asked:
+        r["unit"] = "g"
+    found = mapping.tried(m, path, given)
+    assert found["error"] is None
+    x = next(p for p in found["preview"] if p["channel"] == "a_z")
+    raw = pyarrow.csv.read_csv(path)["ACC_Z"].to_numpy()
+    assert x["unit"] == "m/s²"
+    assert x["points"] == pytest.approx(
+        raw[:: len(raw) // len(x["points"])][: len(x["points"])] * m.instrument.g0
+    )
+    mapping.keep(m, given, replace=False)
+    assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
+    assert mapping.begun(m, path)["rows"][0]["unit"] == "g"
+    given["rows"][0]["sign"] = -1
+    with pytest.raises(UserError, match="mapping already"):
+        mapping.keep(m, given, replace=False)
+    mapping.keep(m, given, replace=True)
+    loop.read_flights(m, [path])
+    for wrong in (
+        {"scale": {"a": 1}},
+        {"column": 'x"\n[time]', "unit": "g"},
+        {"scale": math.nan},
+        {"unit": "]"},
+    ):
+        bad = given | {"rows": [given["rows"][0] | wrong]}
+        assert mapping.tried(m, path, bad)["error"]
+        with pytest.raises(UserError):
+            mapping.keep(m, bad, replace=True)
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

@@ -1,6 +1,6 @@
 // What a model is for: compensated channels with their band, quality control of the flights, and both as files.
 import { Refused, series } from "../api.js";
-import { fill, h, number } from "../dom.js";
+import { counted, fill, h } from "../dom.js";
 import { on, server, view } from "../store.js";
 import { timePlot } from "../plots/time.js";
 import { doing } from "../doing.js";
@@ -32,7 +32,7 @@ export function applyView(main) {
         h("button.main", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("compensate", chosen) }, "Compensate")),
       c ? c.outputs.map((x) => [
         h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
-        h("p.note", {}, `${number(x.good, 6)} of ${number(x.samples, 6)} samples have a value; ${c.demodulator.what}.`, Object.entries(x.quality).map(([k, n]) => ` ${k}: ${number(n, 6)}.`)),
+        h("p.note", {}, `${counted(x.good)} of ${counted(x.samples)} samples have a value; ${c.demodulator.what}.`, x.quality.map(([n, what]) => ` ${counted(n)}: ${what}.`)),
         h("div.wide", {}, h("table.numbers", {}, head(["channel", "before, Eo/√Hz", "after", "noise alone"]), h("tbody", {}, x.rows.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, name), cells.map((t) => h("td.n", {}, t))))))),
         h("details", {}, h("summary", {}, "What was removed, Eo"), h("div.wide", {}, h("table.numbers", {}, head(["of", "inline", "cross"]), h("tbody", {}, x.contributions.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, h("code", {}, name)), cells.map((t) => h("td.n", {}, t)))))))),
       ]) : null,
