@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -97,10 +98,9 @@ def written(given: Mapping[str, Any]) -> str:
 
 def _toml(value: Any) -> str:
     """Texts, numbers and lists of them are written alike in JSON and TOML."""
-    try:
-        return json.dumps(value, ensure_ascii=False, allow_nan=False)
-    except ValueError:
-        raise UserError("this is no number", found=repr(value)[:40]) from None
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        raise UserError("a number is needed", where=MAPPING)
+    return json.dumps(value, ensure_ascii=False)
 
 
 def _instant(value: Any) -> bool:
@@ -109,8 +109,9 @@ def _instant(value: Any) -> bool:
 
 def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
     """The mapping as text, what is still wrong with it, and what its channels look like on the first rows."""
-    text = written(given)
+    text = ""
     try:
+        text = written(given)
         how = parse_mapping(text, Path(MAPPING))
         return {"text": text, "error": None, "preview": _preview(m.instrument.units, path, how)}
     except UserError as e:
@@ -140,10 +141,10 @@ def _preview(known: Units, path: Path, how: Mapped) -> list[Json]:
     return found
 
 
-def keep(m: Loaded, given: Mapping[str, Any], *, replace: bool) -> None:
+def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
     """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
     text, place = written(given), m.directory.path / MAPPING
-    parse_mapping(text, place)
+    _preview(m.instrument.units, path, parse_mapping(text, place))
     if place.exists() and not replace and read_text(place) != text:
         raise UserError(
             "the model has a mapping already", where=place, remedy="say that it shall be replaced"

@@ -314,7 +314,7 @@ def _new(session: Session, body: Mapping[str, Any]) -> None:
 
 def _map(session: Session, body: Mapping[str, Any]) -> None:
     flight = session.places.inside(_text(body, "flight"))
-    mapping.keep(session.state.model, _given(body), replace=body.get("replace") is True)
+    mapping.keep(session.state.model, flight, _given(body), replace=body.get("replace") is True)
     session.open(None, [flight])
 
 

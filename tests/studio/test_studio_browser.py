@@ -286,6 +286,7 @@ def test_11_of_foreign_columns_only_what_the_file_leaves_open_is_asked(page: Pag
 
 
 def test_12_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: Page) -> None:
+    page.locator("#main").focus()
     page.keyboard.press("1")
     expect(page.locator(".ranking li").first).to_be_visible(timeout=PATIENCE)
     idle(page)

@@ -149,14 +149,18 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     assert x["points"] == pytest.approx(
         raw[:: len(raw) // len(x["points"])][: len(x["points"])] * m.instrument.g0
     )
-    mapping.keep(m, given, replace=False)
+    for r in asked:
+        r["unit"] = "m/s^2"
+    found = mapping.tried(m, path, given)
+    mapping.keep(m, path, given, replace=False)
+    (flight,) = loop.read_flights(m, [path])
+    assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
-    assert mapping.begun(m, path)["rows"][0]["unit"] == "g"
+    assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
     given["rows"][0]["sign"] = -1
     with pytest.raises(UserError, match="mapping already"):
-        mapping.keep(m, given, replace=False)
-    mapping.keep(m, given, replace=True)
-    loop.read_flights(m, [path])
+        mapping.keep(m, path, given, replace=False)
+    mapping.keep(m, path, given, replace=True)
     for wrong in (
         {"scale": {"a": 1}},
         {"column": 'x"\n[time]', "unit": "g"},
@@ -166,7 +170,7 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
         bad = given | {"rows": [given["rows"][0] | wrong]}
         assert mapping.tried(m, path, bad)["error"]
         with pytest.raises(UserError):
-            mapping.keep(m, bad, replace=True)
+            mapping.keep(m, path, bad, replace=True)
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

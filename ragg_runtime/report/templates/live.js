@@ -40,13 +40,13 @@
   function curve(group, label) {
     const path = group.querySelector("path"), use = group.querySelector("use");
     const down = use ? Number(use.getAttribute("y")) : 0; // areas are drawn from the lower edge of the figure
-    const parts = path.getAttribute("d").match(/[A-Za-z]|-?[\d.]+/g), kind = [], x = [], y = [];
+    const whole = path.getAttribute("d"), parts = whole.match(/[A-Za-z]|-?[\d.]+/g), kind = [], x = [], y = [];
     for (let k = 0; k < parts.length; k += parts[k] === "z" ? 1 : 3) {
       kind.push(parts[k]);
       x.push(Number(parts[k + 1]));
       y.push(Number(parts[k + 2]) + down);
     }
-    const write = (fx, fy) => path.setAttribute("d", kind.map((c, i) => (c === "z" ? c : `${c}${fx(x[i]).toFixed(2)} ${(fy(y[i]) - down).toFixed(2)}`)).join(""));
+    const write = (zoomed, fx, fy) => path.setAttribute("d", !zoomed ? whole : kind.map((c, i) => (c === "z" ? c : `${c}${fx(x[i]).toFixed(2)} ${(fy(y[i]) - down).toFixed(2)}`)).join(""));
     /** Ordinates of the curve at an abscissa: one of a line, two of an area, none in a gap. */
     const over = (u) => {
       const found = [];
@@ -90,8 +90,9 @@
       }
     }
 
+    const zoomed = () => x[0] > 0 || x[1] < 1 || y[0] > 0 || y[1] < 1;
     function draw() {
-      curves.forEach((c) => c.write(toX, toY));
+      curves.forEach((c) => c.write(zoomed(), toX, toY));
       scale("x", spec.x, x, 8);
       scale("y", spec.y, y, 4);
       for (const t of texts) {
@@ -110,7 +111,7 @@
         draw();
       },
       view: () => [x, y],
-      zoomed: () => x[0] > 0 || x[1] < 1 || y[0] > 0 || y[1] < 1,
+      zoomed,
       inside: (p) => p.x >= left && p.x <= left + width && p.y >= top && p.y <= top + height,
       shares: (p, q) => [[ofX(p.x), ofX(q.x)], [ofY(p.y), ofY(q.y)]].map((r) => r.sort((a, b) => a - b).map((s) => Math.min(1, Math.max(0, s)))),
       /** What stands at a point: its abscissa, and a row a curve. */
