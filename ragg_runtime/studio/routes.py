@@ -116,17 +116,17 @@ def _finite(x: Any) -> Any:
 
 
 async def _state(session: Session, request: Request) -> Response:
-    status = session.jobs.status.as_json()
-    version = metadata.version("ragg")
+    status = {"status": session.jobs.status.as_json()}
 
-    def made() -> Any:
+    def made() -> Response:
         s = session.state
-        return views.overview(s, status, version) | {
-            "commands": views.commands(s),
-            "roots": [str(r) for r in session.places.roots],
-        }
+        known = session.shown
+        if known is None or known[0] is not s:  # a state never changes: what is said of it is made once
+            said = views.overview(s, metadata.version("ragg")) | {"commands": views.commands(s)}
+            session.shown = known = (s, said | {"roots": [str(r) for r in session.places.roots]})
+        return _json(status | known[1])
 
-    return _json(await run_in_threadpool(made))
+    return await run_in_threadpool(made)
 
 
 async def _events(session: Session, request: Request) -> Response:

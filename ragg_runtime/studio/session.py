@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import PASSES
@@ -109,6 +110,7 @@ class Session:
         self.jobs = Jobs()
         self._lock = threading.Lock()
         self._state = State()
+        self.shown: tuple[State, dict[str, Any]] | None = None
         self._results: OrderedDict[object, tuple[Comparison, Diagnosis, Plain]] = OrderedDict()
 
     @property

@@ -27,10 +27,9 @@ from ragg_runtime.workflow.loop import errors_of
 Json = dict[str, Any]
 
 
-def overview(s: State, status: Mapping[str, object], version: str) -> Json:
+def overview(s: State, version: str) -> Json:
     """Everything small, in one answer."""
     return {
-        "status": dict(status),
         "version": version,
         "model": None if s.loaded is None else _model(s),
         "flights": _flights(s),

@@ -30,6 +30,7 @@ class Served:
 
     address: str
     process: subprocess.Popen[str]
+    exchanged: httpx.Response | None = None
 
     @property
     def origin(self) -> str:
@@ -43,7 +44,8 @@ class Served:
     def client(self) -> Iterator[httpx.Client]:
         """One that has exchanged the token for the cookie."""
         with httpx.Client(base_url=self.origin, timeout=PATIENCE, headers={"origin": self.origin}) as c:
-            assert c.get(self.address.removeprefix(self.origin)).status_code == 303
+            self.exchanged = c.get(self.address.removeprefix(self.origin))
+            assert self.exchanged.status_code == 303
             yield c
 
 
@@ -97,7 +99,7 @@ def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
         state: dict[str, Any] = client.get("/api/state").json()
         if not state["status"]["job"] and (state["effects"] or not diagnosed or state["status"]["error"]):
             return state
-        time.sleep(0.05)
+        time.sleep(0.1)
     raise AssertionError("the server does not come to an end")
 
 
@@ -109,5 +111,5 @@ def compared(client: httpx.Client) -> dict[str, Any]:
         if state["banner"] is not None or not state["status"]["job"]:
             client.post("/api/do/cancel", json={})
             return settled(client, diagnosed=False)
-        time.sleep(0.02)
+        time.sleep(0.1)
     raise AssertionError("the flights are not compared")

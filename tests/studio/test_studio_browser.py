@@ -237,8 +237,13 @@ def test_09_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
     page.get_by_role("button", name="Save 1 changed parameter").click()
     expect(page.get_by_role("button", name="Nothing changed")).to_be_visible(timeout=PATIENCE)
     expect(page.get_by_label("K0 of A1, ug")).to_have_value(f"{float(old) + 1:g}")
-    idle(page)
     assert load_model_dir(server.folder / "model").history[-1].action == "edit"  # type: ignore[attr-defined]
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.locator("#trouble")).to_contain_text("cancelled", timeout=PATIENCE)
+    page.locator("#main").focus()
+    page.keyboard.press("u")
+    expect(page.get_by_label("K0 of A1, ug")).to_have_value(old, timeout=PATIENCE)
+    idle(page)
 
 
 def test_10_compensated_channels_and_their_quality(page: Page) -> None:
