@@ -371,6 +371,10 @@ def commands(s: State) -> list[str]:
         found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
         found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
+    if s.compensated is not None:
+        how = s.compensated.result
+        options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
+        found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
     cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
     return [*cut, *found]
 

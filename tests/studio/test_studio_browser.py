@@ -333,7 +333,9 @@ def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
     page.keyboard.press("7")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
-    assert "ragg diagnose" in Path(got.value.path()).read_text()
+    commands = Path(got.value.path()).read_text()
+    assert "ragg diagnose" in commands
+    assert "ragg compensate" in commands
     page.keyboard.press("1")
 
 

@@ -240,6 +240,14 @@
     svg.addEventListener("dblclick", () => own.forEach((c) => zoom(c, [0, 1], [0, 1])));
   }
 
+  // what is too wide for the page can be moved by keyboard
+  const reachable = () => document.querySelectorAll(".wide, figure").forEach((box) => {
+    if (box.scrollWidth > box.clientWidth) box.tabIndex = 0;
+    else box.removeAttribute("tabindex");
+  });
+  addEventListener("resize", reachable);
+  reachable();
+
   const scheme = element("button", "scheme", "", document.querySelector("header"));
   const dark = () => (document.documentElement.style.colorScheme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
   const named = () => (scheme.textContent = dark() ? "light" : "dark");

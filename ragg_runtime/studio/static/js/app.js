@@ -93,6 +93,7 @@ function opened() {
   main.className = `view-${view.view}`;
   main.setAttribute("aria-label", name);
   leave = open(main);
+  scrollTo(0, 0);
   tabs();
 }
 
