@@ -113,12 +113,13 @@ class Compensation:
     """The result of ``compensate``.
 
     ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.table.Table`) of every flight,
-    unless they went to a file.
+    unless they went to a file; ``units`` are theirs, in order.
     """
 
     name: str
     result: Mapping[str, Any]
     series: tuple[Mapping[str, NDArray[Any]], ...]
+    units: Mapping[str, str]
 
     def __repr__(self) -> str:
         flights = ", ".join(x["flight"] for x in self.result["flights"])
@@ -184,7 +185,7 @@ def compensate(
     }
     if saved is not None:
         result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
-    return Compensation(name=m.name, result=result, series=tuple(kept))
+    return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
 
 
 def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:
