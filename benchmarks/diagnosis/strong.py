@@ -233,6 +233,8 @@ def _flown(case: Case) -> dict[str, object]:
             for h in hidden
         ],
         "verdict": d.verdict,
+        "converged": d.converged,
+        "reason": d.as_json()["reason"],
         "found": list(d.found),
         "ranking": [
             {"effect": r.effect, "log_p": max(r.log_p, -1e9), "twins": list(r.indistinguishable_from)}
@@ -281,12 +283,13 @@ def summary(lines: Sequence[score.Line]) -> list[str]:
             text.append(f"{x['id']}: crash: {x['crash'].strip().splitlines()[-1]}")
         elif "skipped" not in x and not _kept(x):
             hidden = " + ".join(f"{h['effect']} ({h['strength']:.3g})" for h in x["hidden"])
+            ended = "" if x["converged"] else ", not converged"
             ratio = "-" if x["optimum"] is None else f"{x['calibrated'] / x['optimum']:.4f}"
             after = x["errors"]["tool"][0] / x["errors"]["oracle"][0]
             text.append(
                 f"{x['id']}: {hidden}: {x['verdict']} ({', '.join(x['found'])}); nominal {x['nominal']:.4g}, "
                 f"calibrated {x['calibrated']:.4g}, over optimum {ratio}, after {after:.4f}, "
-                f"floor {x['noise_floor']:.3g} of {x['noise_true']:.3g}"
+                f"floor {x['noise_floor']:.3g} of {x['noise_true']:.3g}{ended}"
             )
     return text
 
