@@ -23,6 +23,7 @@ from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.explained import explained
 from ragg_runtime.diagnosis.impossible import impossible
+from ragg_runtime.diagnosis.line_rival import line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
@@ -98,7 +99,10 @@ def diagnose_fitted(
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
         rem = simpler
-    remains = rem.significant and not _truncated(rem, steps)
+    line = line_rival(steps, replace(last, field=field, choice=choice))
+    if line is not None:
+        rem = line.within(rem)
+    remains = line is not None or (rem.significant and not _truncated(rem, steps))
     if remains:
         random = {}
     count = len(field.candidates) + len(random)
@@ -146,7 +150,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=comparison.remark(output_explained, target),
+        remark=output_explained.complaint or (line and line.words) or comparison.disturbed(target),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),

@@ -1,0 +1,74 @@
+"""Whether a line in the record explains as much as an effect that was chosen: then the effect is not named."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ragg_runtime.diagnosis.strong import Stage, Taken
+from ragg_runtime.evidence import selection
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.lack_of_fit import near_lines
+from ragg_runtime.lack_of_fit.dictionary import Term
+from ragg_runtime.lack_of_fit.near_lines import NearLine
+from ragg_runtime.lack_of_fit.omnibus import Found
+from ragg_runtime.lack_of_fit.remainder import Remainder
+
+SLIP = 6.6
+"""Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
+off it in one of a hundred (one degree of freedom)."""
+
+
+@dataclass(frozen=True)
+class LineRival:
+    """A line that explains as much as an effect."""
+
+    line: NearLine
+    effect: str
+
+    @property
+    def words(self) -> str:
+        return (
+            f"the output has a line at about {self.line.frequency:.5g} Hz, beside a multiple of the spin rate: it explains as much"
+            f" as {self.effect} would, so that none is named"
+        )
+
+    def within(self, rem: Remainder) -> Remainder:
+        """A remainder in which this line is what is left."""
+        chi2 = self.line.chi2
+        found = Found(
+            term=Term(f"line {self.line.frequency:.5g} Hz", ()),
+            coefficient=self.line.amplitude,
+            std=self.line.amplitude / float(np.sqrt(max(chi2, 1.0))),
+            z=float(np.sqrt(chi2)),
+            chi2=chi2,
+            mean_square=self.line.amplitude**2 / 2,
+            kind="line",
+        )
+        first, *others = rem.searches
+        log_p = min(first.log_p, -chi2 / 2)
+        return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=chi2), *others))
+
+
+def line_rival(steps: Sequence[Taken], last: Stage) -> LineRival | None:
+    """The first of the effects chosen, the strong ones before the others, in whose place a line would do as well."""
+    for t in steps:
+        if (found := _in_place(t.before, t.effect, (), t.test.chi2)) is not None:
+            return found
+    field, choice = last.field, last.choice
+    for e in choice.chosen:
+        others = [o for o in choice.chosen if o != e]
+        own = choice.chi2 - field.joint([choice.blocks[o] for o in others])[0] if others else choice.chi2
+        given = [n for o in others for n, _ in field.candidates[o]]
+        if (found := _in_place(last.fitted, e, given, own)) is not None:
+            return found
+    return None
+
+
+def _in_place(f: Fitted, effect: str, given: Sequence[int], chi2: float) -> LineRival | None:
+    line = near_lines.best(f, given)
+    if line is None or line.slip < SLIP or line.chi2 < chi2 - selection.INDISTINGUISHABLE:
+        return None
+    return LineRival(line, effect)
