@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ragg_runtime.base import false_alarms
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection
 from ragg_runtime.fit.fitted import Fitted
@@ -48,7 +49,7 @@ class LineRival:
             kind="line",
         )
         first, *others = rem.searches
-        log_p = min(first.log_p, -chi2 / 2)
+        log_p = min(first.log_p, self.line.log_p)
         return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=chi2), *others))
 
 
@@ -70,5 +71,7 @@ def line_rival(steps: Sequence[Taken], last: Stage) -> LineRival | None:
 def _in_place(f: Fitted, effect: str, given: Sequence[int], chi2: float) -> LineRival | None:
     line = near_lines.best(f, given)
     if line is None or line.slip < SLIP or line.chi2 < chi2 - selection.INDISTINGUISHABLE:
+        return None
+    if line.log_p > np.log(false_alarms.REMAINDER):
         return None
     return LineRival(line, effect)

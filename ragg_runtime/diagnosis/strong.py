@@ -63,9 +63,10 @@ class Stage:
     choice: Choice
 
     @staticmethod
-    def of(f: Fitted) -> Stage:
+    def of(f: Fitted, *, beside: bool = False) -> Stage:
+        """``beside``: effects were taken into the model before."""
         field, fitted, instants = with_steps(f)
-        return Stage(field, fitted, instants, selection.choose(field))
+        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
 
     @property
     def strong(self) -> bool:
@@ -105,7 +106,7 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
         best = _strongest(stage, extend)
         found.append(best)
         found = _needed(found, first.fitted, extend)
-        stage = Stage.of(found[-1].after)
+        stage = Stage.of(found[-1].after, beside=True)
     return found, stage
 
 
@@ -126,7 +127,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
             e: frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
             for e in near
         }
-        scores = {e: _score(f, tests[e], held[e], _derived(f, [e], stage.instants, extend)) for e in near}
+        scores = {e: _score(f, held[e], _derived(f, [e], stage.instants, extend)) for e in near}
     best = min(scores.values())
     equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
     effect = equal[0]
@@ -151,11 +152,12 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, test: Test, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
-    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC).
+def _score(f: Fitted, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
+    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for the parameters that it sees (BIC).
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
-    the fit: an effect of many would otherwise explain some of the noise for nothing.
+    the fit: an effect of many would otherwise explain some of the noise for nothing. Counted is what the record tells of all
+    parameters: an effect that brings others to light, which only the sheet knew before, fits the noise with those too.
     """
     model, instrument = derived
     c = calibrate.fit(
@@ -166,8 +168,14 @@ def _score(f: Fitted, test: Test, held: frozenset[str], derived: tuple[Model, In
     )
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
-    cost = float(values @ np.linalg.solve(c.covariance[np.ix_(others, others)], values)) if others else 0.0
-    return c.chi2 + cost + test.rank * float(np.log(c.rows))
+    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
+    if others:
+        # of a Gaussian: the variances once some of its variables are given
+        C = c.covariance[:, others]
+        given = np.linalg.solve(C[others], C.T)
+        cost = float(values @ np.linalg.solve(C[others], values))
+        known += float(np.sum(given * C.T)) - len(others)
+    return c.chi2 + cost + known * float(np.log(c.rows))
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

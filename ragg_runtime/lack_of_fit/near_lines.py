@@ -50,12 +50,15 @@ class NearLine:
         V.
     slip
         How much of ``chi2`` a sinusoid at the very multiple would not explain.
+    log_p
+        p-value of ``chi2``, as a logarithm, times the frequencies tried.
     """
 
     frequency: float
     chi2: float
     amplitude: float
     slip: float
+    log_p: float
 
 
 def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
@@ -90,6 +93,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
         chi2=float(chi2[k]),
         amplitude=float(size[k] * np.sqrt(volts2)),
         slip=float(chi2[k] - chi2[-1]),
+        log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
     )
 
 
