@@ -87,7 +87,7 @@ def refined(
     moved = list(range(n_base + len(given), len(places)))
     named = [(n - n_base, c) for n, (_, c) in zip(moved, columns, strict=True)]
     while reach > 1:
-        low, high = max(1, step.sample - reach), min(length - 1, step.sample + reach)
+        low, high = _near(step.sample, reach, length)
         edges = np.unique(np.linspace(low, high, FINE + 1).astype(np.intp))
         cuts = np.array([0, *edges, length])
         triangles: list[Array | None] = [None] * (len(cuts) - 1)
@@ -106,6 +106,14 @@ def refined(
         step = best_step(known, [int(e) for e in edges], n_base, range(len(given)), named, prior)
         reach = int(np.max(np.diff(edges), initial=1))
     return step
+
+
+def _near(sample: int, reach: int, length: int) -> tuple[int, int]:
+    """First and last sample about one at which a step may be: one in the first or last block of time is none that could be
+    told from how a record begins and ends.
+    """
+    block = max(1, length // BLOCKS)
+    return max(block, sample - reach), min(length - block, sample + reach)
 
 
 POINTS = 16
@@ -144,7 +152,8 @@ def sharpened(flown: Flown, sample: int, projector: Projector, places: Sequence[
     known: dict[int, float] = {}
     while True:
         spacing = max(1, reach // POINTS)
-        for at in range(max(1, sample - reach), min(length - 1, sample + reach) + 1, spacing):
+        low, high = _near(sample, reach, length)
+        for at in range(low, high + 1, spacing):
             known.setdefault(at, explained(at))
         sample = max(known, key=lambda at: (known[at], -at))
         if spacing == 1:
