@@ -193,9 +193,10 @@ SIMPLER_THAN_ONE = 16.0
 are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
 
 
-TRUNCATED = 1e-3
+TRUNCATED = 2e-3
 """Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
-theirs. Of an effect of 10,000 sigma ten sigma are left over so, and say nothing of a further one."""
+theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
+of a further one."""
 
 
 def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:

@@ -120,16 +120,18 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (tests[e].log_p, e))[:CONTENDERS]
-    scores = dict.fromkeys(near, 0.0)
-    if len(near) > 1:
-        held = {
-            e: frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
-            for e in near
-        }
-        scores = {e: _score(f, held[e], _derived(f, [e], stage.instants, extend)) for e in near}
-    best = min(scores.values())
-    equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
+    near = sorted(near, key=lambda e: (tests[e].log_p, e))
+
+    def score(e: str) -> float:
+        held = frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
+        return _score(f, held, _derived(f, [e], stage.instants, extend))
+
+    tried = near[:CONTENDERS]
+    scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    best = min(tried, key=lambda e: (scores[e], e))
+    # effects with the same signature are all of its group, however many they are
+    scores |= {e: score(e) for e in near[CONTENDERS:] if _twins(tests[e], tests[best])}
+    equal = [e for e in near if scores.get(e, np.inf) < scores[best] + selection.INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
     after = fit(model, instrument, f.observations)
@@ -137,6 +139,11 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
         return _strongest(stage, extend, (*without, effect))
     instant = stage.instants.get(effect)
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
+
+
+def _twins(a: Test, b: Test) -> bool:
+    """Whether two effects explain the same, with as many coefficients, as far as a linear test tells."""
+    return a.rank == b.rank and abs(a.chi2 - b.chi2) < selection.INDISTINGUISHABLE
 
 
 def _derived(
