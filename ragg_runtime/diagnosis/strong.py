@@ -124,7 +124,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
 
     def score(e: str) -> float:
         held = frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
-        return _score(f, held, _derived(f, [e], stage.instants, extend))
+        return _score(f, tests[e].rank, held, _derived(f, [e], stage.instants, extend))
 
     tried = near[:CONTENDERS]
     scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
@@ -159,12 +159,12 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
-    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for the parameters that it sees (BIC).
+def _score(f: Fitted, rank: int, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
+    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC).
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
-    the fit: an effect of many would otherwise explain some of the noise for nothing. Counted is what the record tells of all
-    parameters: an effect that brings others to light, which only the sheet knew before, fits the noise with those too.
+    the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
+    which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, instrument = derived
     c = calibrate.fit(
@@ -182,7 +182,7 @@ def _score(f: Fitted, held: frozenset[str], derived: tuple[Model, Instrument]) -
         given = np.linalg.solve(C[others], C.T)
         cost = float(values @ np.linalg.solve(C[others], values))
         known += float(np.sum(given * C.T)) - len(others)
-    return c.chi2 + cost + known * float(np.log(c.rows))
+    return c.chi2 + cost + rank * float(np.log(c.rows)) + 2.0 * known
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

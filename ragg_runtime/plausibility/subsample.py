@@ -191,17 +191,20 @@ class Picker:
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
-        data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
+        return self._rows(rows + output_shift, time, phi + phase, channels)
+
+    def _rows(self, rows: Index, time: Array, phi: Array, channels: Mapping[str, Array]) -> Rows:
+        """With the output of these rows."""
         return Rows(
             kind=self.kind,
-            data=np.nan_to_num(data),
+            data=np.nan_to_num(np.stack([_picked(v, rows) for v in self._output()])),
             time=time,
-            phi=phi + phase,
+            phi=phi,
             channels=channels,
             taps=self.taps,
             output=self.output,
             names=self.columns,
-            usable=self.usable[rows + output_shift] if self.kind == "channels" else None,
+            usable=self.usable[rows] if self.kind == "channels" else None,
         )
 
     @cached_property
