@@ -175,8 +175,8 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
 
 def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
     """Whitened columns that are cut off before the step lack its edge: they put it elsewhere."""
-    s = scenario(31, duration=300.0, red_corner=0.05)
-    flight = s.simulate({"bias-step": {"dK0": [5e-8, 0, 0, 0], "t_step": 141.2}}).flight()
+    s = scenario(33, duration=300.0, red_corner=0.05, noise_density=5e-9)
+    flight = s.simulate({"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}).flight()
     stage = Stage.of(fit(load.packaged(), s.sheet, observations_of([flight], s.sheet)))
     assert stage.choice.chosen == ("bias-step",)
     assert (
