@@ -15,10 +15,12 @@ from hypothesis import settings
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
 
-# Nothing of the user's own (list of trusted files, digests of what was derived) is read or written by tests.
+# Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
+# worker has derived and compiled the others find.
 _home = tempfile.mkdtemp(prefix="ragg-tests-")
 atexit.register(shutil.rmtree, _home, ignore_errors=True)
-os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": f"{_home}/cache"}
+_cache = os.environ.setdefault("RAGG_TESTS_CACHE", f"{_home}/cache")
+os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": _cache}
 
 
 @pytest.fixture

@@ -12,10 +12,9 @@ import click
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
-from ragg_runtime.cli.outputs import Command
+from ragg_runtime.cli.outputs import Command, OutputFile
 from ragg_runtime.cli.shared import (
     DIRECTORY,
-    OUTPUT,
     Finite,
     command_line,
     emit,
@@ -203,7 +202,7 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option(
     "-o",
     "--output",
-    type=OUTPUT,
+    type=OutputFile(records=True),
     required=True,
     metavar="FLIGHT",
     help="File to write (.csv, .parquet, .nc).",

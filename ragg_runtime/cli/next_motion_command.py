@@ -24,10 +24,22 @@ from ragg_runtime.cli.outputs import Command, OutputFile
     help="Motion file to write.",
 )
 @click.option(
-    "--limit", "limits", multiple=True, metavar="WHAT=SIZE", help="largest amplitude: a=50mg, omega=500deg/h"
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="WHAT=SIZE",
+    help="a=50mg, omega=500deg/h; rates of change: jerk=1m/s^3, alpha=1deg/s^2.",
+)
+@click.option(
+    "--band",
+    type=float,
+    nargs=2,
+    default=None,
+    metavar="LOW HIGH",
+    help="Hz (default: all that the rate holds).",
 )
 @click.option("--duration", type=click.FloatRange(60.0, 86400.0), default=600.0, show_default=True, help="s")
-@click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=16.0, show_default=True, help="Hz")
+@click.option("--rate", type=click.FloatRange(1.0, 1000.0), default=None, help="Hz (default: the flights').")
 @mapping_option
 @click.option(
     "--json", "json_file", type=OutputFile(), metavar="FILE", help="Write the result as JSON (- is stdout)."

@@ -29,10 +29,26 @@ _OF_A_MODEL = (
 
 
 class OutputFile(click.Path):
-    """The type of an option that names a file to write."""
+    """The type of an option that names a file to write; only one for ``records`` may replace a record."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, records: bool = False) -> None:
         super().__init__(path_type=str)
+        self.records = records
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        name = os.fsdecode(super().convert(value, param, ctx))
+        path = Path(name)
+        if not self.records and path.is_file() and path.stat().st_size:
+            from ragg_runtime.flight.formats import ending_of  # only here: to import it takes a while
+
+            if ending_of(path.name) is not None:
+                raise UserError(
+                    "a result would be written over a record",
+                    where=path,
+                    found="a file that is not empty, with the ending of a flight file",
+                    remedy="name another file, or delete this one first",
+                )
+        return name
 
 
 class Outputs:

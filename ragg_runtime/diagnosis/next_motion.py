@@ -18,12 +18,12 @@ from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
-from ragg_runtime.fit.square_root import triangle, with_prior
+from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
-Motion = tuple[str, float, float]
-"""Axis, frequency, Hz, and amplitude, SI."""
+Sinusoid = tuple[str, float, float, float]
+"""Axis, frequency, Hz, amplitude, SI, and phase, rad."""
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 """Frequencies that are tried, over the spin frequency."""
@@ -108,36 +108,33 @@ def proposals(
     known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
     if not known:
         return []
-    signals = {e: _signal(f, field, e) for e, _ in known}
+    signals = {e: signal_of(f, field, e) for e, _ in known}
     needed = {n for pair in known for e in pair for n, _ in field.candidates[e]}
     places = [*range(f.n_base), *(f.n_base + n for n in sorted(needed))]
 
-    def separations(motion: Motion | None) -> list[float]:
-        rows = np.vstack([f.whole, _rows(f, motion, places)])
-        return [_separation(rows, f.n_base, field, signals[e], r) for e, r in known]
+    def separations(motion: Sequence[Sinusoid]) -> list[float]:
+        rows = np.vstack([f.whole, rows_of(f, motion, places)])
+        return [separation(rows, f.n_base, field, signals[e], r) for e, r in known]
 
     first = f.flown[0].observation.record
     spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
     motions = [
-        (axis, ratio, limits["a" if axis.startswith("a_") else "omega"])
-        for axis in AXES
-        for ratio in RATIOS
-        if ratio * spin <= 0.2 * rate
+        (axis, ratio, limits[kind(axis)]) for axis in AXES for ratio in RATIOS if ratio * spin <= 0.2 * rate
     ]
     # a longer record of what there is already gains something as well: only more than that is a reason
-    still, *flown = mapped(separations, [None, *((axis, k * spin, size) for axis, k, size in motions)])
+    still, *flown = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
     found = []
     for n, (e, r) in enumerate(known):
         best = max(range(len(motions)), key=lambda m: flown[m][n], default=None)
         if best is None or flown[best][n] <= 1.05 * still[n]:
             continue
         axis, ratio, size = motions[best]
-        now = _separation(f.whole, f.n_base, field, signals[e], r)
+        now = separation(f.whole, f.n_base, field, signals[e], r)
         found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, flown[best][n]))
     return found
 
 
-def _signal(f: Fitted, field: Field, effect: str) -> Array:
+def signal_of(f: Fitted, field: Field, effect: str) -> Array:
     """Coefficients (size,) of an effect alone, as the record has it."""
     extra = field.testable(effect)
     c, _ = f.coefficients(extra)
@@ -146,21 +143,31 @@ def _signal(f: Fitted, field: Field, effect: str) -> Array:
     return v
 
 
-def _separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
-    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1), priors in."""
+def separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
+    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1).
+
+    The base has its prior in the rows; a rival has none, as in the tests (``evidence.selection``): however large, it may imitate.
+    """
     places = [n_base + n for n, _ in field.candidates[rival]]
     X = np.column_stack([rows[:, :n_base], rows[:, places], rows[:, :-1] @ signal])
-    return float(abs(with_prior(X, range(n_base, n_base + len(places)))[-1, -1]))
+    return float(abs(np.asarray(np.linalg.qr(X, mode="r"))[-1, -1]))
 
 
-def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
-    """Triangle of the whitened columns of a motion about the flight's mean, weighted for ``DURATION``.
+def rows_of(
+    f: Fitted,
+    motion: Sequence[Sinusoid],
+    places: Sequence[int],
+    *,
+    simulated: float = SIMULATED,
+    duration: float = DURATION,
+) -> Array:
+    """Triangle of the whitened columns of a motion about the flight's mean, ``simulated`` s of it, weighted for ``duration``.
 
     (len(places), size + 1): only the columns at ``places`` are there, the others are zero.
     """
     flown = f.flown[0]
     o = flown.observation
-    n = int(SIMULATED * o.record.rate)
+    n = int(simulated * o.record.rate)
     time = np.arange(n) / o.record.rate
     first = o.record.part(slice(0, min(len(o.record.time), n)))
     channels = {
@@ -168,20 +175,31 @@ def _rows(f: Fitted, motion: Motion | None, places: Sequence[int]) -> Array:
         for name, x in first.channels.items()
         if not name.startswith("spin_angle")
     }
-    if motion is not None:
-        axis, frequency, amplitude = motion
-        phase = 2 * np.pi * frequency * time
-        channels[axis] = channels[axis] + amplitude * np.sin(phase)
-        if axis.startswith("omega_"):
-            rate = f"omegadot_{axis[-1]}"
-            channels[rate] = channels[rate] + 2 * np.pi * frequency * amplitude * np.cos(phase)
+    channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
     made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
     columns = linearised(flown.at, made)
     white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
     T = np.zeros((len(places), len(columns)))
     T[:, places] = triangle(np.concatenate(white, axis=1))
-    return np.asarray(np.sqrt(DURATION / SIMULATED) * T)
+    return np.asarray(np.sqrt(duration / simulated) * T)
+
+
+def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:
+    """The channels (N,) that sinusoids move, and their angular accelerations, beside what they are without."""
+    found: dict[str, Array] = {}
+    for axis, frequency, amplitude, phase in motion:
+        w = 2 * np.pi * frequency
+        found[axis] = found.get(axis, calm[axis]) + amplitude * np.sin(w * time + phase)
+        if axis.startswith("omega_"):
+            name = axis.replace("omega_", "omegadot_")
+            found[name] = found.get(name, calm[name]) + amplitude * w * np.cos(w * time + phase)
+    return found
+
+
+def kind(axis: str) -> str:
+    """Which of the limits an axis has."""
+    return axis.partition("_")[0]
 
 
 def pairs_of(groups: Mapping[str, Sequence[str]]) -> list[tuple[str, str]]:

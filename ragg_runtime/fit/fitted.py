@@ -20,7 +20,7 @@ from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.fit.square_root import with_prior
+from ragg_runtime.fit.square_root import fold, prior, with_prior
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
@@ -139,8 +139,8 @@ class Fitted:
         return self._triangle(FITTED_BLOCKS)
 
     def _triangle(self, blocks: Sequence[int]) -> Array:
-        joined = np.vstack([t[b] for t in self.triangles for b in blocks])
-        return with_prior(joined, range(self.n_base), self.to_nominal)
+        sheet = prior(range(self.n_base), self.size + 1, self.to_nominal)
+        return fold([*(t[b] for t in self.triangles for b in blocks), sheet])
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.

@@ -16,10 +16,15 @@ def with_prior(T: Array, columns: Sequence[int], centre: Array | float = 0.0) ->
 
     ``centre`` (columns,) or one number is where the prior has its mean. A prior is so many further rows of data.
     """
-    prior = np.zeros((len(columns), T.shape[1]))
-    prior[range(len(columns)), list(columns)] = 1.0
-    prior[:, -1] = centre
-    return np.asarray(np.linalg.qr(np.vstack([T, prior]), mode="r"))
+    return np.asarray(np.linalg.qr(np.vstack([T, prior(columns, T.shape[1], centre)]), mode="r"))
+
+
+def prior(columns: Sequence[int], n: int, centre: Array | float = 0.0) -> Array:
+    """(columns, n): the rows of such a prior."""
+    rows = np.zeros((len(columns), n))
+    rows[range(len(columns)), list(columns)] = 1.0
+    rows[:, -1] = centre
+    return rows
 
 
 def orthonormal(columns: Array) -> Array:
@@ -45,8 +50,19 @@ def triangle(columns: Array) -> Array:
     return np.asarray(np.triu(R))
 
 
-def join(triangles: Sequence[Array]) -> Array:
-    """The triangle of several records together."""
-    if len(triangles) == 1:
-        return triangles[0]
-    return triangle(np.vstack(triangles).T)
+def join(blocks: Sequence[Array]) -> Array:
+    """The triangle of several records together, each of them in any rows (k, n) with the right inner products."""
+    if len(blocks) == 1:
+        return blocks[0]
+    return triangle(np.vstack(blocks).T)
+
+
+def fold(trapezoids: Sequence[Array]) -> Array:
+    """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
+    first, *others = trapezoids
+    n = first.shape[1]
+    R = np.array(first, order="F")
+    for t in others:
+        part = np.array(t, order="F")
+        R, *_ = linalg.lapack.dtpqrt(len(t), min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
+    return np.asarray(np.triu(R))

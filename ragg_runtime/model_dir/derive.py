@@ -1,8 +1,7 @@
 """Derive models at run time: the one place, beside the command line, where the runtime meets the derivation.
 
-A model directory's own ``generated/`` is executed only if it is, byte for byte, what this program derives for
-the directory's list of effects (:mod:`ragg_runtime.model_dir.derived_cache`); otherwise what is executed is derived anew. SymPy
-is imported only where something is derived.
+A model directory's own ``generated/`` is never executed, but what this program derives, or has derived before
+(:mod:`ragg_runtime.model_dir.derived_cache`), for the directory's list of effects. SymPy is imported only where something is derived.
 """
 
 from __future__ import annotations
@@ -113,29 +112,31 @@ def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
         raise UserError("the expression is not understood", where=where, found=str(error)) from error
 
 
-def model_of(instrument: Instrument, generated: Path | None = None) -> Model:
-    """The model for an instrument's list of effects: the packaged one, or one derived for it.
-
-    ``generated`` is a folder that may hold the derived code already; it is used if it is what would be derived.
-    """
-    if not instrument.effects and instrument.effects_folder is None and _is_packaged(instrument):
+def model_of(instrument: Instrument) -> Model:
+    """The model for an instrument's list of effects: the packaged one, or one derived for it."""
+    own = instrument.effects_folder is not None and bool(known(instrument).own)
+    if not (instrument.effects or own) and _is_packaged(instrument):
         return packaged(instrument.form.kinematics)
-    asked = derived_cache.request(instrument)
-    files = derived_cache.matching(generated, asked)
-    if files is not None:
-        return _executed(asked, tuple(files.items()), instrument.layout)
-    k = known(instrument)
-    if not instrument.effects and not k.own and _is_packaged(instrument):
-        return packaged(instrument.form.kinematics)
-    model, files = derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)
-    if _has_files(instrument):
-        derived_cache.remember(asked, files)
-    return model
+    return _executed(tuple(_derived(instrument).items()), instrument.layout)
 
 
 @cache
-def _executed(asked: str, files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
+def _executed(files: tuple[tuple[str, str], ...], layout: Layout) -> Model:
     return from_files(dict(files), layout=_sized(layout))
+
+
+def _derived(
+    instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True
+) -> Mapping[str, str]:
+    """The files of an instrument's model, with effects of these ids (its own if none are given), derived or kept."""
+    asked = derived_cache.request(instrument, ids, candidates=candidates)
+    files = derived_cache.kept(asked)
+    if files is None:
+        k = known(instrument)
+        chosen = tuple(_chosen(instrument, k) if ids is None else map(k.get, ids))
+        _, files = derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)
+        derived_cache.keep(asked, files)
+    return files
 
 
 def _sized(layout: Layout) -> Layout:
@@ -145,8 +146,6 @@ def _sized(layout: Layout) -> Layout:
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
     """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
     if generated is None or not _has_files(instrument):
-        return None
-    if derived_cache.matching(generated, derived_cache.request(instrument)) is not None:
         return None
     expected = files_of(instrument)
     found = derived_cache.read(generated)
@@ -158,7 +157,7 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
         names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
         what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
-        f"generated/ is not what model.toml derives ({what}); it was not used, but derived anew; "
+        f"generated/ is not what model.toml derives ({what}); it was not used, but what is derived; "
         "adding or removing an effect writes it again"
     )
 
@@ -242,17 +241,13 @@ def with_effects(
     instrument: Instrument, model: Model, further: Sequence[str], *, candidates: bool = False
 ) -> Model:
     """``model`` with further effects derived into it; with the signatures of the others only if ``candidates``."""
-    k = known(instrument)
-    chosen = tuple(k.get(i) for i in (*(e.id for e in model.effects), *further))
-    return derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)[0]
+    files = _derived(instrument, [*(e.id for e in model.effects), *further], candidates=candidates)
+    return _executed(tuple(files.items()), instrument.layout)
 
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
     """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
-    if not _has_files(instrument):
-        return {}
-    k = known(instrument)
-    return derived(tuple(_chosen(instrument, k)), k.effects, instrument.form, instrument.layout)[1]
+    return _derived(instrument) if _has_files(instrument) else {}
 
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:

@@ -1,8 +1,8 @@
-"""Is a model directory's ``generated/`` what the derivation yields for its effects?
+"""What was derived before, kept for the next time.
 
-To derive takes a second or more. So each user keeps a list, out of reach of any model directory: digest of what
-a derivation depends on -> digest of what it yielded. Code from a model directory is executed only if both match;
-then it is, byte for byte, what this program derived before.
+To derive takes a second or more. So each user keeps what derivations yielded, out of reach of any model directory, by the
+digest of what a derivation depends on. Only that is executed, or what is derived anew: never a model directory's own
+``generated/``, which is no more than compared with it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import hashlib
 import json
 import os
 import stat
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import metadata, resources
 from importlib.resources.abc import Traversable
@@ -26,20 +26,28 @@ from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model_dir.trust import trusted_sources
 
-_LARGEST = 1 << 24  # bytes of all generated files together
-_MOST = 100  # files
+_LARGEST = 1 << 24
+"""Bytes of all generated files together."""
+
+_MOST = 100
+"""Generated files of one model."""
+
+KEPT = 100
+"""Derivations that are kept: a catalogue's effects one by one, and pairs of those that are used; half a megabyte each."""
 
 
-def request(instrument: Instrument) -> str:
-    """Digest of all that the derivation for this instrument depends on."""
-    effects = [
-        [s.id, None if s.expression is None else _expression(s.expression)] for s in instrument.effects
-    ]
+def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
+    """Digest of all that a derivation depends on: for this instrument, with effects of these ids (its own if none are
+    given), and with the signatures of all others if ``candidates``.
+    """
+    expressions = {s.id: _expression(s.expression) for s in instrument.effects if s.expression is not None}
+    chosen = [s.id for s in instrument.effects] if ids is None else ids
+    effects = [[i, expressions.get(i)] for i in chosen]
     own = {}
     if instrument.effects_folder is not None:
         found = trusted_sources(instrument.effects_folder, instrument.path)
         own = {path.name: hashlib.sha256(text).hexdigest() for path, text in found.items()}
-    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json()]
+    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json(), candidates and expressions]
     if not instrument.layout.like_paper:
         layout = instrument.layout
         asked += [
@@ -50,20 +58,30 @@ def request(instrument: Instrument) -> str:
     return _sha256(json.dumps(asked, sort_keys=True))
 
 
-def matching(generated: Path | None, asked: str) -> Mapping[str, str] | None:
-    """The files of ``generated``, if they are what was derived for this request before; else ``None``."""
-    if generated is None:
+def kept(asked: str) -> Mapping[str, str] | None:
+    """The files that were derived for this request before, if they are at hand and nobody else can have written them."""
+    place = _folder() / f"{asked}.json"
+    try:
+        with place.open("rb") as stream:
+            if not (belongs_to_user(os.fstat(stream.fileno())) and belongs_to_user(place.parent.stat())):
+                return None
+            found = json.loads(stream.read(_LARGEST))
+        os.utime(place)  # used last: the others go first
+    except (OSError, ValueError, RecursionError):
         return None
-    known, found = _known(asked), read(generated)
-    return found if known is not None and found is not None and digest(found) == known else None
+    whole = isinstance(found, dict) and all(isinstance(text, str) for text in found.values())
+    return found if whole and "manifest.json" in found else None
 
 
-def remember(asked: str, files: Mapping[str, str]) -> None:
-    """Put down what a derivation yielded; where that cannot be written, it will be derived again."""
-    place = _list() / asked
+def keep(asked: str, files: Mapping[str, str]) -> None:
+    """Keep what a derivation yielded; where that cannot be written, it will be derived again."""
+    place = _folder() / f"{asked}.json"
     try:
         place.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        write_text(place, digest(files) + "\n")
+        write_text(place, json.dumps(dict(files)))
+        others = sorted(place.parent.glob("*.json"), key=lambda p: p.stat().st_mtime)
+        for old in others[: max(0, len(others) - KEPT)]:
+            old.unlink(missing_ok=True)
     except (OSError, UserError):
         return
 
@@ -89,11 +107,6 @@ def read(folder: Path) -> Mapping[str, str] | None:
     except (OSError, UnicodeError):
         return None
     return found
-
-
-def digest(files: Mapping[str, str]) -> str:
-    """SHA-256 over names and texts."""
-    return _sha256(json.dumps(sorted(files.items())))
 
 
 def _expression(e: Mapping[str, object]) -> object:
@@ -123,17 +136,7 @@ def _derivation() -> str:
     return total.hexdigest()
 
 
-def _known(asked: str) -> str | None:
-    place = _list() / asked
-    try:
-        with place.open(encoding="ascii") as stream:
-            mine = belongs_to_user(os.fstat(stream.fileno())) and belongs_to_user(place.parent.stat())
-            return stream.read(200).strip() if mine else None
-    except (OSError, ValueError):
-        return None
-
-
-def _list() -> Path:
+def _folder() -> Path:
     return platformdirs.user_cache_path("ragg") / "derived"
 
 

@@ -85,7 +85,7 @@ def load(path: Path | str) -> Loaded:
 
 def loaded(directory: ModelDir) -> Loaded:
     """The directory with its model, and what is odd about both."""
-    model = derive.model_of(directory.instrument, directory.generated)
+    model = derive.model_of(directory.instrument)
     check_settings(model, directory.instrument)
     note = derive.departure(directory.instrument, directory.generated)
     return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))

@@ -80,22 +80,23 @@ def diagnose(
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
 
 
+LIMIT_UNITS = {"a": "m/s^2", "omega": "rad/s", "jerk": "m/s^3", "alpha": "rad/s^2"}
+
+
 def motion_limits(m: Loaded, texts: Sequence[str]) -> Mapping[str, float]:
-    """Largest amplitudes of a motion to fly next, SI, from texts such as ``a=50mg`` and ``omega=500deg/h``."""
+    """Largest amplitudes of a motion to fly next, and of its rates of change, SI, from texts such as ``a=50mg``."""
     found = dict(LIMITS)
     for text in texts:
         name, _, size = text.partition("=")
-        if name not in found or not size:
+        if name not in LIMIT_UNITS or not size:
             raise UserError(
                 "the limit of a motion cannot be read",
                 where="--limit",
                 found=text,
-                expected="a=50mg or omega=500deg/h",
+                expected="a=50mg, omega=500deg/h, jerk=1m/s^3 or alpha=1deg/s^2",
             )
         q = read_quantity(size, f"--limit {name}", count=1)
-        value = m.instrument.units.to_si(
-            np.asarray(q.value), q.unit, "m/s^2" if name == "a" else "rad/s", f"--limit {name}"
-        )
+        value = m.instrument.units.to_si(np.asarray(q.value), q.unit, LIMIT_UNITS[name], f"--limit {name}")
         if not float(value) > 0.0:
             raise UserError("the limit of a motion must be positive", where=f"--limit {name}", found=size)
         found[name] = float(value)

@@ -9,20 +9,28 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis.next_motion import AT_REST, AXES, RATIOS, Proposal
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis.motion_design import Separation, design, tones_of
+from ragg_runtime.diagnosis.next_motion import AXES, Sinusoid, moved
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
 Array = NDArray[np.float64]
 
+APART = 3.0
+"""Standard deviations at which two effects count as told apart."""
+
+HIGHEST = 0.2
+"""Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
+
 
 @dataclass(frozen=True)
 class NextFlight:
-    """Sinusoids (axis, frequency in Hz, amplitude in SI, phase in rad) about the mean of the flights, and what they promise."""
+    """A multisine about the mean of the flights, and what it promises of each pair of rivals."""
 
-    sinusoids: tuple[tuple[str, float, float, float], ...]
+    sinusoids: tuple[Sinusoid, ...]
     mean: Mapping[str, float]
-    proposals: tuple[Proposal, ...]
+    separations: tuple[Separation, ...]
     duration: float
     rate: float
 
@@ -31,20 +39,19 @@ class NextFlight:
         time = np.arange(round(self.duration * self.rate)) / self.rate
         channels: dict[str, Array] = {n: np.full(len(time), v) for n, v in self.mean.items()}
         channels |= {f"omegadot_{k}": np.zeros(len(time)) for k in "xyz"}
-        for axis, frequency, amplitude, phase in self.sinusoids:
-            w = 2 * np.pi * frequency
-            channels[axis] = channels[axis] + amplitude * np.sin(w * time + phase)
-            if axis.startswith("omega_"):
-                name = axis.replace("omega_", "omegadot_")
-                channels[name] = channels[name] + amplitude * w * np.cos(w * time + phase)
-        return Flight(time=time, channels=channels, outputs={}, name="next motion")
+        return Flight(
+            time=time,
+            channels=channels | moved(channels, self.sinusoids, time),
+            outputs={},
+            name="next motion",
+        )
 
     def in_words(self) -> str:
         """What is to be flown, and why."""
-        why = [p.in_words() for p in self.proposals]
-        if not why:
-            why = ["nothing is left to tell apart: a multisine about all axes, which excites every effect"]
-        return "\n".join([f"{len(self.sinusoids)} sinusoids, {self.duration:g} s at {self.rate:g} Hz", *why])
+        head = f"{len(self.sinusoids)} sinusoids, {self.duration:g} s at {self.rate:g} Hz"
+        if not self.separations:
+            return f"{head}\nnothing is left to tell apart: a multisine about all axes, which excites every effect"
+        return "\n".join([head, *map(_promise, self.separations)])
 
     def as_json(self) -> dict[str, object]:
         return {
@@ -60,8 +67,17 @@ class NextFlight:
                 }
                 for axis, frequency, amplitude, phase in self.sinusoids
             ],
-            "proposals": [p.as_json() for p in self.proposals],
+            "separations": [x.as_json() for x in self.separations],
         }
+
+
+def _promise(x: Separation) -> str:
+    size = f"({x.now:.2g} -> {x.then:.3g} sigma)"
+    if x.then < APART:
+        return (
+            f"if it is {x.effect}: no motion within the limits rules out {x.rival}, which acts alike {size}"
+        )
+    return f"if it is {x.effect}: {x.rival} is ruled out {size}"
 
 
 def next_flight(
@@ -70,25 +86,45 @@ def next_flight(
     limits: Mapping[str, float],
     *,
     duration: float = 600.0,
-    rate: float = 16.0,
+    rate: float | None = None,
+    band: tuple[float, float] | None = None,
 ) -> NextFlight:
-    """The sinusoids that :mod:`ragg_runtime.diagnosis.next_motion` proposes for the rivals left, in one motion.
+    """The multisine of :mod:`ragg_runtime.diagnosis.motion_design` for the rivals left.
 
-    Sinusoids about one axis share its limit. Where nothing is left to tell apart: all frequencies about all axes,
-    with the phases of M. Schroeder (IEEE Trans. Inf. Theory 16, 1970), which keep the peak low.
+    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold. Where nothing is left to tell
+    apart: all frequencies about all axes.
     """
-    proposals = tuple(p for p in diagnose(m, flights, limits).next_motion if p.separates)
-    spin = abs(m.instrument.spin_frequency) or AT_REST
-    wanted = sorted({(p.axis, p.frequency) for p in proposals})
-    if not wanted:
-        wanted = [(axis, k * spin) for axis in AXES for k in RATIOS if k * spin <= 0.2 * rate]
-    made = []
-    for axis in dict.fromkeys(a for a, _ in wanted):
-        own = [f for a, f in wanted if a == axis]
-        size = limits["a" if axis.startswith("a_") else "omega"] / len(own)
-        made += [(axis, f, size, -np.pi * k * (k + 1) / len(own)) for k, f in enumerate(own)]
+    rate = flights[0].rate if rate is None else rate
+    band = (0.0, HIGHEST * rate) if band is None else band
+    tones = tones_of(m.instrument.spin_frequency, limits, band)
+    if not tones or band[1] > HIGHEST * rate:
+        raise UserError(
+            "no motion can be made of these frequencies",
+            where="--band",
+            found=f"{band[0]:g} to {band[1]:g} Hz at {rate:g} samples a second",
+            expected=f"multiples of the spin frequency among them, none above {HIGHEST * rate:g} Hz",
+            remedy="give a wider band or a higher --rate",
+        )
+    d = diagnose(m, flights, limits)
+    pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
+    made = design(d.fitted, pairs, limits, duration=duration, band=band)
+    if made is None:
+        axes = [axis for axis, _, _ in tones]
+        sinusoids: tuple[Sinusoid, ...] = tuple(
+            (axis, frequency, size / axes.count(axis), -np.pi * k * (k + 1) / axes.count(axis))
+            for axis in dict.fromkeys(axes)
+            for k, (_, frequency, size) in enumerate(t for t in tones if t[0] == axis)
+        )
+    else:
+        sinusoids = made.sinusoids
     mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
-    return NextFlight(sinusoids=tuple(made), mean=mean, proposals=proposals, duration=duration, rate=rate)
+    return NextFlight(
+        sinusoids=sinusoids,
+        mean=mean,
+        separations=() if made is None else made.separations,
+        duration=duration,
+        rate=rate,
+    )
 
 
 def write_motion(found: NextFlight, path: Path) -> None:

@@ -52,37 +52,60 @@ def _cross(u: Sequence[Any], v: Sequence[Any]) -> list[Any]:
 
 def voltages(t: Any, x: Sequence[Any], p: Sequence[Any]) -> list[Any]:
     """V_1 ... V_4 at one instant; ``x`` the 15 motion channels, ``p`` the 62 parameters."""
-    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
-    xx, xy, xz, yy, yz, zz = x[9:]
-    Gamma = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
     phi = 2 * CONTEXT.pi * p[1] * t
+    return [
+        voltage(
+            {name: p[2 + 4 * n + j] for n, name in enumerate(PER_ACCELEROMETER)},
+            p[0],
+            phi + PLACES[j] * CONTEXT.pi / 2,
+            x,
+        )
+        for j in range(4)
+    ]
+
+
+def in_axes(x: Sequence[Any], axes: Sequence[Sequence[Any]]) -> list[Any]:
+    """The 15 motion channels along other axes, each given by its components."""
+    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
+    Gamma = _gradient(x)
+    turned = [[_dot(u, [_dot(row, v) for row in Gamma]) for v in axes] for u in axes]
+    return [
+        *(_dot(u, v) for v in (a, omega, omegadot) for u in axes),
+        *(turned[i][k] for i in range(3) for k in range(i, 3)),
+    ]
+
+
+def _gradient(x: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
+    xx, xy, xz, yy, yz, zz = x[9:]
+    return ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+
+
+def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any]) -> Any:
+    """V of one accelerometer with parameters ``k`` at the angle ``psi`` on a disc along whose axes the channels are."""
+    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
+    Gamma = _gradient(x)
 
     def specific_force(r: Sequence[Any]) -> list[Any]:
         gravity = [-_dot(row, r) for row in Gamma]
         return _plus(a, _cross(omegadot, r), _cross(omega, _cross(omega, r)), gravity)
 
-    found = []
-    for j in range(4):
-        k = {name: p[2 + 4 * n + j] for n, name in enumerate(PER_ACCELEROMETER)}
-        psi = phi + PLACES[j] * CONTEXT.pi / 2
-        e_r = [CONTEXT.cos(psi), CONTEXT.sin(psi), real(0)]
-        e_t = [-CONTEXT.sin(psi), CONTEXT.cos(psi), real(0)]
-        e_z = [real(0), real(0), real(1)]
-        turned_r = _plus(e_r, _times(k["beta_z"], e_t))
-        turned_t = _plus(e_t, _times(-k["beta_z"], e_r))
-        R = p[0] + k["dR"]
-        f = specific_force(_times(R, _plus(turned_r, _times(k["beta_x"], e_z))))
-        x_j = _dot(f, turned_t)
-        y_j = _dot(f, _plus(turned_r, _times(-k["beta_x"], e_z)))
-        z_j = -_dot(f, _plus(e_z, _times(k["beta_x"], turned_r)))
-        i = x_j + y_j * k["vartheta_z"] - z_j * k["vartheta_y"]
-        # second-order terms: nominal place and triad, at the actual radius
-        q = specific_force(_times(R, e_r))
-        q_i, q_o, q_p = _dot(q, e_t), _dot(q, e_r), -q[2]
-        i += k["K0"] + k["K2"] * q_i**2 + k["K5"] * q_o**2 + k["K7"] * q_p**2
-        i += k["K4"] * q_i * q_p + k["K6"] * q_i * q_o + k["K8"] * q_o * q_p
-        found.append(k["k_VI"] * k["K1"] * i)
-    return found
+    e_r = [CONTEXT.cos(psi), CONTEXT.sin(psi), real(0)]
+    e_t = [-CONTEXT.sin(psi), CONTEXT.cos(psi), real(0)]
+    e_z = [real(0), real(0), real(1)]
+    turned_r = _plus(e_r, _times(k["beta_z"], e_t))
+    turned_t = _plus(e_t, _times(-k["beta_z"], e_r))
+    R = radius + k["dR"]
+    f = specific_force(_times(R, _plus(turned_r, _times(k["beta_x"], e_z))))
+    x_j = _dot(f, turned_t)
+    y_j = _dot(f, _plus(turned_r, _times(-k["beta_x"], e_z)))
+    z_j = -_dot(f, _plus(e_z, _times(k["beta_x"], turned_r)))
+    i = x_j + y_j * k["vartheta_z"] - z_j * k["vartheta_y"]
+    # second-order terms: nominal place and triad, at the actual radius
+    q = specific_force(_times(R, e_r))
+    q_i, q_o, q_p = _dot(q, e_t), _dot(q, e_r), -q[2]
+    i += k["K0"] + k["K2"] * q_i**2 + k["K5"] * q_o**2 + k["K7"] * q_p**2
+    i += k["K4"] * q_i * q_p + k["K6"] * q_i * q_o + k["K8"] * q_o * q_p
+    return k["k_VI"] * k["K1"] * i
 
 
 def output(t: Any, x: Sequence[Any], p: Sequence[Any]) -> Any:

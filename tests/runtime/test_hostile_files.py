@@ -54,7 +54,7 @@ def test_damaged_anywhere(tmp_path: Path, ending: str, lines: tuple[str, ...]) -
     path = good(tmp_path / f"x{ending}", lines)
     data = path.read_bytes()
     rng = np.random.default_rng(2)
-    for trial in range(60):
+    for trial in range(20 if ending == ".nc" else 60):  # slow to open; its bytes are those of HDF5
         broken = bytearray(data)
         if trial % 3 == 0:
             broken = broken[: rng.integers(1, len(data))]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import io
 import json
 import subprocess
 import sys
@@ -13,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from commands import ragg
 
 from derive.expression import ExpressionError, from_expression
-from ragg_runtime.cli.main import main
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -202,18 +200,6 @@ def flight_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     write_flight(flight, folder / "flight.parquet")
     write_instrument(s.sheet, folder / "sheet.toml")
     return folder / "sheet.toml", folder / "flight.parquet"
-
-
-def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """The command in this process, which has imported everything already."""
-    words, status = list(map(str, arguments)), 0
-    out, err = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-        try:
-            main(words)
-        except SystemExit as end:
-            status = int(end.code or 0)
-    return subprocess.CompletedProcess(words, status, out.getvalue(), err.getvalue())
 
 
 def ragg_process(*arguments: object) -> subprocess.CompletedProcess[str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import next_motion
+from ragg_runtime.diagnosis import motion_design, next_motion
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import fitted as fitted_
@@ -18,6 +19,8 @@ from ragg_runtime.model import model
 from ragg_runtime.reference.motion import Signal, Sinusoids
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.next_flight import NextFlight, next_flight, write_motion
+from ragg_runtime.workflow.simulate import simulated
 
 
 @pytest.fixture(scope="module")
@@ -79,11 +82,94 @@ def test_the_promise_is_kept_when_the_motion_is_flown(flown: tuple[Scenario, Fli
     shaken = moved.simulate({"lag": {"tau": [2e-9, 0, 0, 0]}}).flight()
     both = fitted(s, flight, shaken)
     field = field_of(both, selection.testable_effects(both))
-    signal = next_motion._signal(f, field_of(f, selection.testable_effects(f)), "lag")
-    kept = next_motion._separation(both.whole, both.n_base, field, signal, "time-offset")
+    signal = next_motion.signal_of(f, field_of(f, selection.testable_effects(f)), "lag")
+    kept = next_motion.separation(both.whole, both.n_base, field, signal, "time-offset")
     # the turbulence that is there as well tells more
     assert p.then * 0.7 < kept < p.then * 3.0
     assert kept > 1.5 * p.now
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[loop.Loaded, list[str], Flight, NextFlight]:
+    """A weak lag, its rivals, and the multisine that is to tell them apart, within a band and a limit of the jerk."""
+    m = loop.new(tmp_path_factory.mktemp("next") / "m")
+    hidden = ["lag:tau=2e-9/0/0/0"]
+    x = simulated(m.instrument, hidden, seed=7, duration=600.0)
+    limits = loop.motion_limits(m, ["a=30mg", "jerk=1m/s^3"])
+    return m, hidden, x, next_flight(m, [x], limits, duration=300.0, band=(0.1, 2.0))
+
+
+Found = tuple[loop.Loaded, list[str], Flight, NextFlight]
+
+
+def test_the_multisine_keeps_to_its_limits(found: Found) -> None:
+    *_, n = found
+    assert n.separations
+    assert "lag" in n.in_words()
+    motion = n.motion()
+    assert len(motion.time) == 300 * 16
+    assert {round(f / 0.25, 6) for _, f, *_ in n.sinusoids} <= {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0}
+    for axis in "xyz":
+        a = motion.channels[f"a_{axis}"] - n.mean[f"a_{axis}"]
+        assert np.max(np.abs(a)) < 0.03 * 9.81
+        assert np.max(np.abs(np.gradient(a, motion.time))) < 1.0
+        assert np.max(np.abs(motion.channels[f"omega_{axis}"] - n.mean[f"omega_{axis}"])) < 2.41e-3
+    # and what the limits allow is used: the jerk of a, or the amplitude of omega
+    used = [
+        2 * np.pi * f * size if axis.startswith("a_") else size / 2.4e-3 for axis, f, size, _ in n.sinusoids
+    ]
+    assert max(used) > 0.5
+
+
+def test_the_separation_is_what_the_reference_shows_when_it_is_flown(found: Found, tmp_path: Path) -> None:
+    """Of effects that another motion tells apart, and of two that act alike; in both directions."""
+    m, hidden, x, n = found
+    pairs = [("lag", "time-offset"), ("lag", "arm-stretch")]
+    f = fitted_.fit(m.model, m.instrument, [observation.observe(x, m.instrument)])
+    made = motion_design.design(f, pairs, next_motion.LIMITS, duration=300.0, band=(0.0, 2.0))
+    assert made is not None
+    write_motion(
+        dataclasses.replace(n, sinusoids=made.sinusoids, separations=made.separations),
+        tmp_path / "motion.csv",
+    )
+    y = simulated(m.instrument, hidden, seed=7, motion=tmp_path / "motion.csv")
+    both = fitted_.fit(m.model, m.instrument, [observation.observe(q, m.instrument) for q in (x, y)])
+    one, field = (field_of(g, selection.testable_effects(g)) for g in (f, both))
+    for p in made.separations:
+        signal = next_motion.signal_of(f, one, p.effect)
+        shown = next_motion.separation(both.whole, both.n_base, field, signal, p.rival)
+        assert p.then == pytest.approx(shown, rel=0.2)
+        assert p.then > p.now
+    ruled_out = {(p.effect, p.rival): p.then for p in made.separations}
+    assert list(ruled_out) == [*pairs, *((r, e) for e, r in pairs)]
+    assert ruled_out["lag", "time-offset"] > 20.0
+
+
+def test_the_multisine_is_better_than_the_best_sinusoid(flown: tuple[Scenario, Flight]) -> None:
+    s, flight = flown
+    f = fitted(s, flight)
+    field = field_of(f, selection.testable_effects(f))
+    pairs = [("lag", "time-offset"), ("lag", "arm-sag")]
+    best = next_motion.proposals(f, field, pairs)
+    made = motion_design.design(f, pairs, next_motion.LIMITS, duration=600.0, band=(0.0, 1.0))
+    assert made is not None
+    for p, x in zip(best, made.separations[:2], strict=True):
+        assert (p.effect, p.rival) == (x.effect, x.rival)
+        assert x.then > 1.1 * p.then
+    assert motion_design.design(f, [], next_motion.LIMITS, duration=600.0, band=(0.0, 1.0)) is None
+
+
+def test_where_nothing_is_left_to_tell_apart_everything_is_excited(found: Found) -> None:
+    m, *_ = found
+    x = simulated(m.instrument, [], seed=8, duration=120.0)
+    n = next_flight(m, [x], next_motion.LIMITS, duration=60.0)
+    assert n.separations == ()
+    assert {axis for axis, *_ in n.sinusoids} == set(next_motion.AXES)
+    assert "nothing is left" in n.in_words()
+    with pytest.raises(UserError, match="no motion can be made"):
+        next_flight(m, [x], next_motion.LIMITS, band=(0.3, 0.35))
+    with pytest.raises(UserError, match="no motion can be made"):
+        next_flight(m, [x], next_motion.LIMITS, band=(0.0, 5.0))
 
 
 def test_limits_are_read_with_units(tmp_path_factory: pytest.TempPathFactory) -> None:
@@ -91,6 +177,7 @@ def test_limits_are_read_with_units(tmp_path_factory: pytest.TempPathFactory) ->
     found = loop.motion_limits(m, ["a=100mg"])
     assert found["a"] == pytest.approx(0.98)
     assert found["omega"] == next_motion.LIMITS["omega"]
-    for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg"):
+    assert loop.motion_limits(m, ["alpha=1deg/s^2"])["alpha"] == pytest.approx(np.pi / 180)
+    for wrong in ("b=1mg", "a", "a=-1mg", "omega=1mg", "jerk=1m/s^2"):
         with pytest.raises(UserError):
             loop.motion_limits(m, [wrong])

@@ -9,6 +9,7 @@ import sys
 import threading
 from pathlib import Path
 
+import commands
 import pytest
 
 from ragg_runtime.base.errors import UserError
@@ -35,7 +36,11 @@ def state(*places: Path) -> dict[str, bytes]:
 
 
 def ragg(*arguments: object, redirect: str = "", cwd: Path | None = None) -> tuple[int, str]:
-    """Exit status and stderr of a command, its output redirected by a shell."""
+    """Exit status and stderr of a command, its output redirected by a shell if that is asked for."""
+    if not redirect and cwd is None:
+        here = commands.ragg(*arguments)
+        assert "Traceback" not in here.stderr, here.stderr
+        return here.returncode, here.stderr
     line = f'exec "$0" -m ragg_runtime "$@" {redirect}'
     found = subprocess.run(
         ["sh", "-c", line, sys.executable, *map(str, arguments)], capture_output=True, text=True, cwd=cwd
@@ -92,8 +97,23 @@ def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tup
     before = state(model, flight)
     status, said = ragg("compare", model, flight, option, target)
     assert status == 2, said
-    assert "written over what the command reads" in said
+    assert "a result would be written over" in said
     assert state(model, flight) == before
+
+
+def test_a_result_replaces_no_record_that_the_command_does_not_read(
+    given: tuple[Path, Path], tmp_path: Path
+) -> None:
+    model, _ = given
+    record = tmp_path / "south.parquet"
+    record.write_bytes(b"PAR1")
+    for command in (("history", model, "--json"), ("diagnose", model, given[1], "--report")):
+        status, said = ragg(*command, record)
+        assert status == 2
+        assert "over a record" in said
+    assert record.read_bytes() == b"PAR1"
+    record.write_bytes(b"")
+    assert ragg("history", model, "--json", record)[0] == 0
 
 
 def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(

@@ -1,9 +1,12 @@
-"""``generated/`` of a model directory is executed only if it is what the derivation yields."""
+"""``generated/`` of a model directory is never executed, but what was derived here."""
 
 from __future__ import annotations
 
+import json
+import os
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -19,7 +22,7 @@ EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "_list", lambda: tmp_path / "cache" / "derived")
+    monkeypatch.setattr(derived_cache, "_folder", lambda: tmp_path / "cache" / "derived")
     derive._executed.cache_clear()
 
 
@@ -47,15 +50,17 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
     count = derives(monkeypatch)
     m = loop.load(model)
     assert ([e.id for e in m.model.effects], m.notes, count) == (["lag"], (), [])
+    for file in (model.parent / "cache" / "derived").iterdir():
+        file.unlink()
     assert m.model.digest == derive.model_of(m.instrument).digest
-    assert count == [1], "without the folder it is derived"
+    assert count == [1], "what is not kept is derived"
 
 
 def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
     code = (
         "import sys; from pathlib import Path; from ragg_runtime.model_dir import derived_cache; "
         "from ragg_runtime.workflow import loop\n"
-        f"derived_cache._list = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
+        f"derived_cache._folder = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
         "m = loop.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
     )
     done = subprocess.run(
@@ -74,25 +79,50 @@ def test_what_differs_is_not_executed(
     count = derives(monkeypatch)
     m = loop.load(model)
     assert not mark.exists()
-    assert count == [1]
+    assert count == []
     assert [e.id for e in m.model.effects] == ["lag"]
     assert len(m.notes) == 1
     assert name in m.notes[0]
     assert loop.load(loop.remove(m, "lag").directory.path).notes == ()
 
 
-def test_a_stranger_who_brings_everything_is_derived_anew(
-    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("writable", ["file", "folder"])
+def test_what_others_can_have_kept_is_derived_anew(
+    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, writable: str
 ) -> None:
-    """Nothing in a model directory can say that it is right: the list is the user's."""
-    place = model / "generated" / "chain.py"
-    place.write_text(place.read_text() + EVIL.format(mark=str(tmp_path / "mark")))
-    for file in list((tmp_path / "cache" / "derived").iterdir()):
-        file.write_text(derived_cache.digest(derived_cache.read(model / "generated") or {}) + "\n")
-        file.chmod(0o666)  # as if others could write to the list
-    assert derives(monkeypatch) == []
+    folder = tmp_path / "cache" / "derived"
+    for file in folder.iterdir():
+        evil = json.loads(file.read_text())
+        evil["chain.py"] += EVIL.format(mark=str(tmp_path / "mark"))
+        file.write_text(json.dumps(evil))
+        (file if writable == "file" else folder).chmod(0o777)
+    count = derives(monkeypatch)
     loop.load(model)
+    assert count == [1]
     assert not (tmp_path / "mark").exists()
+
+
+@pytest.mark.parametrize("damage", ["{", "[1]", '{"chain.py": 3}', "[" * 10000])
+def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.MonkeyPatch, damage: str) -> None:
+    for file in (model.parent / "cache" / "derived").iterdir():
+        file.write_text(damage)
+    count = derives(monkeypatch)
+    assert [e.id for e in loop.load(model).model.effects] == ["lag"]
+    assert count == [1]
+
+
+def generated(model: Path) -> Mapping[str, str]:
+    found = derived_cache.read(model / "generated")
+    assert found is not None
+    return found
+
+
+def test_only_so_many_are_kept(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(derived_cache, "KEPT", 3)
+    for n in range(5):
+        derived_cache.keep(f"{n}", generated(model))
+        os.utime(model.parent / "cache" / "derived" / f"{n}.json", (n, n))
+    assert [derived_cache.kept(f"{n}") is not None for n in range(5)] == [False, False, False, True, True]
 
 
 def test_links_are_not_followed(model: Path, tmp_path: Path) -> None:
@@ -142,7 +172,7 @@ def test_values_are_no_part_of_the_request() -> None:
 
 
 def test_a_list_that_cannot_be_written_only_costs_time(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "_list", lambda: Path("/proc/nowhere/derived"))
+    monkeypatch.setattr(derived_cache, "_folder", lambda: Path("/proc/nowhere/derived"))
     count = derives(monkeypatch)
     assert [e.id for e in loop.load(model).model.effects] == ["lag"]
     assert count == [1]
