@@ -49,6 +49,9 @@ class EffectParameter:
         False for what is set (or scanned), not calibrated by least squares.
     physical
         The one value, beside the neutral one, that nature knows; it holds where no value is given (``None``: any).
+    like
+        Parameter of the accelerometers (``K1`` ...) that tells of what grade the sensors are: where a sheet gives it a sigma
+        larger than is plausible of a navigation instrument, what is plausible here is as many times larger.
     """
 
     name: str
@@ -61,6 +64,7 @@ class EffectParameter:
     channel: str | None = None
     fitted: bool = True
     physical: float | None = None
+    like: str | None = None
 
 
 class Values(Mapping[str, sp.Expr]):

@@ -295,6 +295,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "channel": q.channel,
                 "fitted": q.fitted,
                 **({} if q.physical is None else {"physical": q.physical}),
+                **({} if q.like is None else {"like": q.like}),
             }
             for q in e.parameters
         ],

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import read_flights as read_flights
     from ragg_runtime.workflow.loop import remove as remove
     from ragg_runtime.workflow.loop import survey as survey
+    from ragg_runtime.workflow.online import online as online
     from ragg_runtime.workflow.simulate import simulate as simulate
 
 _FROM = {
@@ -43,6 +44,7 @@ _FROM = {
     "export": "ragg_runtime.workflow.after",
     "load": "ragg_runtime.workflow.loop",
     "new": "ragg_runtime.workflow.loop",
+    "online": "ragg_runtime.workflow.online",
     "read_flights": "ragg_runtime.workflow.loop",
     "remove": "ragg_runtime.workflow.loop",
     "simulate": "ragg_runtime.workflow.simulate",

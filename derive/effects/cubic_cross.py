@@ -41,6 +41,7 @@ EFFECT = Effect(
             "ug/g^3",
             "third-order coefficient of " + " ".join(f"f_{axis}" for axis in m),
             5.0,
+            like="K2",
         )
         for m in MONOMIALS
     ),

@@ -27,6 +27,8 @@ EFFECT = Effect(
     source="IEEE Std 1293 (model equation of the linear, single-axis accelerometer), coefficient K3",
     equation=r"I_j/K_{j1} \mathrel{+}= K_{iii} f_i^3",
     limits="Orders above the third are neglected.",
-    parameters=(EffectParameter("K_iii", "K_{iii}", "ug/g^3", "third-order coefficient of f_i^3", 5.0),),
+    parameters=(
+        EffectParameter("K_iii", "K_{iii}", "ug/g^3", "third-order coefficient of f_i^3", 5.0, like="K2"),
+    ),
     transducer=transducer,
 )

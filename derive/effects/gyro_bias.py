@@ -28,7 +28,9 @@ EFFECT = Effect(
         "of which null biases absorb what is constant."
     ),
     parameters=tuple(
-        EffectParameter(f"b_{k}", f"b_{k}", "deg/h", f"bias of the gyroscope about {k}", 1.0, shared=True)
+        EffectParameter(
+            f"b_{k}", f"b_{k}", "deg/h", f"bias of the gyroscope about {k}", 1.0, shared=True, like="K0"
+        )
         for k in "xyz"
     ),
     sensing=sensing,

@@ -40,6 +40,7 @@ EFFECT = Effect(
             f"rate about {i} per specific force along {k}",
             1.0,
             shared=True,
+            like="K0",
         )
         for i in "xyz"
         for k in "xyz"

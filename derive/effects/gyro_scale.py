@@ -29,7 +29,13 @@ EFFECT = Effect(
     limits="Exact in s; one scale an axis, no asymmetry between the senses of turning.",
     parameters=tuple(
         EffectParameter(
-            f"s_{k}", f"s_{k}", "1", f"relative scale error of the gyroscope about {k}", 1e-4, shared=True
+            f"s_{k}",
+            f"s_{k}",
+            "1",
+            f"relative scale error of the gyroscope about {k}",
+            1e-4,
+            shared=True,
+            like="K1",
         )
         for k in "xyz"
     ),

@@ -28,7 +28,9 @@ EFFECT = Effect(
         "absorbed by null biases."
     ),
     parameters=tuple(
-        EffectParameter(f"b_{k}", f"b_{k}", "ug", f"bias of the accelerometer along {k}", 50.0, shared=True)
+        EffectParameter(
+            f"b_{k}", f"b_{k}", "ug", f"bias of the accelerometer along {k}", 50.0, shared=True, like="K0"
+        )
         for k in "xyz"
     ),
     sensing=sensing,

@@ -42,6 +42,7 @@ EFFECT = Effect(
             f"share of the force along {k[1]} in what is reported along {k[0]}",
             1e-4,
             shared=True,
+            like="vartheta_z",
         )
         for k in PAIRS
     ),

@@ -26,7 +26,13 @@ EFFECT = Effect(
     limits="Exact in s; one scale an axis, the same for both signs.",
     parameters=tuple(
         EffectParameter(
-            f"s_{k}", f"s_{k}", "1", f"relative scale error of the accelerometer along {k}", 1e-4, shared=True
+            f"s_{k}",
+            f"s_{k}",
+            "1",
+            f"relative scale error of the accelerometer along {k}",
+            1e-4,
+            shared=True,
+            like="K1",
         )
         for k in "xyz"
     ),

@@ -34,7 +34,15 @@ EFFECT = Effect(
         "e_x, e_y are told from spin-axis-tilt, and e_z from spin-phase-offset, only by the gradients."
     ),
     parameters=tuple(
-        EffectParameter(f"e_{k}", f"e_{k}", "rad", f"turn of the motion sensor about {k}", 1e-4, shared=True)
+        EffectParameter(
+            f"e_{k}",
+            f"e_{k}",
+            "rad",
+            f"turn of the motion sensor about {k}",
+            1e-4,
+            shared=True,
+            like="vartheta_z",
+        )
         for k in "xyz"
     ),
     sensing=sensing,

@@ -1,4 +1,4 @@
-"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``export``."""
+"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``online``, ``export``."""
 
 from __future__ import annotations
 
@@ -10,8 +10,18 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command
-from ragg_runtime.cli.shared import DIRECTORY, command_line, emit, json_option, load, under_way, write_report
+from ragg_runtime.cli.shared import (
+    DIRECTORY,
+    Finite,
+    command_line,
+    emit,
+    json_option,
+    load,
+    under_way,
+    write_report,
+)
 
 if TYPE_CHECKING:
     from ragg_runtime.compensation.compensate import Kind
@@ -21,19 +31,26 @@ if TYPE_CHECKING:
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option("--save", is_flag=True, help="Keep the calibration in the model directory, for --frozen.")
+@click.option(
+    "--save",
+    is_flag=True,
+    help="Keep the calibration (and the mapping, if one is given) in the model directory, for --frozen.",
+)
+@mapping_option
 @json_option
-def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: str | None) -> None:
+def calibrate(
+    model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None, json_file: str | None
+) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
     from ragg_runtime.cli import terminal, terminal_after
     from ragg_runtime.workflow import after, loop
 
     m = load(model_dir)
     under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, read))):
-        kept = after.calibrate(m, read, save)
+        kept = after.calibrate(m, read, save, mapping)
     origin = terminal.origin(kept.loaded, read, command_line())
     emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
 
@@ -63,6 +80,7 @@ def calibrate(model_dir: Path, flights: Sequence[Path], save: bool, json_file: s
     show_default=True,
     help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
 )
+@mapping_option
 @json_option
 def compensate(
     model_dir: Path,
@@ -70,22 +88,18 @@ def compensate(
     output: Path,
     calibration: Kind,
     demodulator: str,
+    mapping: Path | None,
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
-    format_for(output)
-    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
-        raise UserError(
-            "a result would be written over what the command reads", where=output, remedy="name another file"
-        )
+    _writable(output, flights)
     m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     under_way(f"reading {len(flights)} flight(s)")
-    read = after.read_for_compensation(m, flights)
+    read = after.read_for_compensation(m, flights, mapping)
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, output)
@@ -93,6 +107,64 @@ def compensate(
     emit(
         c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
     )
+
+
+@click.command(cls=Command)
+@click.argument("model_dir", type=DIRECTORY)
+@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
+@click.option(
+    "-o",
+    "--output",
+    type=DIRECTORY,
+    required=True,
+    metavar="OUT",
+    help="File to write (.csv, .parquet, .nc).",
+)
+@click.option(
+    "--noise",
+    type=Finite(0.0, min_open=True),
+    help="Eo/sqrt(Hz), cross channel (default: what the saved calibration left).",
+)
+@click.option(
+    "--walk",
+    type=Finite(0.0),
+    help="How fast the gradient may wander, Eo/sqrt(s) (default: as fast as a low-pass of 0.2 Hz follows it).",
+)
+@click.option(
+    "--forget",
+    type=Finite(0.0, min_open=True),
+    help="Time constant, s, of what is forgotten (default: nothing).",
+)
+@mapping_option
+@json_option
+def online(
+    model_dir: Path,
+    flights: Sequence[Path],
+    output: Path,
+    noise: float | None,
+    walk: float | None,
+    forget: float | None,
+    mapping: Path | None,
+    json_file: str | None,
+) -> None:
+    """Calibrate and compensate sample by sample, as a computer on board would (`export --c`: the same filter in C).
+
+    Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
+    """
+    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.workflow import after
+    from ragg_runtime.workflow import online as _online
+
+    _writable(output, flights)
+    m = load(model_dir)
+    odd = [] if m.directory.calibration is None else _calibration_notes(m)
+    under_way(f"reading {len(flights)} flight(s)")
+    read = after.read_for_compensation(m, flights, mapping)
+    under_way("following")
+    with progress.shown("compare", sum(map(len, read))):
+        w = _online.online(m, read, noise, walk, forget or float("inf"), output)
+    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    emit(w.as_json() | {"output": str(output)} | origin, json_file, terminal_after.watched(w, output, read))
 
 
 @click.command(cls=Command)
@@ -120,7 +192,11 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
 
 
 def compare_frozen(
-    m: Loaded, flights: Sequence[Path], json_file: str | None, report_file: str | None
+    m: Loaded,
+    flights: Sequence[Path],
+    mapping: Path | None,
+    json_file: str | None,
+    report_file: str | None,
 ) -> None:
     """``ragg compare --frozen``."""
     from ragg_runtime.cli import terminal, terminal_after
@@ -129,7 +205,7 @@ def compare_frozen(
 
     odd = _calibration_notes(m)
     under_way(f"reading {len(flights)} flight(s)")
-    read = loop.read_flights(m, flights)
+    read = loop.read_flights(m, flights, mapping)
     under_way("comparing with the calibration that was kept")
     with progress.shown("compare", sum(map(len, read))):
         h = after.compare_frozen(m, read)
@@ -150,8 +226,19 @@ def compare_frozen(
     emit(
         h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
         json_file,
-        terminal_after.held(h, read, m.directory.path),
+        terminal_after.held(h, read, m.directory.path, mapping),
     )
+
+
+def _writable(output: Path, flights: Sequence[Path]) -> None:
+    """UserError if a series cannot be written there."""
+    from ragg_runtime.compensation.output import format_for
+
+    format_for(output)
+    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
+        raise UserError(
+            "a result would be written over what the command reads", where=output, remedy="name another file"
+        )
 
 
 def _calibration_notes(m: Loaded) -> list[str]:
@@ -164,5 +251,5 @@ def _calibration_notes(m: Loaded) -> list[str]:
     return odd
 
 
-COMMANDS = (calibrate, compensate, export)
+COMMANDS = (calibrate, compensate, online, export)
 """What the command line registers."""

@@ -59,7 +59,7 @@ def compare(
     if frozen or calibration == "frozen":
         from ragg_runtime.cli.after import compare_frozen
 
-        compare_frozen(m, flights, json_file, report_file)
+        compare_frozen(m, flights, mapping, json_file, report_file)
         return
     under_way(f"reading {len(flights)} flight(s)")
     read = loop.read_flights(m, flights, mapping)

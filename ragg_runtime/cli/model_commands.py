@@ -226,16 +226,20 @@ def history(model_dir: Path, json_file: str | None) -> None:
 @click.option(
     "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
 )
+@mapping_option
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
-def simulate(model_dir: Path, output: str, hidden: Sequence[str], **options: Any) -> None:
+def simulate(
+    model_dir: Path, output: str, hidden: Sequence[str], mapping: Path | None, **options: Any
+) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
     from ragg_runtime.flight import write_flight
+    from ragg_runtime.workflow.loaded import mapping_of
     from ragg_runtime.workflow.simulate import simulated
 
     m = load(model_dir)
     under_way("flying")
-    flight = simulated(m.instrument, hidden, **options)
+    flight = simulated(m.instrument, hidden, mapping=mapping_of(m, mapping), **options)
     write_flight(flight, output)
     click.echo(f"{one_line(str(output))}: {len(flight.time)} samples at {flight.rate:g} Hz")
 

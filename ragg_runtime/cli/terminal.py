@@ -148,7 +148,7 @@ def _ranked(r: Ranked) -> str:
 def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]) -> list[str]:
     lines = [f"  {notebook.parameter(q.as_json())}" for q in parameters]
     if combinations:
-        lines.append("  of which the record sees only:")
+        lines.append("  of which the record knows best:")
         lines += [f"  {notebook.parameter(q.as_json())}" for q in combinations]
     return lines
 

@@ -11,6 +11,7 @@ from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.after import Compensation, Kept
+from ragg_runtime.workflow.online import Watched
 
 MOVED = 3.0
 """Standard deviations from which a combination is shown as moved."""
@@ -45,11 +46,11 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
     return "\n".join(lines)
 
 
-def held(h: Held, flights: Sequence[Flight], model_dir: Path) -> str:
+def held(h: Held, flights: Sequence[Flight], model_dir: Path, mapping: Path | None = None) -> str:
     """The result of ``compare --frozen``."""
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
     moved = [r for r in rows if abs(r["z"]) > MOVED]
-    lines = [compared(h.comparison, flights, model_dir), "", sentence(h)]
+    lines = [compared(h.comparison, flights, model_dir, mapping), "", sentence(h)]
     if moved:
         lines.append("what moved since (frozen, now):")
         lines += [
@@ -62,6 +63,22 @@ def held(h: Held, flights: Sequence[Flight], model_dir: Path) -> str:
         lines += [
             f"  {x['name']:32} {x['change']:+.4g} {x['unit']}   {100 * x['share']:.1f} %" for x in suspects
         ]
+    return "\n".join(lines)
+
+
+def watched(w: Watched, output: Path, flights: Sequence[Flight]) -> str:
+    """The result of ``online``."""
+    r = w.as_json()
+    within = r["follows_within_s"]
+    lines = [
+        f"{output}: sample by sample from the {r['started']}, noise {r['noise_Eo_per_rtHz']:.3g} Eo/sqrt(Hz)",
+        f"the gradient wanders by {r['walk_Eo_per_rts']:.3g} Eo/sqrt(s)"
+        + ("" if within is None else f" and is followed within {within:.3g} s")
+        + "; the parameters "
+        + ("forget nothing" if r["forget_s"] is None else f"forget within {r['forget_s']:.3g} s"),
+    ]
+    lines += [f"{x['flight']}: {x['samples']} samples" for x in r["flights"]]
+    lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
 

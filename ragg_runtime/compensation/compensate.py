@@ -86,7 +86,7 @@ def prepared(
     each = [observations_of([x], instrument) for x in flights]
     observations = tuple(o for own in each for o in own)
     of = tuple(k for k, own in enumerate(each) for _ in own)
-    seeing = _seeing(instrument, observations)
+    sighted = seeing(instrument, observations)
     model = model.for_fits(sum(len(o.record.time) for o in observations))
     validity: dict[str, tuple[float, float]] = {}
     if kind == "frozen":
@@ -112,7 +112,7 @@ def prepared(
         flights=flights,
         observations=observations,
         of=of,
-        seeing=seeing,
+        seeing=sighted,
         calibration=c,
         stretches=tuple(stretches),
         converged=settled,
@@ -120,7 +120,7 @@ def prepared(
     )
 
 
-def _seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
+def seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple[int, ...]:
     """Those that see a gradient on a turning disc; UserError if there is none."""
     a = instrument.accelerometers
     k1, R = a["k_VI"] * a["K1"], instrument.radii + a["dR"]

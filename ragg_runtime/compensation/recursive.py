@@ -1,9 +1,10 @@
 """Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
 
-The states are the fitted parameters (steps from a point p, in their scales) and the two channels of the gradient, inline and
-cross, which wander: a random walk of so many Eo a root second. What is kept is the triangle R and the right-hand side z of
-R x = z, so that a sample is one more row, turned into them; nothing is ever inverted or squared. Parameters forget: what flights
-said fades with a time constant, what the sheet says does not. The same steps, in the same order, are those of the exported C.
+A filter is of one output. The states are the fitted parameters of its accelerometers (steps from a point p, in their
+scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo a root second. What is
+kept is the triangle R and the right-hand side z of R x = z, so that a sample is one more row, turned into them; nothing is ever
+inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The same
+steps, in the same order, are those of the exported C.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
-from ragg_runtime.fit.columns import Column, base_columns
+from ragg_runtime.fit.columns import Column, base_columns, own_columns
 from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.fit.observation import Observation, as_output, carried
+from ragg_runtime.fit.square_root import of_some
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -29,6 +31,10 @@ UPDATE = 0.25
 
 FADE = 10.0
 """Parameters forget in steps of so many seconds."""
+
+STEEPER = 2.0
+"""Walk of the inline channel over that of the cross one: Gamma_xx - Gamma_yy of a field without a preferred direction varies
+twice as much as Gamma_xy, and its noise is twice as large."""
 
 UNKNOWN_EO = 1e4
 """Standard deviation of the gradient before anything is known, Eo: three times the Earth's own."""
@@ -43,8 +49,8 @@ class Tuning:
     noise
         Standard deviation of a sample of G_out, V.
     walk
-        Of the gradient, Eo/sqrt(s); 0: it is constant. The filter follows it with a time constant, s, of the noise's
-        density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
+        Of the cross channel, Eo/sqrt(s), the inline one twice as much; 0: they are constant. The filter follows both with a
+        time constant, s, of the noise's density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
     forget
         Time constant, s, with which parameters forget the flight; a drift is followed with this lag. Infinite: never.
     """
@@ -75,20 +81,27 @@ class Online:
         tuning: Tuning,
         p: Array | None = None,
         root: Array | None = None,
+        place: int = 0,
     ) -> None:
-        """Begin at parameters ``p`` (size,) with ``root`` (n, n) of their information, in scales; else at the sheet."""
+        """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information of all fitted ones, in scales.
+
+        Else at the sheet. ``place`` counts the outputs of the instrument.
+        """
         self.model, self.instrument, self.tuning = model, instrument, tuning
         self.nominal = vector(model, instrument)
         self.p = self.nominal.copy() if p is None else p.copy()
-        found = base_columns(model, instrument)
+        self.place = place
+        every = base_columns(model, instrument)
+        self.own = own_columns([c for c, _ in every], instrument, place)
+        found = [every[k] for k in self.own]
         self.columns: tuple[Column, ...] = tuple(c for c, _ in found)
         self.index = np.array([k for _, k in found], dtype=np.intp)
         self.scale = np.array([c.scale for c in self.columns])
         self.to_nominal = (self.nominal[self.index] - self.p[self.index]) / self.scale
-        self.k_ggi = scale_factor(model, self.p)
+        self.k_ggi = scale_factor(model, self.p, place)
         n = len(self.columns)
         self.R = np.zeros((n + 2, n + 3))
-        self.R[:n, :n] = np.eye(n) if root is None else root
+        self.R[:n, :n] = np.eye(n) if root is None else of_some(root, self.own)
         self.R[:n, -1] = self.R[:n, :n] @ (self.to_nominal if root is None else np.zeros(n))
         self.R[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
         self._waiting: list[Array] = []
@@ -121,10 +134,11 @@ class Online:
     def _rows(self, o: Observation) -> Array:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
-        bare = Observation(o.kind, _without_gradients(r), o.series, o.name)
+        bare = replace(o, record=_without_gradients(r), memo=[])
         columns = as_output(bare, linearised(Point(self.model, self.instrument, self.p, False), bare))
-        sine, cosine = 2 * r.sin_phi * r.cos_phi, r.cos_phi**2 - r.sin_phi**2
-        gradient = self.k_ggi * np.stack([sine / 2, -cosine])
+        columns = columns[[*self.own, len(columns) - 1]]
+        zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
+        gradient = np.stack([carried(one, zero, r, self.k_ggi), carried(zero, one, r, self.k_ggi)])
         return np.asarray(np.concatenate([columns[:-1], gradient, columns[-1:]]).T / self.tuning.noise)
 
     def _fold(self) -> None:
@@ -139,7 +153,7 @@ class Online:
             return
         n = len(self.columns)
         whole = np.zeros((n + 4, n + 5))
-        whole[:2, :2] = np.eye(2) / (self.tuning.walk * np.sqrt(t))
+        whole[:2, :2] = np.diag([1.0 / STEEPER, 1.0]) / (self.tuning.walk * np.sqrt(t))
         whole[2:, :2] = -self.R[:, n : n + 2]
         whole[2:, 2:] = self.R
         self.R = _triangle(whole)[2:, 2:]
@@ -170,17 +184,12 @@ class Online:
         x = linalg.solve_triangular(self.R[:, : n + 2], self.R[:, -1])
         p = self.p.copy()
         p[self.index] += x[:n] * self.scale
-        return p, _marginal(self.R, n)
+        return p, of_some(self.R[:, : n + 2], range(n))
 
 
 def _triangle(rows: Array) -> Array:
     """The triangular factor of rows."""
     return np.asarray(np.linalg.qr(rows, mode="r"))
-
-
-def _marginal(R: Array, n: int) -> Array:
-    """(n, n): what a triangle of n + 2 states knows of the first n, whatever the others are."""
-    return _triangle(R[:, [n, n + 1, *range(n)]])[2:, 2:]
 
 
 def _without_gradients(r: Record) -> Record:

@@ -227,8 +227,17 @@ class Segment:
         """
         few, d = self.fewer
         count = len(self.k) // few
-        mixed = (self.output(k, STEP) - self.reference) / STEP * self.mixer / self.k
-        return d.low_passed(np.mean(mixed[: count * few].reshape(count, few), axis=1))
+        change = (self.output(k, STEP) - self.reference)[: count * few].reshape(count, few)
+        mixed = np.einsum("nf,cnf->cn", change, self.averaging)
+        return d.low_passed(mixed[0] + 1j * mixed[1])
+
+    @cached_property
+    def averaging(self) -> Array:
+        """(2, N / few, few): by which a change of G_out, V, becomes the means of inline and cross of so many samples, Eo."""
+        few, _ = self.fewer
+        count = len(self.k) // few
+        weights = (self.mixer / self.k / (STEP * few))[: count * few].reshape(count, few)
+        return np.stack([weights.real, weights.imag])
 
     @property
     def fewer(self) -> tuple[int, Demodulator]:

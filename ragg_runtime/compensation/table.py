@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated
 from ragg_runtime.compensation.series import Series
+from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
 
 Array = NDArray[np.float64]
@@ -42,11 +43,8 @@ class Table:
     @staticmethod
     def of(outputs: Sequence[Compensated], *, several: bool) -> Table:
         layout = outputs[0].instrument.layout
-        names = [x.setting.observation.output.name for x in outputs]
-        single = len(layout.outputs) == 1
-        endings = ("",) if single else tuple(f"_{n.removeprefix('G_out').strip('_') or n}" for n in names)
-        if len(set(endings)) < len(endings):
-            endings = tuple(f"_{n}" for n in names)
+        known = dict(zip(layout.output_names, column_endings(layout.output_names), strict=True))
+        endings = tuple(known[x.setting.observation.output.name] for x in outputs)
         return Table(endings=endings, tensor=_by_channels(outputs), several=several)
 
     @property

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
 from ragg_runtime.model.model import Model
@@ -116,22 +117,26 @@ def _harmonics(layout: Layout) -> Iterator[tuple[str, tuple[float, ...]]]:
 def visible_combinations(
     model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
 ) -> list[ParameterValue]:
-    """The combinations of accelerometers' values (in scales) that the record sees, where it does not see each of them by itself.
+    """The combinations of accelerometers' values (in scales) that the record sees.
 
-    ``p`` is the model's parameter vector, for the accelerometers' :func:`gains`.
+    Where it sees each value by itself, those alone that it knows far better than it would of independent values: of a
+    cubic term it knows A3 to a tenth of its prior, and A3 - A4 a hundred times better. ``p`` is the model's parameter
+    vector, for the accelerometers' :func:`gains`.
     """
     found = []
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
         block = covariance[np.ix_(at, at)]
-        if len(at) != model.layout.size or np.all(np.diag(block) < SEEN**2):
+        if len(at) != model.layout.size:
             continue
+        single = np.diag(block)
+        known = single if np.all(single < SEEN**2) else np.ones(len(at))
         each = [columns[k] for k in at]
         factor = np.array([c.scale / c.unit_factor for c in each])
         for label, weights in patterns(each, gains(model, p, name), model.layout):
             w = weights * factor  # of values in scales
             std = float(np.sqrt(max(0.0, float(w @ block @ w))))
-            if std < SEEN * float(np.linalg.norm(w)):
+            if std < SEEN * float(np.sqrt(w**2 @ known)):
                 found.append(
                     ParameterValue(
                         name=label,
@@ -143,3 +148,32 @@ def visible_combinations(
                     )
                 )
     return found
+
+
+def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
+    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
+    c = f.calibration
+    mine = [n for n, column in enumerate(c.columns) if column.effect == effect]
+    columns = [c.columns[n] for n in mine]
+    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in mine])
+    covariance = c.covariance[np.ix_(mine, mine)]
+    return (
+        tuple(parameter_values(columns, values, covariance)),
+        tuple(visible_combinations(f.model, c.p, columns, values, covariance)),
+    )
+
+
+def headlines(
+    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
+) -> tuple[ParameterValue, ...]:
+    """One value a parameter: of its combinations, or of the single values where there are none, the one that stands
+    out most of its uncertainty. What is known without any (an instant) comes first.
+    """
+    every: dict[str, list[ParameterValue]] = {}
+    for q in (*combinations, *parameters):
+        every.setdefault(q.name.rpartition(" ")[2], []).append(q)
+    found = []
+    for same in every.values():
+        among = [q for q in same if q.weights] or same
+        found.append(max(among, key=lambda q: abs(q.value) / q.std if q.std > 0.0 else np.inf))
+    return tuple(found)

@@ -10,20 +10,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS
+from ragg_runtime.flight.angular_acceleration import Derivative
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
-from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.model.evaluate import named, scale_factor
 from ragg_runtime.model.model import Chain, Model
-from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.model.record import GRADIENTS, SPIN, Record, phase
 
 Array = NDArray[np.float64]
 
 _DERIVATIVE = re.compile(r"d(?P<order>2?)_(?P<of>.+)")
 
 ROWS, RATE = 400, 16.0
-"""Samples and rate, Hz, of the motion that goes with an export."""
+"""Samples and rate, Hz, of the motions that go with an export."""
+
+DISC = "disc"
+"""Stands for the column of an input that is the angle of the output's own disc."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +43,47 @@ class Value:
 
 @dataclass(frozen=True)
 class Input:
-    """A series that the model reads: a column of the flight, or a time derivative of one."""
+    """A series that the model reads: a column of the flight, or a time derivative of one; of :data:`DISC` there is one a disc."""
 
     name: str
     column: str
     derivative: int
+
+
+@dataclass(frozen=True)
+class Out:
+    """An output of the model.
+
+    Attributes
+    ----------
+    name, formula
+        Its column, and what it is of the voltages.
+    members, signs
+        Its accelerometers, counted from 0, and how each counts.
+    angle_column
+        Column with the angle of its disc.
+    spin
+        Place of the disc's rate in the parameter vector.
+    scale_factor
+        k_ggi, V/Eo.
+    phase
+        rad: a gradient shows as k_ggi (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)).
+    sees
+        Whether it sees a gradient at all, on a disc that turns.
+    ending
+        Of its columns among what is found: empty of an only output.
+    """
+
+    name: str
+    formula: str
+    members: tuple[int, ...]
+    signs: tuple[int, ...]
+    angle_column: str
+    spin: int
+    scale_factor: float
+    phase: float
+    sees: bool
+    ending: str
 
 
 @dataclass(frozen=True)
@@ -83,11 +124,26 @@ class Contents:
     def chain(self) -> Chain:
         return self.model.chain
 
-    @property
-    def scale_factor(self) -> float:
-        """k_ggi, V/Eo."""
-        values = {v.name: v.values for v in self.values()}
-        return float(np.sum(values["k_VI"] * values["K1"] * (values["radius"] + values["dR"]))) * EOTVOS
+    def outputs(self) -> tuple[Out, ...]:
+        """In the order of model.toml."""
+        layout, values = self.instrument.layout, named(self.chain, self.p)
+        k1, R = values["k_VI"] * values["K1"], values["radius"] + values["dR"]
+        endings = dict(zip(layout.output_names, column_endings(layout.output_names), strict=True))
+        return tuple(
+            Out(
+                name=o.name,
+                formula=layout.formula(o, [layout.voltage_columns(j)[0] for j in o.members]),
+                members=o.members,
+                signs=o.signs,
+                angle_column=layout.discs[o.disc].angle_column,
+                spin=1 if layout.like_paper else layout.size + o.members[0],
+                scale_factor=scale_factor(self.model, self.p, k),
+                phase=phase(gain(o, k1, R)),
+                sees=sees(o, k1, R) and layout.discs[o.disc].spin_frequency != 0.0,
+                ending=endings[o.name],
+            )
+            for k, o in enumerate(layout.outputs)
+        )
 
     def values(self) -> list[Value]:
         """The parameters in the order of the vector."""
@@ -114,36 +170,63 @@ class Contents:
         found = []
         for name in self.chain.INPUTS:
             match = None if name in SI_UNITS else _DERIVATIVE.fullmatch(name)
-            if match is None:
+            if name in SPIN:
+                found.append(Input(name=name, column=DISC, derivative=1 + SPIN.index(name)))
+            elif match is None:
                 found.append(Input(name=name, column=name, derivative=0))
             else:
                 found.append(Input(name=name, column=match["of"], derivative=int(match["order"] or 1)))
         return found
 
-    def columns(self) -> list[str]:
-        """The columns of a flight that the model reads, beside ``time`` and ``spin_angle``."""
-        return list(dict.fromkeys(x.column for x in self.inputs()))
+    def angles(self) -> list[str]:
+        """The columns of disc angles."""
+        return list(dict.fromkeys(o.angle_column for o in self.outputs()))
 
-    def example(self) -> tuple[dict[str, Array], Array]:
-        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and G_out (N,), V, that the model makes of it."""
+    def columns(self) -> list[str]:
+        """The columns of a flight that the model reads, beside ``time`` and the disc angles."""
+        return list(dict.fromkeys(x.column for x in self.inputs() if x.column != DISC))
+
+    def example(self, *, derived: bool = False) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it.
+
+        ``derived``: the motion has no angular acceleration, but encoders whose turning is not quite steady.
+        """
         t = np.arange(ROWS) / RATE
         rng = np.random.default_rng(0)
         columns: dict[str, Array] = {"time": t}
         for name in self.columns():
+            if name in columns:
+                continue
             mean, size = _SIZES.get(name.partition("_")[0], (0.1, 1.0))
-            f, phase = rng.uniform(0.05, 1.0), rng.uniform(0.0, 2 * np.pi)
-            columns[name] = mean + size * np.sin(2 * np.pi * f * t + phase)
+            f, angle = rng.uniform(0.05, 1.0), rng.uniform(0.0, 2 * np.pi)
+            columns[name] = mean + size * np.sin(2 * np.pi * f * t + angle)
             if name in ANGULAR_RATE and (change := f"omegadot{name[5:]}") in self.columns():
-                columns[change] = size * 2 * np.pi * f * np.cos(2 * np.pi * f * t + phase)
-        record = Record(
-            time=t,
-            wide={n: x for n, x in columns.items() if n != "time"},
-            rate=RATE,
-            valid=np.ones(ROWS, dtype=np.bool_),
-            spin_frequency=float(self.p[1]),
-        )
-        evaluator = self.model.compiled("numpy")
-        return columns, evaluator.output(t, record.inputs(self.chain), self.p, record.phi)
+                columns[change] = size * 2 * np.pi * f * np.cos(2 * np.pi * f * t + angle)
+        if derived:
+            columns = {n: x for n, x in columns.items() if n not in ANGULAR_ACCELERATION}
+            spins = {o.angle_column: float(self.p[o.spin]) for o in self.outputs()}
+            columns |= {
+                n: np.mod(2 * np.pi * f * t + 1e-3 * np.sin(0.7 * t), 2 * np.pi) for n, f in spins.items()
+            }
+        return columns, self._answers(columns)
+
+    def _answers(self, columns: Mapping[str, Array]) -> dict[str, Array]:
+        t, wide = columns["time"], {n: x for n, x in columns.items() if n != "time"}
+        for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
+            if name not in wide and rate in wide:
+                wide[name] = Derivative().of(wide[rate], RATE)[0]
+        evaluator, found = self.model.compiled("numpy"), {}
+        for k, o in enumerate(self.outputs()):
+            record = Record(
+                time=t,
+                wide=wide,
+                rate=RATE,
+                valid=np.ones(len(t), dtype=np.bool_),
+                spin_frequency=float(self.p[o.spin]),
+                angle_column=o.angle_column,
+            )
+            found[o.name] = evaluator.output(t, record.inputs(self.chain), self.p, record.phi, which=k)
+        return found
 
 
 _SIZES: Mapping[str, tuple[float, float]] = {
@@ -161,7 +244,7 @@ _SIZES: Mapping[str, tuple[float, float]] = {
 
 def unit_of(column: str) -> str:
     """SI unit of a column, for one of no fixed meaning ``1``."""
-    return SI_UNITS.get(column, "1")
+    return SI_UNITS.get(column, "rad" if column == DISC or column.startswith("spin_angle") else "1")
 
 
 def is_gradient(column: str) -> bool:

@@ -12,15 +12,30 @@ FORM = Form("the exported model")
 
 
 def document(c: Contents) -> dict[str, Any]:
-    """The model's description, its parameters with units, its inputs, and an example with its answer."""
-    motion, G = c.example()
+    """The model's description, its parameters with units, its inputs and outputs, and an example with its answer.
+
+    An input of the column ``disc`` is made of the angle of the output's own disc.
+    """
+    motion, answers = c.example()
+    outputs = [
+        {
+            "name": o.name,
+            "unit": "V",
+            "is": o.formula,
+            "accelerometers": list(o.members),
+            "signs": list(o.signs),
+            "spin_angle": o.angle_column,
+            "spin_frequency": float(c.p[o.spin]),
+            "scale_factor": {"value": o.scale_factor, "unit": "V/Eo"},
+        }
+        for o in c.outputs()
+    ]
     return {
         **FORM.stamp(),
         "model": c.name,
         "origin": c.origin,
         "derivation": c.model.digest,
         "g0": {"value": c.instrument.g0, "unit": "m/s^2"},
-        "scale_factor": {"value": c.scale_factor, "unit": "V/Eo"},
         "effects": [
             {"id": e.id, "title": e.title, "physics": e.physics, "equation": e.equation, "source": e.source}
             for e in c.model.effects
@@ -33,11 +48,12 @@ def document(c: Contents) -> dict[str, Any]:
             {"name": x.name, "column": x.column, "derivative": x.derivative, "unit": unit_of(x.column)}
             for x in c.inputs()
         ],
-        "output": {"name": "G_out", "unit": "V", "is": "V_1 + V_2 - V_3 - V_4"},
+        "outputs": outputs,
+        **({"output": outputs[0], "scale_factor": outputs[0]["scale_factor"]} if len(outputs) == 1 else {}),
         "calibration": None if c.calibration is None else dict(c.calibration),
         "example": {
             "columns": {n: [float(x) for x in values] for n, values in motion.items()},
-            "G_out": [float(x) for x in G],
+            **{n: [float(x) for x in answer] for n, answer in answers.items()},
         },
     }
 

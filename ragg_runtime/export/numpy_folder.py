@@ -8,12 +8,19 @@ from importlib import resources
 from ragg_runtime.export.contents import Contents
 from ragg_runtime.export.document import json_files
 from ragg_runtime.export.program import example_files
-from ragg_runtime.signals.derivative import WINDOW, weights
+from ragg_runtime.flight.angular_acceleration import wide_weights
+from ragg_runtime.model.record import HALO, SPIN_WINDOW
+from ragg_runtime.signals.derivative import DEGREE, WINDOW, weights
 
 
 def numpy_files(c: Contents) -> dict[str, str]:
     """File name -> text."""
-    slopes = [[float(x) for x in weights(WINDOW, k)] for k in range(WINDOW // 2 + 1)]
+    short = [[float(x) for x in weights(WINDOW, k)] for k in range(WINDOW // 2 + 1)]
+    slopes = {
+        "short": short,
+        "long": [float(x) for x in wide_weights()],
+        "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degree": DEGREE},
+    }
     program = resources.files("ragg_runtime.export").joinpath("python", "ragg_model.py").read_text("utf-8")
     return {
         **json_files(c),

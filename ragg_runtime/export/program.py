@@ -1,161 +1,84 @@
-"""A calibrated model as a C program that turns a CSV of motion into G_out."""
+"""A calibrated model as a C program that turns a CSV of motion into its outputs."""
 
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping, Sequence
 from importlib import resources
-
-import numpy as np
-from numpy.typing import NDArray
 
 from ragg_runtime.export.contents import Contents, is_gradient, unit_of
 from ragg_runtime.export.online import online_values, table
-from ragg_runtime.flight.record import SI_UNITS
-from ragg_runtime.signals.derivative import WINDOW, weights
-
-Array = NDArray[np.float64]
+from ragg_runtime.export.values import values_header
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION
 
 TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""
 
-SPELLINGS: Mapping[str, str] = {
-    "m/s^2": "m/s^2|m/s2|m/s**2|m s^-2",
-    "rad/s": "rad/s|1/s|rad s^-1",
-    "rad/s^2": "rad/s^2|rad/s2|rad/s**2|1/s^2|rad s^-2",
-    "s^-2": "s^-2|1/s^2|1/s2|1/s**2|s**-2",
-}
-"""How people write an SI unit; other units are taken as they are written in the flight's documentation."""
+PROGRAM = ("main.c", "record.c", "record.h", "slopes.c", "slopes.h", "compare.c")
+ONLINE = ("online.h", "online.c", "online_main.c")
 
 
 def c_program(c: Contents) -> dict[str, str]:
     """File name -> text of everything that `make` needs, with a test."""
     name = next(n.removesuffix(".c") for n in c.sources if n.endswith(".c"))
+    online = any(o.sees for o in c.outputs())
     makefile = _packaged("Makefile").replace("@MODEL@", name)
+    scale = min(abs(o.scale_factor) for o in c.outputs())
+    makefile = makefile.replace("@PROGRAMS@", "ragg_model ragg_online" if online else "ragg_model")
     return {
-        "Makefile": makefile.replace("@TOLERANCE@", f"{TOLERANCE_EO * abs(c.scale_factor):.3g}"),
-        "README.txt": _readme(c),
-        **{n: _packaged(n) for n in ("main.c", "compare.c", "online.h", "online.c", "online_main.c")},
-        "online_values.h": online_values(c),
+        "Makefile": makefile.replace("@TOLERANCE@", f"{TOLERANCE_EO * scale:.3g}"),
+        "README.txt": _readme(c, online),
+        **{n: _packaged(n) for n in (*PROGRAM, *(ONLINE if online else ()))},
+        **({"online_values.h": online_values(c)} if online else {}),
         **{n: c.model.sources[n] for n in ("chain.c", "chain.h")},
         **c.sources,
-        "values.h": _values(c, name),
+        "values.h": values_header(c, name),
         **example_files(c),
     }
 
 
 def example_files(c: Contents) -> dict[str, str]:
-    """A short motion as a CSV, and the model's answer to it."""
-    motion, G = c.example()
-    return {
-        "test/motion.csv": table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()}),
-        "test/G_out.csv": table({"time": motion["time"], "G_out": G}),
-    }
+    """Two short motions as CSV, the second without angular acceleration but with encoders, and the model's answers."""
+    found = {}
+    for prefix, derived in (("", False), ("derived_", True)):
+        motion, outputs = c.example(derived=derived)
+        found[f"test/{prefix}motion.csv"] = table({f"{n} [{unit_of(n)}]": x for n, x in motion.items()})
+        found[f"test/{prefix}G_out.csv"] = table({"time": motion["time"], **outputs})
+    return found
 
 
 def _packaged(name: str) -> str:
     return resources.files("ragg_runtime.export").joinpath("c", name).read_text("utf-8")
 
 
-def _readme(c: Contents) -> str:
+def _readme(c: Contents, online: bool) -> str:
     effects = ", ".join(e.id for e in c.model.effects) or "none"
-    needed = ", ".join(f"{n} [{unit_of(n)}]" for n in c.columns() if not is_gradient(n))
-    return textwrap.dedent(
+    spare = {n for n in c.columns() if is_gradient(n) or n in ANGULAR_ACCELERATION}
+    needed = ", ".join(f"{n} [{unit_of(n)}]" for n in c.columns() if n not in spare)
+    outputs = ", ".join(f"{o.name} = {o.formula}" for o in c.outputs())
+    text = textwrap.dedent(
         f"""\
         The instrument model {c.name} as a C program.
         Values: {c.origin}. Effects beyond the paper's instrument: {effects}.
+        Outputs, V: {outputs}.
 
         make                                          builds ragg_model
-        make check                                    holds it against the answer that Python gave
-        ./ragg_model < MOTION.csv > OUT.csv           G_out, V, of a record of motion
+        make check                                    holds it against the answers that Python gave
+        ./ragg_model < MOTION.csv > OUT.csv           the outputs of a record of motion
         ./ragg_model --values                         the parameters that are built in
-        online.h                                      calibration and compensation sample by sample, no allocation
 
         Columns that MOTION.csv must have, in SI units: time [s], {needed}.
-        omegadot is not derived here; ragg_runtime.flight.write_flight(read_flight(FILE, g0), OUT) writes it as Python derives it.
-        Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; spin_angle [rad] replaces 2 pi f t.
+        omegadot_x, omegadot_y, omegadot_z [rad/s^2]: where they are missing they are derived from omega as Python does it
+        (even steps; runs shorter than 25 samples have none).
+        Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; {", ".join(c.angles())} [rad] replaces 2 pi f t.
         """
     )
+    if not online:
+        return text
+    return text + textwrap.dedent(
+        """\
 
-
-def _values(c: Contents, name: str) -> str:
-    """values.h: the model's columns, inputs and parameters as tables."""
-    columns = ["time", "spin_angle", *c.columns()]
-    inputs = [f"{{{columns.index(x.column)}, {x.derivative}}}, /* {x.name} */" for x in c.inputs()]
-    rows, names, si = [], [], []
-    for v in c.values():
-        for j, x in enumerate(v.values, 1):
-            label = v.name if len(v.values) == 1 else f"{v.name}[{j}]"
-            rows.append(f"{float(x):.17g}, /* {_comment(f'{label}, {v.unit}: {v.meaning}')} */")
-            names.append(f'"{_text(label)}",')
-            si.append(f'"{_text(v.unit)}",')
-    given = [f'{{"{_text(n)}", "{_text(_accepted(n))}", {int(_needed(n))}}},' for n in columns]
-    half = WINDOW // 2
-    slopes = [", ".join(f"{x:.17g}" for x in weights(WINDOW, k)) for k in range(half + 1)]
-    return "\n".join(
-        [
-            f"/* The model {_comment(c.name)}: {_comment(c.origin)}. Everything is in SI units. */",
-            "#ifndef RAGG_VALUES_H",
-            "#define RAGG_VALUES_H",
-            "",
-            f'#include "{name}.h"',
-            "",
-            f"#define MODEL ragg_{name}_output",
-            "",
-            f"enum {{ COLUMNS = {len(columns)}, INPUTS = {len(inputs)}, PARAMETERS = {len(rows)}, WINDOW = {WINDOW} }};",
-            "enum { TIME = 0, SPIN_ANGLE = 1 };",
-            "",
-            "/* Name, accepted spellings of the unit, and whether it must be there (else it is zero). */",
-            "static const struct { const char *name, *units; int needed; } COLUMN[COLUMNS] = {",
-            *_indented(given),
-            "};",
-            "",
-            "/* Which column each input of the model is, and how often it is differentiated by time. */",
-            "static const struct { int column, derivative; } INPUT[INPUTS] = {",
-            *_indented(inputs),
-            "};",
-            "",
-            "static const double PARAMETER[PARAMETERS] = {",
-            *_indented(rows),
-            "};",
-            "static const char *const PARAMETER_NAME[PARAMETERS] = {",
-            *_indented(names),
-            "};",
-            "static const char *const PARAMETER_UNIT[PARAMETERS] = {",
-            *_indented(si),
-            "};",
-            "",
-            "/* Weights of a window of samples for the derivative, per sample, at its first, second ... middle sample. */",
-            "static const double DERIVATIVE[WINDOW / 2 + 1][WINDOW] = {",
-            *_indented([f"{{{row}}}," for row in slopes]),
-            "};",
-            "",
-            "#endif",
-            "",
-        ]
-    )
-
-
-def _needed(column: str) -> bool:
-    return column != "spin_angle" and not is_gradient(column)
-
-
-def _accepted(column: str) -> str:
-    return SPELLINGS.get(SI_UNITS[column], SI_UNITS[column]) if column in SI_UNITS else "*"
-
-
-def _indented(lines: Sequence[str]) -> list[str]:
-    return [f"    {line}" for line in lines]
-
-
-def _text(x: str) -> str:
-    """Inside a C string: names may be those of a stranger's file."""
-    return "".join(ch if ch.isascii() and ch.isprintable() and ch not in '"\\?' else "_" for ch in x)
-
-
-def _comment(x: str) -> str:
-    return (
-        "".join(ch if ch.isprintable() and ch != "\\" else "_" for ch in x)
-        .replace("*/", "* /")
-        .replace("/*", "/ *")
+        ./ragg_online NOISE_V WALK_EO FORGET_S < FLIGHT.csv > OUT.csv
+            calibrates and compensates sample by sample: the same columns and the recorded outputs in V.
+        online.h                                      the same for a program of your own, without allocation
+        """
     )

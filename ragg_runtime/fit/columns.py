@@ -78,32 +78,31 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
-            found += [
-                (c, start[s] + (c.accelerometer or 1) - 1)
-                for c, s in _of_effect(e, known, instrument.layout.size)
-            ]
+            found += [(c, start[s] + (c.accelerometer or 1) - 1) for c, s in _of_effect(e, known, instrument)]
     return found
+
+
+def own_columns(columns: Sequence[Column], instrument: Instrument, place: int) -> list[int]:
+    """Which of the fitted parameters an output's accelerometers have, or share with others."""
+    members = instrument.layout.outputs[place].members
+    return [k for k, c in enumerate(columns) if c.accelerometer is None or c.accelerometer - 1 in members]
 
 
 def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
     """The parameters of the effects that are not in the model, in the order of the signatures' rows."""
     known = units(instrument.g0)
-    return [
-        c
-        for e in model.candidates
-        if e.kind != "output"
-        for c, _ in _of_effect(e, known, instrument.layout.size)
-    ]
+    return [c for e in model.candidates if e.kind != "output" for c, _ in _of_effect(e, known, instrument)]
 
 
-def _of_effect(e: Effect, known: Units, count: int) -> list[tuple[Column, str]]:
+def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
     for q in e.parameters:
         if not q.fitted:
             continue
         factor = unit_factor(q.unit, known)
-        for j in (None,) if q.shared else range(1, count + 1):
-            column = Column(f"{e.id}.{q.name}", j, EFFECT_PRIOR * q.plausible * factor, q.unit, factor, e.id)
+        scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
+        for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
+            column = Column(f"{e.id}.{q.name}", j, scale, q.unit, factor, e.id)
             columns.append((column, q.symbol))
     return columns
 

@@ -66,3 +66,12 @@ def fold(trapezoids: Sequence[Array]) -> Array:
         part = np.array(t, order="F")
         R, *_ = linalg.lapack.dtpqrt(len(t), min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
     return np.asarray(np.triu(R))
+
+
+def of_some(root: Array, own: Sequence[int]) -> Array:
+    """(n, n): what a root (all, all) of an information knows of some parameters, whatever the others are."""
+    others = [k for k in range(len(root)) if k not in set(own)]
+    if not others:
+        return root
+    whole = np.asarray(np.linalg.qr(root[:, [*others, *own]], mode="r"))
+    return whole[len(others) :, len(others) :]

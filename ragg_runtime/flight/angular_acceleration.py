@@ -58,7 +58,7 @@ class Derivative:
             n = run.stop - run.start
             if n > 2 * REACH:
                 x = omega[run] - omega[run.start]
-                inner = ndimage.correlate1d(x, _wide(), mode="nearest")[REACH : n - REACH]
+                inner = ndimage.correlate1d(x, wide_weights(), mode="nearest")[REACH : n - REACH]
                 result[run.start + REACH : run.stop - REACH] = inner * rate
             unsure = min(self.unsure, n // 8)
             sure[run.start + unsure : run.stop - unsure] = n > 1
@@ -99,11 +99,11 @@ def _unsure(series: Sequence[Array]) -> int:
         parts = [ndimage.correlate1d(x, taps, mode="nearest", origin=origin) for x in series]
         return np.concatenate([y[i] for y, i in zip(parts, inner, strict=True)])
 
-    best = made(_wide())
+    best = made(wide_weights())
     longest = max(series, key=len)
     f, p = signal.welch(longest, 2.0, window="hann", nperseg=min(256, len(longest) // 4), detrend="constant")
     noise = np.sqrt(np.median(p[f > BAND][:-1]))
-    limit = max(ROUGH * float(np.std(best)), NOISIER * float(noise * np.linalg.norm(_wide())))
+    limit = max(ROUGH * float(np.std(best)), NOISIER * float(noise * np.linalg.norm(wide_weights())))
     for at in range(WINDOW // 2, -1, -1):
         if np.sqrt(np.mean((made(weights(WINDOW, at), at - WINDOW // 2) - best) ** 2)) > limit:
             return REACH if at == WINDOW // 2 else at + 1
@@ -111,7 +111,7 @@ def _unsure(series: Sequence[Array]) -> int:
 
 
 @cache
-def _wide() -> Array:
+def wide_weights() -> Array:
     """Weights (2 REACH + 1,) of a derivative, per sample, at the middle one.
 
     Least squares of the relative error of the response in the band, exact for polynomials up to the fourth degree.

@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -32,18 +33,31 @@ _EPOCHS = ((GPS_EPOCH, "GPS time"), (datetime(1970, 1, 1, tzinfo=UTC), "Unix tim
 
 @dataclass(frozen=True)
 class Draft:
-    """A mapping to begin with: its text, what has to be answered, and the columns that nothing is made of."""
+    """A mapping to begin with.
+
+    Attributes
+    ----------
+    text
+        The file.
+    questions
+        What has to be answered.
+    unused
+        Columns that nothing is made of.
+    sure
+        Channel -> ``certain``, ``likely`` or ``guess``.
+    """
 
     text: str
     questions: tuple[str, ...]
     unused: tuple[str, ...]
+    sure: Mapping[str, str]
 
 
 def draft(path: Path) -> Draft:
     """Look at a file's first table and write a mapping for it."""
     tables = open_file(path, Look(text=True))
     table = tables[0]
-    values = _sample(table)
+    values = sample(table)
     lines: list[str] = [
         f"# How ragg reads {path.name}: written by `ragg map`, to be looked over.",
         '# certain: the name is ragg\'s own; likely: usual for it; guess: look twice. "?" waits for an answer.',
@@ -51,9 +65,10 @@ def draft(path: Path) -> Draft:
     ]
     questions: list[str] = []
     used: set[str] = set()
+    sure: dict[str, str] = {}
     lines += _file(table, tables, used)
     lines += _time(table, values, used, questions)
-    lines += _columns(table, values, used, questions)
+    lines += _columns(table, values, used, questions, sure)
     unused = [h for h in table.headings if h.name not in used]
     if unused:
         lines += ["", "# Not used (any column can be kept as an auxiliary channel under a name of its own):"]
@@ -67,7 +82,12 @@ def draft(path: Path) -> Draft:
             '# cutoff = "0.18 Hz"',
             "# order = 6",
         ]
-    return Draft("\n".join(lines) + "\n", tuple(questions), tuple(h.name for h in unused))
+    return Draft(
+        text="\n".join(lines) + "\n",
+        questions=tuple(questions),
+        unused=tuple(h.name for h in unused),
+        sure=MappingProxyType(sure),
+    )
 
 
 def _file(table: Table, tables: Sequence[Table], used: set[str]) -> list[str]:
@@ -149,7 +169,11 @@ def _instants(table: Table, values: Mapping[str, NDArray[Any]]) -> tuple[tuple[s
 
 
 def _columns(
-    table: Table, values: Mapping[str, NDArray[Any]], used: set[str], questions: list[str]
+    table: Table,
+    values: Mapping[str, NDArray[Any]],
+    used: set[str],
+    questions: list[str],
+    sure: dict[str, str],
 ) -> list[str]:
     lines = ["[columns]"]
     taken: dict[str, str] = {}
@@ -171,6 +195,7 @@ def _columns(
         unit, remark = (
             (role.unit, "") if role.unit else _unit(h, name, values[h.name], questions, f"[columns] {name}")
         )
+        sure[name] = role.sure
         scale = f", scale = {role.scale:g}" if role.scale != 1.0 else ""
         told = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
         lines.append(f'{_key(name)} = {{ column = "{_quoted(h.name)}", unit = "{unit}"{scale} }}{told}')
@@ -223,7 +248,7 @@ def _origin(values: NDArray[Any]) -> list[str]:
     return found
 
 
-def _sample(table: Table) -> dict[str, NDArray[Any]]:
+def sample(table: Table) -> dict[str, NDArray[Any]]:
     """The first rows of every column."""
     parts: dict[str, list[NDArray[Any]]] = {h.name: [] for h in table.headings}
     count = 0

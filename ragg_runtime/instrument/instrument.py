@@ -139,6 +139,13 @@ class Instrument:
             return self.sigmas[name]
         return PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
 
+    def grade(self, name: str | None) -> float:
+        """How many times less sure the sheet is of a parameter than of a navigation instrument's; 1 if it says nothing."""
+        if name is None or name not in self.sigmas:
+            return 1.0
+        usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
+        return max(1.0, float(np.median(self.sigmas[name] / usual)))
+
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
         """The same instrument with another list of effects."""
         return dataclasses.replace(self, effects=tuple(effects))

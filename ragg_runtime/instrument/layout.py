@@ -237,6 +237,14 @@ class Layout:
         return self.discs[0].name == ""
 
 
+def column_endings(outputs: Sequence[str]) -> tuple[str, ...]:
+    """What the columns made of each output end in: nothing of an only one, else its own (``_A`` of ``G_out_A``)."""
+    if len(outputs) == 1:
+        return ("",)
+    short = tuple(f"_{n.removeprefix('G_out').strip('_') or n}" for n in outputs)
+    return short if len(set(short)) == len(short) else tuple(f"_{n}" for n in outputs)
+
+
 _FOUR = tuple(
     Place(name=f"A{k}", disc=0, angle=quarters * QUARTER, radius=1.0, sign=sign)
     for k, quarters, sign in ((1, 0, 1), (2, 2, 1), (3, 1, -1), (4, 3, -1))

@@ -46,7 +46,8 @@ class Chain(Protocol):
 class EffectParameter:
     """A parameter of an effect; ``unit`` is for display, ``symbol`` its name in the parameter vector.
 
-    ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any).
+    ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any). ``plausible`` is of a
+    navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
     """
 
     name: str
@@ -60,6 +61,7 @@ class EffectParameter:
     channel: str | None
     fitted: bool
     physical: float | None = None
+    like: str | None = None
 
     @property
     def default(self) -> float:

@@ -9,7 +9,6 @@ from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import savgol_filter
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
@@ -17,7 +16,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
 from ragg_runtime.model.model import Chain
-from ragg_runtime.signals.derivative import differentiate
+from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
 
 Array = NDArray[np.float64]
 
@@ -34,8 +33,6 @@ SPIN = ("d_spin_angle", "d2_spin_angle")
 SPIN_WINDOW = 0.6
 """Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
 differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn."""
-
-_SPIN_DEGREE = 5
 
 
 @dataclass(frozen=True)
@@ -174,12 +171,11 @@ def spin(name: str, encoder: Array | None, samples: int, rate: float, spin_frequ
     order = SPIN.index(name) + 1
     if encoder is None:
         return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
-    half = min(max(round(SPIN_WINDOW * rate), _SPIN_DEGREE), HALO, (samples - 1) // 2)
-    if 2 * half < _SPIN_DEGREE:
+    half = min(max(round(SPIN_WINDOW * rate), DEGREE), HALO, (samples - 1) // 2)
+    if 2 * half < DEGREE:
         return np.full(samples, np.nan)
     angle = np.unwrap(encoder)
-    smooth = savgol_filter(angle - angle[0], 2 * half + 1, _SPIN_DEGREE, deriv=order, delta=1 / rate)
-    return np.asarray(smooth, dtype=np.float64)
+    return smooth_slope(angle - angle[0], half, order) * (rate if order == 1 else rate * rate)
 
 
 def disc_angle(time: Array, spin_frequency: float) -> Array:

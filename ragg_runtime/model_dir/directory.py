@@ -1,4 +1,4 @@
-"""A model directory: model.toml, generated/, history.json and calibration.json, changed all together or not at all.
+"""A model directory: model.toml, generated/, history.json, calibration.json, mapping.toml, changed all together or not at all.
 
 A change is a transaction (:mod:`ragg_runtime.base.transaction`): a process may be killed at any instant. Writers
 hold a lock; readers need none: they look again if a change came between. What a killed writer left unfinished
@@ -29,11 +29,11 @@ __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_mo
 
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 MAPPING = "mapping.toml"
-"""How the columns of the instrument's flight files are read (see ``flight.mapping``); nothing but the user changes it."""
+"""How the columns of the instrument's flight files are read (see ``flight.mapping``); only what the user gives replaces it."""
 Code = Mapping[str, str] | Path | None
 """Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
 
-NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION)
+NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION, MAPPING)
 """All that a change of a model directory concerns."""
 
 _LONGEST = 1 << 26  # bytes of calibration.json
@@ -62,6 +62,8 @@ class ModelDir:
         Whether this is the new state of a change that was cut off before all of it was in its place.
     calibration
         The text of calibration.json; ``None``: nothing was ever saved.
+    mapping
+        The file that says what the columns of the instrument's flight files are; ``None``: there is none.
     """
 
     path: Path
@@ -72,6 +74,7 @@ class ModelDir:
     digest: str
     unfinished: bool = False
     calibration: str | None = None
+    mapping: Path | None = None
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -144,9 +147,7 @@ def create_model_dir(
     except OSError as error:
         raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
     try:
-        _stage(staging, text, generated, history)
-        if mapping is not None:
-            (staging / MAPPING).write_bytes(mapping.encode())
+        _stage(staging, text, generated, history, mapping=mapping)
         for place in sorted(staging.rglob("*"), reverse=True):
             sync(place)
         staging.chmod(parent.stat().st_mode & 0o777)
@@ -168,10 +169,11 @@ def replace_model_dir(
     generated: Code,
     history: tuple[Step, ...],
     calibration: str | None = None,
+    mapping: str | None = None,
 ) -> ModelDir:
     """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
 
-    Without a ``calibration`` (text of calibration.json) the one that is there stays.
+    Without a ``calibration`` or ``mapping`` (text of calibration.json, mapping.toml) the one that is there stays.
 
     Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
     """
@@ -194,7 +196,7 @@ def replace_model_dir(
                 remedy="look at it with: ragg history, and run the command again",
             )
         try:
-            _stage(transaction.stage(path), text, generated, history, calibration)
+            _stage(transaction.stage(path), text, generated, history, calibration, mapping)
             folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
             transaction.switch(path, folders, removed=removed)
         except OSError as error:
@@ -207,9 +209,16 @@ def replace_model_dir(
 
 
 def _stage(
-    folder: Path, text: str, generated: Code, history: tuple[Step, ...], calibration: str | None = None
+    folder: Path,
+    text: str,
+    generated: Code,
+    history: tuple[Step, ...],
+    calibration: str | None = None,
+    mapping: str | None = None,
 ) -> None:
     """Write a complete state into an empty folder."""
+    if mapping is not None:
+        (folder / MAPPING).write_bytes(mapping.encode())
     if calibration is not None:
         (folder / CALIBRATION).write_bytes(calibration.encode())
     (folder / MODEL).write_bytes(text.encode())
@@ -257,7 +266,7 @@ def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
 
 def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
     """The state whose parts stand at these ``places`` (:func:`ragg_runtime.base.transaction.places`)."""
-    model, generated, history, calibration = (places[name] for name in NAMES)
+    model, generated, history, calibration, mapping = (places[name] for name in NAMES)
     if model is None or not os.path.lexists(model):
         raise UserError(
             "not a model directory: model.toml is missing",
@@ -287,6 +296,7 @@ def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
             if calibration is not None and os.path.lexists(calibration)
             else None
         ),
+        mapping=mapping if mapping is not None and mapping.exists() else None,
     )
 
 

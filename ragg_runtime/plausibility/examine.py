@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
@@ -30,6 +31,7 @@ SENSELESS = 20.0
 """Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
 
 
+@one_thread
 def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     """The flight with its spikes marked as missing, and with what was done or looks odd in its notes.
 
@@ -145,17 +147,11 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     n = len(p.flight)
     names = p.columns
     left = np.empty((len(names), n))
+    evaluator = model.compiled("auto" if model.in_machine_code and n >= MANY else "numpy")
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)
-        volts = np.stack(
-            [
-                model.chain.accelerometer(
-                    j, rows.time, np.cos(rows.phi), np.sin(rows.phi), x, model.chain.values_of(j, fitted)
-                )
-                for j in p.output.members
-            ]
-        )
+        volts = evaluator.voltages(rows.time, x, fitted, rows.phi, 1, p.output.members)
         left[:, start : start + CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
     notes = []
     for name, e in zip(names, left, strict=True):

@@ -117,7 +117,7 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
         return found, x
     y = np.array(x[places])
     off = np.zeros(len(y), dtype=np.bool_)
-    spread: Array | None = None
+    before: Array | None = None
     for _ in range(12):
         error = y - ndimage.correlate1d(y, _FORETOLD, mode="mirror")
         size = np.abs(error)
@@ -126,20 +126,18 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
         far = size > GLITCH * np.maximum(usual, np.median(size)) / 0.67
         if not far.any():
             break
-        if spread is None:
-            spread = np.asarray(
-                ndimage.percentile_filter(y, 90, 25, mode="nearest")
-                - ndimage.percentile_filter(y, 10, 25, mode="nearest")
-            )
-        far &= (size > 2 * spread) & (size >= ndimage.maximum_filter1d(size, 7, mode="nearest"))
-        if not far.any():
+        before = np.array(y) if before is None else before
+        at = np.flatnonzero(far)
+        at = at[(size[at] > 2 * _spread(before, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
+        if not len(at):
             break
-        off |= far
+        off[at] = True
         good = np.flatnonzero(~off)
         y[off] = np.interp(np.flatnonzero(off), good, y[good])
-    if spread is not None:
+    if before is not None:
         # what was only spoiled by a glitch beside it stays
-        off &= np.abs(x[places] - y) > 2 * spread
+        at = np.flatnonzero(off)
+        off[at] = np.abs(x[places[at]] - y[at]) > 2 * _spread(before, at)
         y[~off] = x[places][~off]
     if not off.any() or np.mean(off) > MOST:
         return found, x
@@ -147,6 +145,17 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     mended = np.array(x)
     mended[places] = y
     return found, mended
+
+
+def _about(x: Array, at: NDArray[np.intp], side: int) -> Array:
+    """(m, 2 side + 1): a series about some of its samples; beyond its ends it stays what it is there."""
+    return np.asarray(x[np.clip(at[:, None] + np.arange(-side, side + 1), 0, len(x) - 1)])
+
+
+def _spread(x: Array, at: NDArray[np.intp]) -> Array:
+    """(m,): from the third to the 23rd of the 25 samples about some samples, by size."""
+    ordered = np.sort(_about(x, at, 12), axis=1)
+    return np.asarray(ordered[:, 22] - ordered[:, 2])
 
 
 def _parts(n: int, part: int) -> Iterator[tuple[slice, slice]]:

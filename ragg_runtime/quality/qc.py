@@ -15,6 +15,7 @@ from ragg_runtime.flight.record import Array
 from ragg_runtime.quality.by_line import LineFigures, figures_of
 from ragg_runtime.quality.crossovers import Crossing, Misfits, Repeat, crossings, misfits, repeats
 from ragg_runtime.quality.discs import Discs, discs_of
+from ragg_runtime.quality.galileo_lines import as_galileo
 from ragg_runtime.quality.limits import Limit, limits_with
 from ragg_runtime.quality.lines import Read, read_lines
 from ragg_runtime.quality.track import tracks
@@ -41,6 +42,8 @@ class Quality:
         Lines that were flown again.
     dependences, days
         On heading, altitude, temperature, turbulence, vertical acceleration squared; from day to day.
+    galileo
+        Gaps, crossovers and repeats as galileoQC computes them.
     """
 
     read: Read
@@ -53,6 +56,7 @@ class Quality:
     repeats: tuple[Repeat, ...]
     dependences: tuple[Dependence, ...]
     days: tuple[Day, ...]
+    galileo: Mapping[str, Any]
 
     @property
     def failed(self) -> Mapping[str, int]:
@@ -81,6 +85,7 @@ class Quality:
             "repeats": [_plain(asdict(r)) for r in self.repeats],
             "dependences": [_plain(asdict(d)) for d in self.dependences],
             "days": [_plain(asdict(d)) for d in self.days],
+            "galileo": dict(self.galileo),
             "notes": list(self.read.notes),
         }
 
@@ -113,6 +118,7 @@ def qc(
     compared = [n for n in read.lines[0].channels if n in ("altitude", *read.lines[0].gradients)]
     where = crossings(flown)
     fits, differences = misfits(read.lines, where, compared)
+    again = repeats(read.lines, flown, compared)
     return Quality(
         read=read,
         discs=discs,
@@ -121,9 +127,10 @@ def qc(
         crossings=tuple(where),
         differences=differences,
         misfits=tuple(fits),
-        repeats=tuple(repeats(read.lines, flown, compared)),
+        repeats=tuple(again),
         dependences=(*dependences(found), *rectification(found, discs)),
         days=tuple(days(found)),
+        galileo=as_galileo(read.lines, flown, again, compared),
     )
 
 

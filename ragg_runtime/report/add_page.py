@@ -6,8 +6,19 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.parameters import calibrated
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.report import barcharts, budget, diagnose_page, figures, page, panels, parameters, series
+from ragg_runtime.report import (
+    barcharts,
+    budget,
+    diagnose_page,
+    effect_values,
+    figures,
+    page,
+    panels,
+    parameters,
+    series,
+)
 from ragg_runtime.report.barcharts import Step
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
@@ -41,6 +52,7 @@ def add_html(
         Of the flights, if one was made.
     """
     f = after.fitted
+    shown = Shown(fitted=f, residual=after.residual, before=before.residual)
     context: dict[str, Any] = {
         "kind": "The model, step by step",
         "state": "good" if after.adequate else "found",
@@ -50,10 +62,11 @@ def add_html(
         "errors": errors(before, after),
         "history": _history_table(history),
         "loop": _loop(history, after),
-        "sections": [*_sections(before, after), *panels_of("add", Shown(f, after.residual))],
+        "sections": [*_sections(before, after), *panels_of("add", shown)],
         "ranking": diagnose_page.ranking(diagnosis) if diagnosis else [],
         "evidence": diagnose_page.evidence(diagnosis, "evidence") if diagnosis else None,
         "budget": _budget(after),
+        "headlines": [(e.id, effect_values.headlines(*calibrated(f, e.id))) for e in f.model.effects],
         "effects": [r for r in parameters.by_accelerometer(f) if "." in r.symbol.name],
         "combined": [r for r in parameters.by_combination(f) if "." in r.symbol.name],
         "patterns": [name for name, _ in parameters.PATTERNS],
@@ -168,7 +181,10 @@ def _sections(before: Comparison, after: Comparison) -> list[dict[str, Any]]:
     drawn.append(
         page.figure(svg, "Residual after this step, and error in 24 blocks of time before and after it.")
     )
-    return [{"title": "The residual before and after", "text": [], "figures": drawn}]
+    return [
+        {"title": "The residual before and after", "text": [], "figures": drawn},
+        panels.measured_section(f, after.residual),
+    ]
 
 
 def _budget(after: Comparison) -> dict[str, Any]:

@@ -14,6 +14,9 @@ from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
+HALO = {"facecolor": draw.PAPER, "edgecolor": "none", "pad": 0.6}
+"""Behind a value that may stand on a line."""
+
 
 @dataclass(frozen=True)
 class Bar:
@@ -46,6 +49,11 @@ def _upright(ax: Axes, x: Array, bars: Sequence[Bar]) -> None:
             level, x[known] - 0.4, x[known] + 0.4, color=draw.NOISE, linestyle="--", label="noise alone"
         )
         draw.legend(ax, 1)
+    for k, b in enumerate(bars):
+        at = (float(x[k]), b.value)
+        text = numbers.number(b.value)
+        ax.annotate(text, at, xytext=(0, 4), textcoords="offset points", ha="center", fontsize=7.5, bbox=HALO)
+    ax.set_ylim(0.0, 1.14 * max([ax.get_ylim()[1] / 1.05, 1e-12]))
     ax.set_xticks(x, [b.label for b in bars])
     ax.set_xlim(-0.6, len(bars) - 0.4)
     draw.no_ticks(ax, "x")
@@ -75,7 +83,6 @@ def lying(bars: Sequence[Bar], name: str, label: str, unit: str, threshold: floa
             draw.log_ticks(ax, "x")
         else:
             ax.set_xlim(0.0, 1.12 * max(shown))
-        halo = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}
         for k, b in enumerate(bars):
             text = numbers.number(b.value) if np.isfinite(b.value) else "certain"
             ax.annotate(
@@ -85,7 +92,7 @@ def lying(bars: Sequence[Bar], name: str, label: str, unit: str, threshold: floa
                 textcoords="offset points",
                 va="center",
                 fontsize=7.5,
-                bbox=halo,
+                bbox=HALO,
             )
         if threshold is not None:
             ax.axvline(threshold, color=draw.NOISE, linestyle="--", linewidth=1.0, label="needed for a claim")
@@ -138,7 +145,13 @@ def loop(steps: Sequence[Step], noise: float, name: str, label: str) -> str:
         held = np.array([s.holdout for s in steps])
         if np.any(np.isfinite(held)):
             ax.plot(
-                x + 0.35, held, "o", color=draw.INK, markerfacecolor="white", markersize=5, label="held out"
+                x + 0.35,
+                held,
+                "o",
+                color=draw.INK,
+                markerfacecolor=draw.PAPER,
+                markersize=5,
+                label="held out",
             )
         ax.axhline(
             noise,
@@ -195,7 +208,7 @@ def budget(rows: Sequence[Contribution], noise: float, name: str, label: str) ->
                 y[seen],
                 marker,
                 color=draw.INK,
-                markerfacecolor="white",
+                markerfacecolor=draw.PAPER,
                 markersize=4.5,
                 label=text,
             )

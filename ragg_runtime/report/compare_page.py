@@ -42,7 +42,10 @@ def compare_html(
         "lead": lead(comparison),
         "facts": panels.facts(f),
         "errors": errors(comparison),
-        "sections": [*_sections(comparison), *panels_of("compare", Shown(f, comparison.residual))],
+        "sections": [
+            *_sections(comparison),
+            *panels_of("compare", Shown(fitted=f, residual=comparison.residual)),
+        ],
         "by_combination": parameters.by_combination(f),
         "by_accelerometer": parameters.by_accelerometer(f),
         "patterns": [name for name, _ in parameters.PATTERNS],
@@ -125,7 +128,7 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
     f = c.fitted
     chosen = series.worst(f, c.residual, panels.FLIGHTS)
     lines = [(figures.ONLY, c.residual)]
-    found = []
+    found = [panels.measured_section(f, c.residual)]
     drawn = [
         page.figure(
             figures.in_time(panels.time_panels(f, lines, chosen), "time", "calibrated residual over time"),

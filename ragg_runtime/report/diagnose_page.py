@@ -21,6 +21,10 @@ from ragg_runtime.report.parameters import Row
 from ragg_runtime.wording import numbers
 
 SHOWN_BARS = 12
+"""Effects whose evidence is drawn."""
+
+MOST_SAID = 3
+"""Values of an effect that the lead says."""
 
 
 def diagnose_html(
@@ -47,6 +51,7 @@ def diagnose_html(
         "groups": groups(d),
         "unexplained": unexplained(d) if d.verdict == "unexplained" else None,
         "physics": physics(d),
+        "headlines": [(r.effect, _headlines(r)) for r in d.ranking if r.effect in d.found],
         "effects": effect_rows(d, parameters.by_accelerometer),
         "combined": effect_rows(d, parameters.by_combination),
         "patterns": [name for name, _ in parameters.PATTERNS],
@@ -87,13 +92,11 @@ def lead(d: Diagnosis) -> list[str]:
     said = []
     for r in d.ranking:
         if r.effect in d.found:
-            v = effect_values.values(d.fitted, r)
-            if (len(d.found) > 1 or d.staged) and d.final is not None:
-                v = Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
-            clear = sorted((x for x in v.values if abs(x.z) > 3.0), key=lambda x: -abs(x.z))[:3]
+            clear = [x for x in _headlines(r) if abs(x.z) > 3.0]
             if clear:
-                sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear])
-                said.append(f"{numbers.clean(r.effect)}: {sizes_}{_instead(v)}.")
+                sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
+                instead = _instead(effect_values.values(d.fitted, r))
+                said.append(f"{numbers.clean(r.effect)}: {sizes_}{instead}.")
     for main, others in groups(d):
         said.append(
             f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
@@ -109,6 +112,10 @@ def lead(d: Diagnosis) -> list[str]:
             "An effect smaller than the sizes listed at the end may still be there: this record would not show it."
         )
     return said
+
+
+def _headlines(r: Ranked) -> tuple[Value, ...]:
+    return effect_values.headlines(r.parameters, r.combinations)
 
 
 def _named(v: Value) -> str:
@@ -180,7 +187,8 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
 def _fitted(d: Diagnosis, r: Ranked) -> Values:
     """Values of an effect alone; of one that was derived into the model first, those that it has there."""
     if d.staged and d.final is not None and any(q.effect == r.effect for q in d.final.calibration.columns):
-        return Values(tuple(effect_values.joint(d.final, r.effect)), 0, ())
+        best_first = sorted(effect_values.joint(d.final, r.effect), key=lambda v: -abs(v.z))
+        return Values(tuple(best_first), 0, ())
     return effect_values.values(d.fitted, r)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import io
+import json
 import re
 import warnings
 from collections.abc import Iterator
@@ -21,11 +22,28 @@ from ragg_runtime.wording import numbers
 INK = "#1a1a1a"
 QUIET = "#6b7075"
 RULE = "#d9dcdf"
+LINE = "#8a8f94"
+GRID = "#eceeef"
+PAPER = "#ffffff"
 RESIDUAL = "#1f4e79"
 RESIDUAL_LIGHT = "#b9cde0"
 BEFORE = "#a3a8ad"
 NOISE = "#b4531f"
 """Noise is always this orange-brown and dashed: it must be told in black and white, too."""
+
+NAMES = {
+    INK: "ink",
+    QUIET: "quiet",
+    RULE: "rule",
+    LINE: "line",
+    GRID: "grid",
+    PAPER: "paper",
+    RESIDUAL: "residual",
+    RESIDUAL_LIGHT: "envelope",
+    BEFORE: "before",
+    NOISE: "noise",
+}
+"""The colours by their names in the page's style sheet, which gives each for light and for dark."""
 
 WIDTH = 9.6
 """Width of every figure, inches: at the page's width a point is a little more than a pixel."""
@@ -42,7 +60,7 @@ _STYLE = {
     "axes.titlecolor": INK,
     "axes.labelsize": 8.0,
     "axes.labelcolor": INK,
-    "axes.edgecolor": "#8a8f94",
+    "axes.edgecolor": LINE,
     "axes.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -51,10 +69,10 @@ _STYLE = {
     "axes.unicode_minus": True,
     "axes.formatter.use_mathtext": False,
     "axes.formatter.useoffset": False,
-    "grid.color": "#eceeef",
+    "grid.color": GRID,
     "grid.linewidth": 0.6,
-    "xtick.color": "#8a8f94",
-    "ytick.color": "#8a8f94",
+    "xtick.color": LINE,
+    "ytick.color": LINE,
     "xtick.labelcolor": INK,
     "ytick.labelcolor": INK,
     "xtick.major.size": 3.0,
@@ -98,9 +116,17 @@ def figure(height: float) -> Figure:
     return made
 
 
+def live(ax: Axes, unit: str) -> None:
+    """Let the page's script read out and zoom all that is drawn in ``ax`` by now; ``unit`` is that of the abscissa."""
+    ax.set_gid(unit)
+
+
 def svg(made: Figure, name: str, label: str) -> str:
     """The figure as an inline ``<svg>`` element; ids begin with ``name``, ``label`` is its alternative text."""
     buffer = io.StringIO()
+    chosen = [ax for ax in made.axes if ax.get_gid()]
+    units = [str(ax.get_gid()) for ax in chosen]
+    curves = [_named(ax, n) for n, ax in enumerate(chosen)]
     with matplotlib.rc_context({"svg.hashsalt": name}):
         nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
         made.savefig(buffer, format="svg", metadata=nothing)
@@ -113,11 +139,54 @@ def svg(made: Figure, name: str, label: str) -> str:
     body = re.sub(r"<[^>]*>", lambda tag: _own(tag[0], name), body)
     body = re.sub(r"<!--.*?-->", "", body, flags=re.DOTALL)
     body = re.sub(r"\n\s*", "\n", body)
-    return f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}">{body}'
+    shown = [_limits(*x) for x in zip(chosen, units, curves, strict=True)]
+    data = f' data-live="{html.escape(json.dumps({"name": name, "axes": shown}, separators=(",", ":")))}"'
+    text = f'<svg {view[0]} role="img" aria-label="{html.escape(numbers.clean(label))}"'
+    return f"{text}{data if shown else ''}>{body}"
+
+
+def _named(ax: Axes, n: int) -> list[str]:
+    """Ids for what moves in an axes (``c0-1`` ...) and for its two scales; the labels, empty where there is none."""
+    ax.set_gid(f"a{n}")
+    ax.xaxis.set_gid(f"x{n}")
+    ax.yaxis.set_gid(f"y{n}")
+    artists = [*ax.collections, *ax.patches, *ax.lines]
+    for k, artist in enumerate(artists):
+        artist.set_gid(f"c{n}-{k}")
+    for k, text in enumerate(ax.texts):
+        text.set_gid(f"t{n}-{k}")
+    return [x if (x := str(a.get_label())) and not x.startswith("_") else "" for a in artists]
+
+
+def _limits(ax: Axes, unit: str, curves: list[str]) -> dict[str, Any]:
+    """Where an axes lies in the drawing, what it spans (first, last, whether logarithmic), and what it holds."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    wide, high = (72.0 * x for x in figure.get_size_inches())
+    b = ax.get_position()
+    return {
+        "box": [round(x, 2) for x in (b.x0 * wide, (1.0 - b.y1) * high, b.width * wide, b.height * high)],
+        "x": _span(ax.get_xlim(), ax.get_xscale()),
+        "y": _span(ax.get_ylim(), ax.get_yscale()),
+        "units": [unit, ax.get_ylabel().rpartition(", ")[2]],
+        "curves": curves,
+        "texts": len(ax.texts),
+    }
+
+
+def _span(ends: tuple[float, float], scale: str) -> list[float]:
+    return [*(float(f"{x:.9g}") for x in ends), float(scale == "log")]
 
 
 def _own(tag: str, name: str) -> str:
-    """A tag with ids of its own figure, and the reader's own sans-serif instead of a list of fonts."""
+    """A tag with ids of its own figure, colours by name, the reader's own sans-serif instead of a list of fonts, and
+    coordinates to a hundredth of a point.
+    """
+    tag = re.sub(
+        r"(: )(#[0-9a-f]{6})\b", lambda c: f"{c[1]}var(--{NAMES[c[2]]})" if c[2] in NAMES else c[0], tag
+    )
+    tag = re.sub(r"(\.\d\d)\d+", r"\1", tag)
+    tag = re.sub(r'( d=")([^"]*)', lambda d: d[1] + re.sub(r"\s*([A-Za-z])\s*", r"\1", d[2]), tag)
     tag = tag.replace(' id="', f' id="{name}-').replace('href="#', f'href="#{name}-')
     tag = tag.replace("url(#", f"url(#{name}-")
     tag = re.sub(r"font: (?:(\d+) )?([\d.]+px) [^;\"]*", _size, tag)

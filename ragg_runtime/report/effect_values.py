@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, gains
+from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, ParameterValue, gains
+from ragg_runtime.diagnosis.parameters import headlines as of_parameters
 from ragg_runtime.diagnosis.parameters import own_name as _name
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.evidence import likelihood_ratio, selection
@@ -69,6 +70,22 @@ def values(f: Fitted, r: Ranked) -> Values:
     found = _combined(f, own, _fit(f, own))
     kept = sorted(found, key=lambda v: -abs(v.z))[:MOST]
     return Values((*kept, *extra), len(found) - len(kept), ())
+
+
+def headlines(
+    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
+) -> tuple[Value, ...]:
+    """One value a parameter, the same numbers as on the terminal and in the JSON."""
+    return tuple(_headline(q) for q in of_parameters(parameters, combinations))
+
+
+def _headline(q: ParameterValue) -> Value:
+    of, _, name = q.name.rpartition(" ")
+    if q.std <= 0.0:
+        return _plain(name, q.value, q.unit)
+    of = of.replace("Sigma", "Σ") or (f"A{q.accelerometer}" if q.accelerometer else "")
+    text = numbers.with_unit(numbers.plus_minus(q.value, q.std), q.unit)
+    return Value(name, of, text, q.value / q.std)
 
 
 def _plain(name: str, value: float, unit: str) -> Value:

@@ -82,6 +82,8 @@ def in_time(panels: Sequence[TimePanel], name: str, label: str) -> str:
                 lower.set_ylim(0.0, 1.3 * lower.get_ylim()[1])
                 lower.legend(loc="upper left", ncols=3, borderaxespad=0.0)
             lower.set_xlim(p.edges[0], p.edges[-1])
+            draw.live(upper, "s")
+            draw.live(lower, "s")
         axes[-1].set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)
 
@@ -98,6 +100,7 @@ def in_blocks(panels: Sequence[TimePanel], name: str, label: str) -> str:
             if len(panels) > 1:
                 ax.set_title(numbers.short(p.name, 70))
             draw.legend(ax, 3)
+            draw.live(ax, "s")
         axes[-1].set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)
 
@@ -178,40 +181,89 @@ def spectra(panels: Sequence[SpectrumPanel], name: str, label: str) -> str:
             if len(panels) > 1:
                 ax.set_title(numbers.short(p.name, 60))
             draw.legend(ax, 3)
+            draw.live(ax, "Hz")
         axes[-1].set_xlabel("frequency of G_out before demodulation, Hz")
         return draw.svg(fig, name, label)
 
 
 @dataclass(frozen=True)
 class ChannelPanel:
-    """A demodulated residual: time (s), values (Eo) and the standard deviation that noise alone would give."""
+    """Demodulated residuals of one flight: time (s), values (Eo), what noise alone would give, and the record's ends (s)."""
 
     title: str
     time: Array
-    value: Array
+    lines: Sequence[tuple[Line, Array]]
     noise: float
+    ends: tuple[float, float]
 
 
 def channels(panels: Sequence[ChannelPanel], name: str, label: str) -> str:
-    """Demodulated channels over time, with the noise's one sigma as a band between dashed lines."""
+    """Demodulated channels over time, with the noise's one sigma between dashed lines."""
     with draw.style():
         fig = draw.figure(1.55 * len(panels) + 0.2)
         axes = fig.subplots(len(panels), 1, squeeze=False)[:, 0]
         for ax, p in zip(axes, panels, strict=True):
-            for run in runs(p.value):
-                t, y = p.time[run], p.value[run]
-                columns = round(MOST_POINTS / 2 * len(t) / len(p.time))
-                if len(p.time) > MOST_POINTS and columns > 1:
-                    e = envelope(t, y, np.ones(len(t), dtype=bool), columns)
-                    ax.fill_between(e.time, e.low, e.high, color=draw.RESIDUAL, linewidth=0.4)
-                else:
-                    ax.plot(t, y, color=draw.RESIDUAL, linewidth=0.7)
+            for line, value in p.lines:
+                _channel(ax, p.time, line, value)
             for s in (1, -1):
-                ax.axhline(s * p.noise, color=draw.NOISE, linestyle="--", linewidth=1.1, zorder=3)
-            reach = 1.15 * max(float(np.nanmax(np.abs(p.value))), p.noise if np.isfinite(p.noise) else 0.0)
+                own = "± noise, 1 sigma" if s > 0 else None
+                ax.axhline(s * p.noise, color=draw.NOISE, linestyle="--", linewidth=1.1, zorder=3, label=own)
+            every = [float(np.nanmax(np.abs(v))) for _, v in p.lines]
+            reach = 1.15 * max([*every, p.noise if np.isfinite(p.noise) else 0.0])
             ax.set_ylim(-reach, reach)
-            ax.set_xlim(np.nanmin(p.time), np.nanmax(p.time))
-            ax.set_title(numbers.short(p.title, 90))
-            ax.set_ylabel("Eo")
+            ax.set_xlim(*p.ends)
+            ax.set_title(numbers.short(p.title, 70))
+            ax.set_ylabel("error, Eo")
+            draw.legend(ax, 3)
+            draw.live(ax, "s")
         axes[-1].set_xlabel("time since the first sample, s")
+        return draw.svg(fig, name, label)
+
+
+def _channel(ax: Axes, time: Array, line: Line, value: Array) -> None:
+    label: str | None = line.label
+    for run in runs(value):
+        t, y = time[run], value[run]
+        columns = round(MOST_POINTS / 2 * len(t) / len(time))
+        if len(time) > MOST_POINTS and columns > 1:
+            e = envelope(t, y, np.ones(len(t), dtype=bool), columns)
+            ax.fill_between(e.time, e.low, e.high, color=line.color, linewidth=0.4, label=label)
+        else:
+            ax.plot(t, y, color=line.color, linewidth=0.6 * line.width, label=label)
+        label = None
+
+
+@dataclass(frozen=True)
+class MeasuredPanel:
+    """One flight's output and what the model makes of it, V: extremes of all of it (its ends, s), and some samples."""
+
+    measured: Envelope
+    modelled: Envelope
+    ends: tuple[float, float]
+    time: Array
+    samples: Array
+    model: Array
+
+
+def measured_over_model(p: MeasuredPanel, name: str, label: str) -> str:
+    """The whole record above, a few turns of the disc below, where the samples can be told apart."""
+    with draw.style():
+        fig = draw.figure(3.5)
+        upper, lower = fig.subplots(2, 1, height_ratios=[1.0, 1.25])
+        e, m = p.measured, p.modelled
+        upper.fill_between(e.time, e.low, e.high, color=draw.BEFORE, linewidth=0, label="measured")
+        upper.fill_between(
+            m.time, m.low, m.high, facecolor="none", edgecolor=draw.RESIDUAL, linewidth=0.6, label="model"
+        )
+        upper.set_xlim(*p.ends)
+        first, last = p.time[0], p.time[-1]
+        upper.axvspan(first, last, facecolor="none", edgecolor=draw.NOISE, linewidth=0.9)
+        lower.plot(p.time, p.samples, color=draw.BEFORE, linewidth=3.2, label="measured")
+        lower.plot(p.time, p.model, color=draw.RESIDUAL, linewidth=0.9, label="model, calibrated")
+        lower.set_xlim(first, last)
+        for ax in (upper, lower):
+            ax.set_ylabel("G_out, V")
+            draw.legend(ax, 3)
+            draw.live(ax, "s")
+        lower.set_xlabel("time since the first sample, s")
         return draw.svg(fig, name, label)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import platform
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -56,11 +59,30 @@ def render(template: str, origin: Origin, context: Mapping[str, Any]) -> str:
             sources=list(origin.sources),
             notes=list(origin.notes),
             versions=versions(),
-            style=Markup(_style()),
+            style=Markup(_file("style.css")),
+            script=Markup(_file("live.js")),
+            allowed=_digest(_file("live.js")),
+            contents=Markup(CONTENTS),
             **context,
         )
     )
-    return numbers.clean(text)
+    return numbers.clean(_with_contents(text))
+
+
+CONTENTS = "<!-- contents -->"
+"""Where the table of contents stands; names of strangers are escaped, so that none can read like this."""
+
+
+def _with_contents(text: str) -> str:
+    """The page with its headings numbered for links, and the list of them."""
+    found: list[str] = []
+
+    def anchored(heading: re.Match[str]) -> str:
+        found.append(f'<li><a href="#section-{len(found) + 1}">{heading[1]}</a></li>')
+        return f'<h2 id="section-{len(found)}">{heading[1]}</h2>'
+
+    text = re.sub(r"<h2>(.*?)</h2>", anchored, text, flags=re.DOTALL)
+    return text.replace(CONTENTS, "\n".join(found), 1)
 
 
 def figure(drawn: str, caption: str) -> dict[str, Any]:
@@ -83,5 +105,11 @@ def versions() -> list[tuple[str, str]]:
     return found
 
 
-def _style() -> str:
-    return resources.files("ragg_runtime.report").joinpath("templates", "style.css").read_text("utf-8")
+@cache
+def _file(name: str) -> str:
+    return resources.files("ragg_runtime.report").joinpath("templates", name).read_text("utf-8")
+
+
+def _digest(script: str) -> str:
+    """How a policy names the one script that may run: whatever else came into the page would not."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()

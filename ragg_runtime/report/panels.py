@@ -12,9 +12,9 @@ from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error
-from ragg_runtime.report import barcharts, series
+from ragg_runtime.report import barcharts, figures, page, series
 from ragg_runtime.report.barcharts import Bar
-from ragg_runtime.report.figures import ChannelPanel, Line, SpectrumPanel, TimePanel
+from ragg_runtime.report.figures import ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH
 from ragg_runtime.wording import numbers
 
@@ -73,25 +73,76 @@ def spectrum_panels(
     return found
 
 
-def channel_panels(f: Fitted, residuals: Residuals, chosen: Sequence[int]) -> list[ChannelPanel]:
-    """Inline and cross residual of each flight that is long enough for the demodulator."""
+def channel_panels(
+    f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequence[int]
+) -> list[ChannelPanel]:
+    """Inline and cross of each residual, of each flight that is long enough for the demodulator."""
     found = []
-    series_of = comparison.demodulated(f, residuals)
     for n in chosen:
-        time, *both = series_of[n]
         w = f.flown[n]
+        r = w.observation.record
+        made = [(line, comparison.demodulated_one(f, n, residuals[n])) for line, residuals in lines]
+        time = made[0][1][0]
         if not len(time):
             continue
         several = f" — {w.observation.name}" if len(f.flown) > 1 else ""
-        for title, x, amplitude in (("inline", both[0], 4.0), ("cross", both[1], 2.0)):
-            noise = series.demodulated_noise(
-                w, f.scales[n], abs(w.observation.record.spin_frequency), 2, amplitude
+        # four samples a cycle of the low-pass's edge draw the whole of it
+        step = max(1, int(r.rate / (4.0 * DRAWN)))
+        for k, (title, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
+            noise = series.demodulated_noise(w, f.scales[n], abs(r.spin_frequency), 2, amplitude)
+            drawn = [(line, series.broken(time[::step], x[k][::step])) for line, x in made]
+            found.append(
+                ChannelPanel(
+                    title=title + several,
+                    time=drawn[0][1][0],
+                    lines=[(line, y) for line, (_, y) in drawn],
+                    noise=noise,
+                    ends=(float(r.time[0]), float(r.time[-1])),
+                )
             )
-            # four samples a cycle of the low-pass's edge draw the whole of it
-            step = max(1, int(w.observation.record.rate / (4.0 * DRAWN)))
-            t, y = series.broken(time[::step], x[::step])
-            found.append(ChannelPanel(title + several, t, y, noise))
     return found
+
+
+TURNS = 5.0
+"""Turns of the disc that are drawn sample by sample: the harmonics of the spin can be told apart by eye."""
+
+SHOWN_SAMPLES = 2000
+"""Samples at most of such a stretch, and of one of a disc that does not turn."""
+
+
+def measured_panel(f: Fitted, residual: Residuals) -> MeasuredPanel:
+    """Of the worst flight; the stretch lies in the middle of its worst block of time."""
+    (n,) = series.worst(f, residual, 1)
+    w = f.flown[n]
+    r = w.observation.record
+    y = series.measured(w)
+    edges, rms = series.blocks(w, residual[n], f.scales[n])
+    k = int(np.nanargmax(rms))
+    spin = abs(r.spin_frequency)
+    count = int(min(SHOWN_SAMPLES, TURNS * r.rate / spin if spin > 0.0 else SHOWN_SAMPLES, len(r.time)))
+    middle = int(np.searchsorted(r.time, 0.5 * (edges[k] + edges[k + 1])))
+    first = min(max(0, middle - count // 2), len(r.time) - count)
+    part = slice(first, first + count)
+    model = y - residual[n]
+    return MeasuredPanel(
+        measured=series.envelope(r.time, y, r.valid),
+        modelled=series.envelope(r.time, model, r.valid),
+        ends=(float(r.time[0]), float(r.time[-1])),
+        time=r.time[part],
+        samples=np.where(r.valid[part], y[part], np.nan),
+        model=np.where(r.valid[part], model[part], np.nan),
+    )
+
+
+def measured_section(f: Fitted, residual: Residuals) -> dict[str, Any]:
+    """Measured over model: the output itself, beside which the error is small."""
+    drawn = measured_panel(f, residual)
+    svg = figures.measured_over_model(drawn, "measured", "measured output over the model's")
+    first, last = (numbers.number(float(t), 4) for t in (drawn.time[0], drawn.time[-1]))
+    caption = f"Above: least to greatest value, the whole record. Below: {first} to {last} s, where the error is largest."
+    if len(f.flown) > 1:
+        caption += " Of the flight with the largest error."
+    return {"title": "Measured over model", "text": [], "figures": [page.figure(svg, caption)]}
 
 
 def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:

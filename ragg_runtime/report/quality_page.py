@@ -29,17 +29,10 @@ def quality_html(q: Quality, *, title: str, command: str) -> str:
     """The report as one HTML document."""
     context: dict[str, Any] = {
         "kind": "Quality control",
-        "state": "bad" if q.failed or q.read.refused else "good",
-        "headline": headline(q),
-        "lead": lead(q),
         "facts": _facts(q),
         "errors": [],
         "digest": "none: quality control needs no model",
         "figures": page.figures(_figures(q)),
-        "limits": [_limit(q, n) for n in range(len(q.used))],
-        "heads": _heads(q),
-        "rows": [_row(q, n, f) for n, f in enumerate(q.lines)],
-        "refused": [(n, m.split("\n")) for n, m in q.read.refused],
         "misfits": q.misfits,
         "repeats": [(r.first, r.second, r.shared / 1e3, list(r.noise.values())) for r in q.repeats],
         "repeated": list(q.repeats[0].noise) if q.repeats else [],
@@ -47,19 +40,32 @@ def quality_html(q: Quality, *, title: str, command: str) -> str:
         "days": [_day(d) for d in q.days],
         "band": f"{IN_BAND[0]:g} to {IN_BAND[1]:g} Hz",
     }
-    return page.render("quality.html.j2", Origin(title, command, q.read.files, q.read.notes), context)
+    return page.render(
+        "quality.html.j2", Origin(title, command, q.read.files, q.read.notes), context | shown(q)
+    )
+
+
+def shown(q: Quality) -> dict[str, Any]:
+    """Verdict, limits and the table by line, in words and digits: of the report and of the studio."""
+    return {
+        "state": "bad" if q.failed or q.read.refused else "good",
+        "headline": headline(q),
+        "lead": lead(q),
+        "limits": [_limit(q, n) for n in range(len(q.used))],
+        "heads": _heads(q),
+        "rows": [_row(q, n, f) for n, f in enumerate(q.lines)],
+        "refused": [(n, m.split("\n")) for n, m in q.read.refused],
+    }
 
 
 def headline(q: Quality) -> str:
-    count = len(q.lines)
+    lines = "1 line" if len(q.lines) == 1 else f"{len(q.lines)} lines"
     wrong = sum(bool(f.failed) for f in q.lines)
     refused = f", {len(q.read.refused)} could not be used" if q.read.refused else ""
     if not q.used:
-        return f"{count} lines{refused}; the record gives no figure that has a limit."
+        return f"{lines}{refused}; the record gives no figure that has a limit."
     return (
-        f"{count} lines{refused}, {wrong} beyond a limit."
-        if wrong
-        else f"{count} lines{refused}, all within the limits."
+        f"{lines}{refused}, {wrong} beyond a limit." if wrong else f"{lines}{refused}, all within the limits."
     )
 
 

@@ -11,7 +11,7 @@ from scipy import signal
 
 from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import noise_gain
+from ragg_runtime.fit.observation import noise_gain, output_weights
 from ragg_runtime.fit.prepared import Flown
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.lack_of_fit.dictionary import harmonics
@@ -51,6 +51,13 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
     rms = np.sqrt(np.add.reduceat(np.where(valid, x, 0.0) ** 2, starts) / np.maximum(count, 1.0))
     middle = 0.5 * (time[starts] + time[edges[1:] - 1])
     return Envelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
+
+
+def measured(w: Flown) -> Array:
+    """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
+    o = w.observation
+    pairs = zip(output_weights(o), o.series, strict=True)
+    return np.asarray(sum(k * np.where(o.record.valid, x, 0.0) for k, x in pairs))
 
 
 @dataclass(frozen=True)

@@ -115,6 +115,51 @@ def weights(window: int, at: int) -> Array:
     return weights
 
 
+DEGREE = 5
+"""Of the polynomials that smooth a series for its slope."""
+
+
+def smooth_slope(x: Array, half: int, order: int) -> Array:
+    """First or second derivative per sample, (N,), by polynomials of the fifth degree through ``half`` samples on either side.
+
+    Towards an end the polynomial is that through the last 2 ``half`` + 1 samples. The operations and their order are
+    those of the exported programs.
+    """
+    window, found = 2 * half + 1, np.empty(len(x))
+    middle = polynomial_weights(half, 0, order)
+    ndimage.correlate1d(x, middle, output=found, mode="nearest")
+    for k in range(half):
+        found[k] = np.cumsum(polynomial_weights(half, k - half, order) * x[:window])[-1]
+        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order) * x[-window:])[-1]
+    return found
+
+
+@cache
+def polynomial_weights(half: int, at: int, order: int) -> Array:
+    """(2 half + 1,): weights of the derivative at a sample counted from the middle one (Gorry, Anal. Chem. 62 (1990) 570)."""
+    everywhere, there = _gram(half, np.arange(-half, half + 1.0)), _gram(half, np.array([float(at)]))
+    total, below, above = np.zeros(2 * half + 1), 1.0, 2.0 * half + 1.0
+    for k in range(DEGREE + 1):
+        total = total + (2 * k + 1) * below / above * everywhere[k][0] * there[k][order]
+        below *= 2 * half - k
+        above = float(np.prod([2.0 * half + k + 2 - i for i in range(k + 2)]))
+    total.flags.writeable = False
+    return total
+
+
+def _gram(half: int, t: Array) -> list[list[Array]]:
+    """Gram polynomials of degree 0 ... DEGREE at t, and their first two derivatives: [degree][order]."""
+    zero = np.zeros(len(t))
+    found = [[zero + 1.0, zero, zero]]
+    for k in range(1, DEGREE + 1):
+        whole = k * (2.0 * half - k + 1)
+        a, b = (4 * k - 2) / whole, (k - 1) * (2.0 * half + k) / whole
+        one, two = found[-1], found[-2] if k > 1 else [zero] * 3
+        slopes = [one[0] * 0.0, one[0], 2.0 * one[1]]
+        found.append([a * (t * one[s] + slopes[s]) - b * two[s] for s in range(3)])
+    return found
+
+
 def stretches(valid: NDArray[np.bool_], shortest: int) -> list[slice]:
     """Contiguous runs of valid samples, at least ``shortest`` long."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], valid.astype(np.int8), [0]])))

@@ -13,7 +13,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.model.record import Record
 from ragg_runtime.report import series as reported
 from ragg_runtime.report.spectrogram import spectrogram
-from ragg_runtime.studio.pyramid import HEAD
+from ragg_runtime.studio import apply
+from ragg_runtime.studio.pyramid import HEAD, Pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -52,6 +53,13 @@ def series(s: State, a: Asked) -> bytes:
             return look[1].window(a.first, a.last, a.points)
     if a.what.startswith("channel:"):
         return s.tracks.channel(a.what.partition(":")[2], a.flight).window(a.first, a.last, a.points)
+    if a.what.startswith("compensated:"):
+        c, what = s.compensated, a.what.partition(":")[2]
+        how = () if c is None else (c.result["calibration"], c.result["demodulator"]["name"])
+        key = ("compensated", *how, what, a.flight)
+        made = s.tracks.cache.get(key, lambda: apply.curve(c, what, a.flight))
+        assert isinstance(made, Pyramid)
+        return made.window(a.first, a.last, a.points)
     window = (a.first, a.last)
     drawn = s.tracks.drawn(a.what, a.unit, a.flight, a.effects, window)
     return drawn.window(a.first, a.last, a.points)

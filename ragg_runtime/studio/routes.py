@@ -21,7 +21,7 @@ from starlette.staticfiles import StaticFiles
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.evidence import foresee
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.studio import drawing, views
+from ragg_runtime.studio import drawing, mapping, views
 from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.jobs import Busy
 from ragg_runtime.studio.session import Session
@@ -61,6 +61,8 @@ def application(session: Session) -> Starlette:
             route("/api/heat", _heat),
             route("/api/preview", _preview),
             route("/api/folder", _folder),
+            route("/api/mapping", _mapping),
+            route("/api/mapping", _mapped, "POST"),
             route("/api/take/{what}", _take),
             route("/api/do/{what}", _do, "POST"),
             route(UPLOAD, _upload, "POST"),
@@ -88,7 +90,10 @@ async def _guarded(answer: Answer, session: Session, request: Request) -> Respon
 
 
 def _page(static: Path) -> Answer:
-    text = (static / "index.html").read_text("utf-8")
+    """The page; it names all modules at once, so that they come in one round instead of one for each level of imports."""
+    modules = sorted(m.relative_to(static).as_posix() for m in static.glob("**/*.js"))
+    links = "\n".join(f'<link rel="modulepreload" href="/static/{m}">' for m in modules)
+    text = (static / "index.html").read_text("utf-8").replace("</head>", f"{links}\n</head>")
 
     async def page(session: Session, request: Request) -> Response:
         return Response(text, media_type="text/html")
@@ -111,17 +116,17 @@ def _finite(x: Any) -> Any:
 
 
 async def _state(session: Session, request: Request) -> Response:
-    status = session.jobs.status.as_json()
-    version = metadata.version("ragg")
+    status = {"status": session.jobs.status.as_json()}
 
-    def made() -> Any:
+    def made() -> Response:
         s = session.state
-        return views.overview(s, status, version) | {
-            "commands": views.commands(s),
-            "roots": [str(r) for r in session.places.roots],
-        }
+        known = session.shown
+        if known is None or known[0] is not s:  # a state never changes: what is said of it is made once
+            said = views.overview(s, metadata.version("ragg")) | {"commands": views.commands(s)}
+            session.shown = known = (s, said | {"roots": [str(r) for r in session.places.roots]})
+        return _json(status | known[1])
 
-    return _json(await run_in_threadpool(made))
+    return await run_in_threadpool(made)
 
 
 async def _events(session: Session, request: Request) -> Response:
@@ -216,6 +221,31 @@ async def _folder(session: Session, request: Request) -> Response:
     return _json(await run_in_threadpool(session.places.listing, place))
 
 
+async def _mapping(session: Session, request: Request) -> Response:
+    path = session.places.inside(request.query_params.get("flight", ""))
+    return _json(await run_in_threadpool(mapping.begun, session.state.model, path))
+
+
+async def _mapped(session: Session, request: Request) -> Response:
+    body = await _body(request)
+    path = session.places.inside(_text(body, "flight"))
+    return _json(await run_in_threadpool(mapping.tried, session.state.model, path, _given(body)))
+
+
+def _given(body: Mapping[str, Any]) -> dict[str, Any]:
+    """A mapping as the page sends it: tables of texts and numbers."""
+    given = body.get("mapping")
+    if isinstance(given, dict):
+        rows = given.get("rows")
+        tables = [given.get(k, {}) for k in ("time", "file", "axes")]
+        named = isinstance(rows, list) and all(
+            isinstance(r, dict) and isinstance(r.get("channel"), str) for r in rows
+        )
+        if named and all(isinstance(t, dict) for t in tables):
+            return given
+    raise UserError("a mapping is needed", where="mapping", found=repr(given)[:80])
+
+
 async def _take(session: Session, request: Request) -> Response:
     what = request.path_params["what"]
     name, kind, data = await run_in_threadpool(take_away, session.state, what)
@@ -229,15 +259,22 @@ async def _upload(session: Session, request: Request) -> Response:
     return _json({"path": str(path)})
 
 
-async def _do(session: Session, request: Request) -> Response:
+async def _body(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").split(";")[0] != "application/json":
         raise UserError("the body must be JSON", where=str(request.url.path))
     try:
         body = json.loads(await request.body())
     except (ValueError, RecursionError):
         raise UserError("the body is no JSON", where=str(request.url.path)) from None
+    if not isinstance(body, dict):
+        raise UserError("the body is no table", where=str(request.url.path))
+    return body
+
+
+async def _do(session: Session, request: Request) -> Response:
+    body = await _body(request)
     action = ACTIONS.get(request.path_params["what"])
-    if action is None or not isinstance(body, dict):
+    if action is None:
         raise UserError("there is no such thing to do", found=request.path_params["what"][:40])
     await run_in_threadpool(action, session, body)
     return _json({"status": session.jobs.status.as_json()}, 202)
@@ -273,6 +310,12 @@ def _open(session: Session, body: Mapping[str, Any]) -> None:
 def _new(session: Session, body: Mapping[str, Any]) -> None:
     sheet = session.places.inside(_text(body, "sheet")) if body.get("sheet") else None
     session.new(session.places.inside(_text(body, "model")), sheet)
+
+
+def _map(session: Session, body: Mapping[str, Any]) -> None:
+    flight = session.places.inside(_text(body, "flight"))
+    mapping.keep(session.state.model, flight, _given(body), replace=body.get("replace") is True)
+    session.open(None, [flight])
 
 
 def _leave(session: Session, body: Mapping[str, Any]) -> None:
@@ -315,6 +358,7 @@ def _try(session: Session, body: Mapping[str, Any]) -> None:
 ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "open": _open,
     "new": _new,
+    "map": _map,
     "look": lambda session, body: session.look(),
     "add": lambda session, body: session.add(_texts(body, "effects")),
     "remove": lambda session, body: session.remove(_text(body, "effect", 80)),
@@ -326,6 +370,10 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "beside": lambda session, body: session.beside(_step(body)),
     "try": _try,
     "keep": lambda session, body: session.keep(),
+    "compensate": lambda session, body: session.compensate(
+        _text(body, "calibration", 40), _text(body, "demodulator", 40)
+    ),
+    "quality": lambda session, body: session.control(),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

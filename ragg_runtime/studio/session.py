@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import threading
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import PASSES
@@ -21,14 +23,23 @@ from ragg_runtime.instrument.edit_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.model_dir.history import Step
+from ragg_runtime.quality.qc import Quality
+from ragg_runtime.studio import apply
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.workflow import loop, versions
+from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.loop import Added, Loaded
 
 Part = Callable[[str, float], None]
+
+KEPT = 4
+"""Results that are remembered, by model and flights: undo, redo and taking back a cut cost nothing."""
+
+SMALL = 1e6
+"""Samples of all flights together up to which they are: what belongs to a result grows with them, and so would memory."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +60,8 @@ class State:
         The comparison before the last step, for before and after.
     beside
         A state of the history, by its step, and its comparison on the same flights.
+    compensated, quality
+        What was made of these flights with this model.
     trial
         An effect of the user's own that was tried and is not kept yet: its id, expression, units, and the result.
     """
@@ -65,6 +78,8 @@ class State:
     previous: Comparison | None = None
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
+    compensated: Compensation | None = None
+    quality: Quality | None = None
     tracks: Tracks = field(default_factory=Tracks)
 
     @property
@@ -95,6 +110,8 @@ class Session:
         self.jobs = Jobs()
         self._lock = threading.Lock()
         self._state = State()
+        self.shown: tuple[State, dict[str, Any]] | None = None
+        self._results: OrderedDict[object, tuple[Comparison, Diagnosis, Plain]] = OrderedDict()
 
     @property
     def state(self) -> State:
@@ -150,6 +167,13 @@ class Session:
         s = self.state
         if s.loaded is None or not s.flights:
             return
+        key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts)
+        known = self._results.get(key)
+        if known is not None:
+            compared, d, plain = known
+            tracks = Tracks.of(compared, s.previous).diagnosed(d)
+            self._put(compared=compared, diagnosed=d, plain=plain, tracks=tracks)
+            return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
             compared = loop.compare(s.loaded, s.flights)
@@ -158,7 +182,12 @@ class Session:
         part("testing every effect", PASSES["diagnose"] * s.samples)
         d = loop.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
-        self._put(diagnosed=d, plain=foresee.plain(d.fitted), tracks=s.tracks.diagnosed(d))
+        plain = foresee.plain(d.fitted)
+        self._put(diagnosed=d, plain=plain, tracks=s.tracks.diagnosed(d))
+        if s.compared is not None and s.samples <= SMALL:
+            self._results[key] = s.compared, d, plain
+            while len(self._results) > KEPT:
+                self._results.popitem(last=False)
 
     def reread(self) -> None:
         """Load the model directory again if someone else has changed it."""
@@ -258,6 +287,26 @@ class Session:
         self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
         self._look(part)
 
+    def compensate(self, kind: str, demodulator: str) -> None:
+        """Compensate the flights that are open."""
+
+        def work(part: Part) -> None:
+            s = self.state
+            part("compensating", PASSES["compare"] * s.samples)
+            self._put(compensated=apply.compensated(s.model, s.flights, kind, demodulator), quality=None)
+
+        self.jobs.start("compensating", work)
+
+    def control(self) -> None:
+        """Quality control of the flights that are open."""
+
+        def work(part: Part) -> None:
+            s = self.state
+            part("quality control", s.samples)
+            self._put(quality=apply.quality(s.model, s.paths, s.flights, s.compensated))
+
+        self.jobs.start("quality control", work)
+
     def _idle(self) -> None:
         from ragg_runtime.studio.jobs import Busy
 
@@ -274,7 +323,7 @@ def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
 
 def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
-    names = ("compared", "diagnosed", "plain", "previous", "beside", "trial")
+    names = ("compared", "diagnosed", "plain", "previous", "beside", "trial", "compensated", "quality")
     return dict.fromkeys(names) | {"tracks": Tracks()}
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.model_dir.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
-from ragg_runtime.studio import views
+from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State
 from ragg_runtime.workflow import loop, origin
 
@@ -80,6 +80,19 @@ def _diagnose_json(s: State) -> File:
     return "diagnosis.json", JSON, _dumped(s, s.diagnosed.as_json(), _command(s, "diagnose"))
 
 
+def _compensated(s: State, name: str) -> File:
+    if s.compensated is None:
+        raise UserError("nothing is compensated yet", remedy="do it under Apply")
+    kind = "text/csv" if name.endswith(".csv") else "application/vnd.apache.parquet"
+    return name, kind, apply.file_of(s.compensated, name)
+
+
+def _quality(s: State) -> File:
+    if s.quality is None:
+        raise UserError("there is no quality control yet", remedy="do it under Apply")
+    return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights))
+
+
 def _model(s: State) -> File:
     return "model.toml", "application/toml", s.model.directory.text.encode()
 
@@ -94,6 +107,9 @@ FILES: Mapping[str, Callable[[State], File]] = {
     "steps.html": _steps_report,
     "compare.json": _compare_json,
     "diagnosis.json": _diagnose_json,
+    "compensated.csv": lambda s: _compensated(s, "compensated.csv"),
+    "compensated.parquet": lambda s: _compensated(s, "compensated.parquet"),
+    "quality.html": _quality,
     "model.toml": _model,
     "commands.sh": _commands,
 }

@@ -17,9 +17,9 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import output_weights
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.lack_of_fit import heat
+from ragg_runtime.report.series import measured
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]
@@ -116,13 +116,8 @@ class Tracks:
         assert now is not None
         if name == "residual":
             return self._of("residual", lambda: now.residual)[flight]
-        o = f.flown[flight].observation
         if name == "measured":
-            r = o.record
-            made = sum(
-                w * np.where(r.valid, x, 0.0) for w, x in zip(output_weights(o), o.series, strict=True)
-            )
-            return np.asarray(made)
+            return measured(f.flown[flight])
         if name == "modelled":
             return self.volts("measured", flight) - self.volts("residual", flight)
         raise UserError("there is no such series", found=repr(name[:40]))

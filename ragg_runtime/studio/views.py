@@ -16,9 +16,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.model import Effect
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.report import diagnose_page, panels, parameters
+from ragg_runtime.report import diagnose_page, panels, parameters, quality_page
 from ragg_runtime.report.parameters import Piece, Row, Symbol
-from ragg_runtime.studio import maths
+from ragg_runtime.studio import apply, maths
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
 from ragg_runtime.wording import numbers
@@ -27,10 +27,9 @@ from ragg_runtime.workflow.loop import errors_of
 Json = dict[str, Any]
 
 
-def overview(s: State, status: Mapping[str, object], version: str) -> Json:
+def overview(s: State, version: str) -> Json:
     """Everything small, in one answer."""
     return {
-        "status": dict(status),
         "version": version,
         "model": None if s.loaded is None else _model(s),
         "flights": _flights(s),
@@ -42,6 +41,8 @@ def overview(s: State, status: Mapping[str, object], version: str) -> Json:
         "parameters": None if s.compared is None else _parameters(s.compared),
         "sheet": None if s.loaded is None else _sheet(s.loaded.instrument, s.compared),
         "history": None if s.loaded is None else _history(s.loaded.directory.history),
+        "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
+        "quality": None if s.quality is None else quality_page.shown(s.quality),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -370,6 +371,10 @@ def commands(s: State) -> list[str]:
         found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
         found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
+    if s.compensated is not None:
+        how = s.compensated.result
+        options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
+        found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
     cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
     return [*cut, *found]
 

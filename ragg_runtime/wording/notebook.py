@@ -260,7 +260,7 @@ def _noise(x: float) -> tuple[str, ...]:
 def _values(parameters: Sequence[Mapping[str, Any]], combined: Sequence[Mapping[str, Any]]) -> list[str]:
     found = [_line(parameter(p)) for p in parameters]
     if combined:
-        found.append(_line("of which the record sees only:"))
+        found.append(_line("of which the record knows best:"))
         found += [_line(parameter(p)) for p in combined]
     return found
 

@@ -34,15 +34,13 @@ from ragg_runtime.export.document import json_files
 from ragg_runtime.export.folder import write_folder
 from ragg_runtime.export.numpy_folder import numpy_files
 from ragg_runtime.export.program import c_program
-from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.spool import settled
+from ragg_runtime.flight import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.plausibility import examined
 from ragg_runtime.wording import notebook
-from ragg_runtime.workflow.loop import Loaded
+from ragg_runtime.workflow.loaded import Loaded, mapping_text, read_flights
 
 
 @dataclass(frozen=True)
@@ -67,13 +65,17 @@ class Kept:
         return self.calibrated.as_json() | {"saved": self.saved}
 
 
-def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False) -> Kept:
-    """Fit the model's parameters to flights; ``save`` keeps them in the model directory, the older ones as history."""
+def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False, mapping: Path | None = None) -> Kept:
+    """Fit the model's parameters to flights; ``save`` keeps them in the model directory, the older ones as history.
+
+    With them the ``mapping`` by which the flights were read, if one is given.
+    """
+    text = None if mapping is None else mapping_text(mapping)
     c = _calibrated.calibrated(m.model, m.instrument, flights)
-    return Kept(loaded=_saved(m, c, flights) if save else m, calibrated=c, saved=save)
+    return Kept(loaded=_saved(m, c, flights, text) if save else m, calibrated=c, saved=save)
 
 
-def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight]) -> Loaded:
+def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | None) -> Loaded:
     d = m.directory
     new = _calibrated.to_save(c, flights, datetime.now(UTC).isoformat(timespec="seconds"))
     digests = MappingProxyType(dict(new.flights))
@@ -84,6 +86,7 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight]) -> Loaded:
         generated=_code(d),
         history=(*d.history, step),
         calibration=with_another(d.calibration, new, str(d.path / CALIBRATION)),
+        mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
 
@@ -110,12 +113,13 @@ class Compensation:
     """The result of ``compensate``.
 
     ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.table.Table`) of every flight,
-    unless they went to a file.
+    unless they went to a file; ``units`` are theirs, in order.
     """
 
     name: str
     result: Mapping[str, Any]
     series: tuple[Mapping[str, NDArray[Any]], ...]
+    units: Mapping[str, str]
 
     def __repr__(self) -> str:
         flights = ", ".join(x["flight"] for x in self.result["flights"])
@@ -181,7 +185,7 @@ def compensate(
     }
     if saved is not None:
         result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
-    return Compensation(name=m.name, result=result, series=tuple(kept))
+    return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
 
 
 def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:
@@ -202,12 +206,6 @@ def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> 
 
 def contents(m: Loaded) -> Contents:
     """What is exported of a model: with the calibration that was kept, else with the values of model.toml."""
-    if not m.instrument.layout.like_paper:
-        raise UserError(
-            "only the paper's layout is exported so far: one disc of four accelerometers, one output",
-            where=m.directory.path,
-            found=f"{len(m.instrument.layout.outputs)} outputs",
-        )
     saved, origin = None, "values of model.toml, not calibrated"
     if m.directory.calibration is not None:
         try:
@@ -250,13 +248,11 @@ FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
 """Form of an export -> its files."""
 
 
-def read_for_compensation(m: Loaded, paths: Sequence[Path | str]) -> list[Flight]:
+def read_for_compensation(
+    m: Loaded, paths: Sequence[Path | str], mapping: Path | None = None
+) -> list[Flight]:
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
-    found = []
-    for path in paths:
-        flight = without_gradients(read_flight(path, m.instrument.g0, accelerometers=m.instrument.layout))
-        found.append(settled(examined(m.model, m.instrument, flight)))
-    return found
+    return read_flights(m, paths, mapping, first=without_gradients)
 
 
 def calibration_notes(m: Loaded) -> list[str]:

@@ -6,13 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
-import numpy as np
-
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
+from ragg_runtime.diagnosis.parameters import ParameterValue, calibrated
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
@@ -111,7 +109,7 @@ def add(
     combinations: tuple[ParameterValue, ...] = ()
     if flights:
         after = _compare.compare(model, extended, flights)
-        parameters, combinations = calibrated(after, effect)
+        parameters, combinations = calibrated(after.fitted, effect)
         values = {**setting.values, **settings(parameters, m.instrument.layout.size)}
         setting = replace(setting, values=MappingProxyType(values))
         after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
@@ -186,19 +184,6 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
         m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
     )
     return loaded(directory)
-
-
-def calibrated(c: Comparison, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:
-    """The calibrated parameters of an effect that is in the model, and the combinations that are seen."""
-    cal = c.fitted.calibration
-    mine = [n for n, column in enumerate(cal.columns) if column.effect == effect]
-    columns = [cal.columns[n] for n in mine]
-    values = np.array([cal.p[cal.index[n]] / cal.columns[n].scale for n in mine])
-    covariance = cal.covariance[np.ix_(mine, mine)]
-    return (
-        tuple(parameter_values(columns, values, covariance)),
-        tuple(visible_combinations(c.fitted.model, cal.p, columns, values, covariance)),
-    )
 
 
 def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -20,7 +20,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import MAPPING, ModelDir, create_model_dir, load_model_dir
+from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.wording import notebook
@@ -61,10 +61,7 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
 
     ``mapping`` is kept with the model: what the columns of its flight files are.
     """
-    kept = None
-    if mapping is not None:
-        kept = read_text(Path(mapping))
-        parse_mapping(kept, Path(mapping))
+    kept = None if mapping is None else mapping_text(Path(mapping))
     if source is None:
         text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
     else:
@@ -91,17 +88,23 @@ def loaded(directory: ModelDir) -> Loaded:
     return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
 
 
-def read_flights(m: Loaded, paths: Sequence[Path | str], mapping: Path | str | None = None) -> list[Flight]:
+def read_flights(
+    m: Loaded,
+    paths: Sequence[Path | str],
+    mapping: Path | str | None = None,
+    *,
+    first: Callable[[Flight], Flight] = lambda x: x,
+) -> list[Flight]:
     """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
 
     A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
-    default the model's own ``mapping.toml``, if it has one.
+    default the model's own ``mapping.toml``, if it has one. ``first`` is done to a flight before it is examined.
     """
     how = mapping_of(m, mapping)
     found = []
     for path in paths:
         for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
-            found.append(settled(examined(m.model, m.instrument, x)))
+            found.append(settled(examined(m.model, m.instrument, first(x))))
     return found
 
 
@@ -109,8 +112,15 @@ def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
     """The mapping that is given, else the one that is kept with the model, else none."""
     if given is not None:
         return read_mapping(Path(given))
-    own = m.directory.path / MAPPING
-    return replace(read_mapping(own), kept=True) if own.exists() else None
+    own = m.directory.mapping
+    return None if own is None else replace(read_mapping(own), kept=True)
+
+
+def mapping_text(path: Path) -> str:
+    """The text of a mapping that is to be kept; UserError if it is none."""
+    text = read_text(path)
+    parse_mapping(text, path)
+    return text
 
 
 def now() -> str:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime import reference
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight
+from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
@@ -44,6 +45,7 @@ def simulated(
     no_gradient: bool = False,
     voltages: bool = False,
     motion: Path | str | None = None,
+    mapping: Mapped | None = None,
 ) -> Flight:
     """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
 
@@ -58,7 +60,8 @@ def simulated(
     sheet_error
         How far the true instrument lies from its test sheet; 1 is usual.
     motion
-        A flight file whose motion is flown, as long and as densely sampled as it is; else one is drawn.
+        A flight file whose motion is flown, as long and as densely sampled as it is; else one is drawn. ``mapping``
+        says what its columns are, where it has names of its own.
 
     Raises
     ------
@@ -73,7 +76,7 @@ def simulated(
     if motion is None:
         flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
     else:
-        flown, duration, rate = _recorded(motion, instrument)
+        flown, duration, rate = _recorded(motion, instrument, mapping)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
         flown,
@@ -91,9 +94,11 @@ def simulated(
     return s.flight("simulated", voltages=voltages)
 
 
-def _recorded(file: Path | str, instrument: Instrument) -> tuple[reference.Motion, float, float]:
+def _recorded(
+    file: Path | str, instrument: Instrument, mapping: Mapped | None
+) -> tuple[reference.Motion, float, float]:
     """The motion of a flight file, its length, s, and its rate, Hz."""
-    x = read_flight(file, instrument.g0, need_output=False)
+    x = read_flight(file, instrument.g0, need_output=False, mapping=mapping)
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
     return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from examples.mimu import record
+from examples.mimu import record, story
 from examples.mimu.sheet import sheet
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
@@ -63,6 +63,41 @@ def test_motion_tells_where_the_accelerometers_are(unlifted: Fitted) -> None:
 
 def test_calibration_arrives_and_leaves_less(unlifted: Fitted) -> None:
     assert unlifted.calibration.converged, unlifted.calibration.reason
+
+
+def test_gravity_comes_out_as_far_as_the_chips_tell() -> None:
+    g, uncertain, scatter = story.gravity()
+    assert abs(g - 9.82) < uncertain
+    assert scatter < uncertain < 0.1
+
+
+def test_misalignments_that_are_left_out_are_found() -> None:
+    """By a sheet that is sure of its angles: the two sides are turned against each other by some milliradians."""
+    d = story.diagnosed(story.LEFT_OUT["misalignments"])
+    assert "imu-acceleration-misalignment" in d.found
+    assert {x.name for x in d.off_sheet} & {"beta_z", "vartheta_y", "vartheta_z"}
+    first = next(r for r in d.ranking if r.effect == "imu-acceleration-misalignment")
+    m = {q.name: q.value for q in first.parameters}
+    assert m["m_xy"] == pytest.approx(-m["m_yx"], abs=5e-4)  # a turn about z
+    assert 1e-3 < abs(m["m_xy"]) < 1e-2
+
+
+def test_a_scale_of_the_gyroscopes_that_is_misread_is_found() -> None:
+    """3 per cent; what is plausible grows with the grade that the sheet tells."""
+    d = story.diagnosed(story.LEFT_OUT["gyro scale"], story.MISREAD)
+    assert "gyro-scale" in d.found
+    (scale,) = [r for r in d.ranking if r.effect == "gyro-scale"]
+    for q in scale.parameters[:2]:  # that about z the arms absorb
+        assert abs(q.value - 0.03) < 3 * q.std < 0.03
+
+
+def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:
+    i = parse_instrument(sheet())
+    assert i.grade("K1") == pytest.approx(30.0)
+    assert i.grade("K0") == pytest.approx(1200.0)
+    assert i.grade(None) == i.grade("k_VI") == 1.0
+    with_sigma = parse_instrument(sheet().replace("sigma = 0.03", "sigma = 1e-6"))
+    assert with_sigma.grade("K1") == 1.0  # of a better one nothing is expected to be smaller
 
 
 def test_packets_are_read_and_broken_ones_left_out(tmp_path: Path) -> None:

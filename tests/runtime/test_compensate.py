@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -257,6 +258,34 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
 def _parquet(model: Path, flight: Path, folder: Path) -> Path:
     run("compensate", model, flight, "-o", folder / "o.parquet")
     return folder / "o.parquet"
+
+
+def test_a_mapping_serves_every_command_and_is_kept_with_the_calibration(tmp_path: Path) -> None:
+    """A file of a recorder's own names, two lines in one: the same numbers as of the plain files."""
+    model, x = new_model(tmp_path), flights()[0].part(slice(0, 4000))
+    for k, part in enumerate((slice(0, 2400), slice(2400, 4000)), 1):
+        write_flight(x.part(part), tmp_path / f"{k}.csv")
+    texts = [(tmp_path / f"{k}.csv").read_text().splitlines() for k in (1, 2)]
+    head = re.sub(r"(\w+) \[", r"THEIR_\1 [", texts[0][0])
+    lines = [f"{k},{row}" for k, text in enumerate(texts, 1) for row in text[1:]]
+    (tmp_path / "theirs.csv").write_text("\n".join(["LINE," + head, *lines]) + "\n")
+    names = [n for n in re.findall(r"(\w+) \[", texts[0][0]) if n != "time"]
+    text = '[file]\nline = "LINE"\n[time]\ncolumn = "THEIR_time"\n[columns]\n'
+    text += "".join(f'{n} = "THEIR_{n}"\n' for n in names)
+    (tmp_path / "map.toml").write_text(text)
+    run("calibrate", model, tmp_path / "theirs.csv", "--map", tmp_path / "map.toml", "--save")
+    assert (model / "mapping.toml").read_text() == text
+    assert loop.load(model).directory.mapping == model / "mapping.toml"
+    both = [tmp_path / f"{k}.csv" for k in (1, 2)]
+    frozen = ("--calibration", "frozen", "-o")
+    run("compensate", model, tmp_path / "theirs.csv", *frozen, tmp_path / "theirs.parquet")
+    run("compensate", model, *both, *frozen, tmp_path / "ours.parquet")
+    theirs, ours = (pq.read_table(tmp_path / f"{n}.parquet") for n in ("theirs", "ours"))
+    assert theirs.equals(ours)
+    assert theirs.num_rows == 4000
+    (model / "mapping.toml").unlink()
+    told = run("compare", model, tmp_path / "theirs.csv", "--frozen", "--map", tmp_path / "map.toml")
+    assert "theirs:1" in told
 
 
 BAD: dict[str, list[Any]] = {

@@ -57,7 +57,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
 
 @pytest.fixture(scope="module")
 def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
-    """The same with a lag, which needs derivatives of the motion, and an effect of the temperature."""
+    """The same with the disc's own rate, a lag, which needs derivatives of the motion, and an effect of the temperature."""
     folder = tmp_path_factory.mktemp("extended")
     model = new_model(folder)
     text = (model / "model.toml").read_text()
@@ -66,7 +66,9 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
         '{ id = "thermal-scale", dK1_dT = { value = [0, 0, 2e-4, 0], unit = "1/K" } }]'
     )
     assert "effects = []" in text
-    (folder / "extended.toml").write_text(text.replace("effects = []", values))
+    assert "kinematics" not in text
+    full = text.replace("effects = []", values) + '\n[model]\nkinematics = "full"\n'
+    (folder / "extended.toml").write_text(full)
     run("new", folder / "e", "--from", folder / "extended.toml")
     run("export", folder / "e", folder / "c", "--c")
     make(folder / "c", STRICT, "check")
@@ -92,6 +94,37 @@ def test_the_program_gives_what_python_gives(which: str, request: pytest.Fixture
     if which == "extended":
         assert np.max(np.abs(G - found)) / k_ggi < 1e-9
     assert time[1] == flights()[0].time[1]
+
+
+@pytest.mark.parametrize("which", ["base", "extended"])
+def test_the_angular_acceleration_is_derived_as_python_does_it(
+    which: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    """From a file with neither omegadot nor all of its rows: beside gaps and ends too, wherever Python has a value."""
+    model, folder, flight = request.getfixturevalue(which)
+    table = [line.split(",") for line in flight.read_text().splitlines()]
+    kept = [k for k, name in enumerate(table[0]) if not name.startswith("omegadot")]
+    rows = [",".join(row[k] for k in kept) for row in [*table[:3000], *table[3007:6000], *table[6400:]]]
+    bare = tmp_path / "bare.csv"
+    bare.write_text("\n".join(rows))
+    time, G = answer(program(folder, bare.read_bytes()).stdout)
+    m = loop.load(model)
+    x = read_flight(bare, m.instrument.g0)
+    p = after.contents(m).p
+    found, k_ggi = output(m.model.chain, record(x, m.instrument), p), scale_factor(m.model, p)
+    there = np.searchsorted(x.time, time - 1e-3)
+    assert len(there) == len(rows) - 1
+    gaps = np.abs(np.subtract.outer(time, time[[0, 2998, 2999, 5991, 5992, -1]])).min(axis=1)
+    away = gaps > (0.0 if which == "base" else 2.0)  # the lag's further derivatives begin anew after a gap
+    assert np.max(np.abs(G - found[there])[away]) / k_ggi < 1e-6
+    one = rows[0] + ",omegadot_y [rad/s^2]\n" + rows[1] + ",0"
+    assert b"omegadot_x: the column is missing" in program(folder, one.encode()).stderr
+    lines = [
+        ",".join([str(float(row.split(",")[0]) + 0.01 * (k % 2)), row.partition(",")[2]])
+        for k, row in enumerate(rows[1:99])
+    ]
+    uneven = program(folder, "\n".join([rows[0], *lines]).encode())
+    assert (uneven.returncode, b"or columns omegadot_x" in uneven.stderr) == (2, True)
 
 
 def test_the_values_are_the_calibrated_ones(base: tuple[Path, Path, Path]) -> None:
@@ -197,6 +230,11 @@ def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path:
     assert (
         np.max(np.abs(G[:1900] - found[:1900])) / k_ggi < 1e-6
     )  # the derivative at the cut's end is another
+    for x in ("", "derived_"):
+        motion, answers = ((tmp_path / "n" / "test" / f"{x}{n}.csv").read_text() for n in ("motion", "G_out"))
+        done = subprocess.run(command, input=motion, capture_output=True, text=True, check=True)
+        gap = np.abs(answer(done.stdout.encode())[1] - answer(answers.encode())[1])
+        assert np.max(gap) / k_ggi < 1e-6
 
 
 _ALONE = """

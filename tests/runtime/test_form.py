@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import savgol_filter
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli.main import main
@@ -166,6 +167,10 @@ def test_the_rate_of_the_encoder_is_smooth_and_has_no_seams() -> None:
     angle = 2 * np.pi * f * t + swing
     coded = np.mod(step * np.round(angle / step), 2 * np.pi)
     first, second = (spin(name, coded, t.size, rate, 9.9) for name in SPIN)
+    whole = np.unwrap(coded)
+    for order, found in ((1, first), (2, second)):
+        expected = savgol_filter(whole - whole[0], 21, 5, deriv=order, delta=1 / rate)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-7)
     w = 2 * np.pi * 2 * f
     inner = slice(20, -20)
     assert np.std((first - 2 * np.pi * f - 1e-3 * w * np.cos(w * t))[inner]) < 0.02 * 1e-3 * w

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -11,13 +12,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.recursive import UNKNOWN_EO, Online, Tuning
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
 from ragg_runtime.export.online import table
 from ragg_runtime.fit.observation import Observation, observe
+from ragg_runtime.flight import write_flight
+from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import files, new_model, run
+from ragg_runtime.workflow.online import online
+from tests.runtime.flown_twice import files, flights, new_model, run
 from tests.runtime.test_export import STRICT, make
 
 Array = NDArray[np.float64]
@@ -122,6 +127,13 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
     return model, folder / "c", two
 
 
+def samples(o: Observation, G: Array) -> str:
+    """A record as CSV in SI units."""
+    r = o.record
+    columns = {"time": r.time, **{n: x for n, x in r.channels.items() if n in SI_UNITS}, "G_out": G}
+    return table({f"{n} [{SI_UNITS[n]}]": x for n, x in columns.items()})
+
+
 @pytest.mark.parametrize("walk", [0.0, 1.0])
 def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Path]) -> None:
     model, folder, two = exported
@@ -132,13 +144,10 @@ def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Pat
     valid[500:700] = False
     o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid))
     c = after.contents(m)
-    inputs = o.record.inputs(m.model.chain)
-    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
-    columns["G_out"] = np.where(valid, o.series[0], np.nan)
-    sigma, forget = 4 * c.scale_factor, 60.0
+    sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
     done = subprocess.run(
         [folder / "ragg_online", f"{sigma:.17g}", str(walk), str(forget)],
-        input=table(columns), capture_output=True, text=True, check=False,
+        input=samples(o, np.where(valid, o.series[0], np.nan)), capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
@@ -161,15 +170,45 @@ def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> No
         slice(0, 2048)
     )  # 32 turns of the disc: it goes on where it began
     o = observe(x, m.instrument)
-    inputs = o.record.inputs(m.model.chain)
-    columns = {"time": o.record.time} | {n: inputs[k] for k, n in enumerate(m.model.chain.INPUTS)}
     make(folder, "CFLAGS=-std=c17 -O3", "-B", "ragg_online")
-    sigma = 4 * after.contents(m).scale_factor
+    sigma = 4 * after.contents(m).outputs()[0].scale_factor
     done = subprocess.run(
         [folder / "ragg_online", f"{sigma:.17g}", "1", "300", "100"],
-        input=table(columns | {"G_out": o.series[0]}), capture_output=True, text=True, check=True,
+        input=samples(o, o.series[0]), capture_output=True, text=True, check=True,
     )  # fmt: skip
     p = np.array([float(line[2:]) for line in done.stdout.splitlines()])
     f = Online(m.model, m.instrument, Tuning(noise=sigma))
     assert np.max(np.abs(p - f.nominal)[f.index] / f.scale) < 6
     assert "microseconds a sample" in done.stderr
+
+
+def test_the_command_follows_a_flight_within_its_uncertainty(
+    exported: tuple[Path, Path, Path], tmp_path: Path
+) -> None:
+    model, _, _ = exported
+    flight = flights()[1].part(slice(0, 6400))
+    write_flight(flight, tmp_path / "two.parquet")
+    told = run(
+        "online", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--json", tmp_path / "o.json"
+    )
+    assert "followed within 0.796 s" in told
+    rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
+    assert len(rows) == 6400 / RATE / UPDATE - 1
+    c = flight.channels
+    true = {"inline": c["Gamma_xx"] - c["Gamma_yy"], "cross": c["Gamma_xy"]}
+    for name, x in true.items():
+        error = rows[f"{name}_Eo"] - np.interp(rows["time_s"], flight.time, x / 1e-9)
+        z = (error / rows[f"{name}_std_Eo"])[rows["time_s"] > 10]
+        assert 0.6 < np.mean(np.abs(z) < 1) < 0.9
+        assert np.mean(np.abs(z) < 1.96) > 0.9
+    d = json.loads((tmp_path / "o.json").read_text())
+    assert d["started"].startswith("calibration made")
+    assert 1.0 < d["noise_Eo_per_rtHz"] < 3.0
+    k1 = [q for q in d["flights"][0]["parameters"] if q["name"] == "K1"]
+    assert [q["accelerometer"] for q in k1] == [1, 2, 3, 4]
+    fresh = new_model(tmp_path)
+    with pytest.raises(UserError, match="how large the noise is"):
+        online(loop.load(fresh), [flight])
+    w = online(loop.load(fresh), [flight.part(slice(0, 800))], noise=2.0, forget=100.0)
+    assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
+    assert set(w.series[0]) == {"time", "inline", "cross", "inline_std", "cross_std"}

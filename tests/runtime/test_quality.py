@@ -16,8 +16,9 @@ from ragg_runtime.cli.main import cli
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.flight.source import Column, Written
-from ragg_runtime.quality import galileo
-from ragg_runtime.quality.crossovers import crossings
+from ragg_runtime.quality import galileo, galileo_lines
+from ragg_runtime.quality.crossovers import Repeat, crossings
+from ragg_runtime.quality.lines import SurveyLine
 from ragg_runtime.quality.qc import Quality, qc
 from ragg_runtime.quality.track import Track
 from ragg_runtime.report.quality_page import quality_html, quality_text
@@ -259,6 +260,50 @@ def test_galileos_lag_finds_a_shift() -> None:
     assert galileo.phase_lag(x[3:-3], x[6:], 2.0) == pytest.approx(1.5, abs=0.06)
 
 
+def straight(
+    name: str, start: tuple[float, float], step: tuple[float, float], **channels: np.ndarray
+) -> tuple[SurveyLine, Track]:
+    """A line of evenly spaced samples along a straight track."""
+    n = len(next(iter(channels.values())))
+    east, north = (a + b * np.arange(n) for a, b in zip(start, step, strict=True))
+    line = SurveyLine(name=name, flight="f", time=np.arange(n) * 1.0, rate=1.0, channels=channels)
+    return line, Track(east=east, north=north, direction=float(np.arctan2(*step)))
+
+
+def test_galileos_gaps_crossovers_and_repeats() -> None:
+    z = np.arange(100.0)
+    holed = np.where(z == 7, np.nan, z)
+    traverse = straight("10", (0.0, -480.0), (0.0, 10.0), altitude=z)
+    ties = [
+        straight(f"T{k}", (-480.0, 100.0 * k), (10.0, 0.0), altitude=50.0 + k + 0.0 * z) for k in range(3)
+    ]
+    beside = straight("20", (5000.0, -480.0), (0.0, 10.0), altitude=holed)
+    lines, tracks = zip(traverse, *ties, beside, strict=True)
+    assert galileo_lines.gaps(lines) == [{"line": "20", "missing": {"altitude": 1}}]
+    found = galileo_lines.crossovers(lines, tracks, ["altitude"])
+    (mine,) = [c for c in found if c["line"] == "10"]  # samples 48, 58 and 68 over 50, 51 and 52
+    assert (mine["count"], mine["largest"]) == (3, 16.0)
+    assert mine["rms"] == pytest.approx(np.std([-2.0, 7.0, 16.0]))
+    assert mine["rms_root2"] == pytest.approx(mine["rms"] / np.sqrt(2.0))
+    assert [c["count"] for c in found if c["line"][0] == "T"] == [1, 1, 1]
+
+    wave = np.sin(z / 15.0)
+    again = [
+        straight("a", (0.0, 0.0), (10.0, 0.1), g=wave),
+        straight("b", (0.0, 5.0), (10.0, 0.0), g=wave + 3.0),
+        straight("c", (990.0, 5.0), (-10.0, 0.0), g=(wave + np.cos(z / 9.0))[::-1]),
+    ]
+    lines, tracks = zip(*again, strict=True)
+    r = galileo_lines.repeat_lines(lines, tracks, [0, 1, 2], "g")
+    assert r is not None
+    inner = [wave, wave + 3.0, wave + np.cos(z / 9.0)]
+    off = np.array(inner) - np.mean(inner, axis=0)
+    assert list(r["lines"].values()) == pytest.approx(np.std(off, axis=1), rel=1e-4)
+    assert r["all"] == pytest.approx(np.mean(np.std(inner, axis=0)), rel=1e-4)
+    pairs = [Repeat("a", "c", 900.0, {}), Repeat("c", "b", 900.0, {})]
+    assert galileo_lines.groups(lines, pairs) == [[0, 1, 2]]
+
+
 VINTON = """
 [time]
 column = "Time"
@@ -293,3 +338,8 @@ def test_the_survey_over_vinton_dome() -> None:
     assert {d.name for d in q.days} == {"2008-07-03", "2008-07-04", "2008-07-05", "2008-07-06"}
     assert all(r.first.split(".")[0] == r.second.split(".")[0] for r in q.repeats)
     assert len(q.repeats) == 23
+    crossed = {
+        (c["line"], c["channel"]): c for c in q.galileo["crossovers"]
+    }  # as checkIntersection, mode RMS
+    assert crossed["11", "altitude"]["rms"] == pytest.approx(11.040368919040345, rel=1e-12)
+    assert q.galileo["gaps"] == []

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import html
+import json
 import math
 import re
 import warnings
@@ -161,7 +164,7 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data: str) -> None:
-        if "style" not in self.open:
+        if not {"style", "script"} & set(self.open):
             self.words.append(data)
 
     @property
@@ -194,7 +197,7 @@ def test_pages_are_self_contained_well_formed_and_small(which: str, request: pyt
         assert page.open == [], name
         assert len(text.encode()) < 500_000, name
         assert {"html", "svg", "table", "footer"} <= {tag for tag, _ in page.elements}
-        foreign = {"script", "link", "iframe", "object", "embed", "img", "form", "base", "foreignobject"}
+        foreign = {"link", "iframe", "object", "embed", "img", "form", "base", "foreignobject"}
         assert foreign.isdisjoint(tag for tag, _ in page.elements), name
         for tag, attributes in page.elements:
             for key, value in attributes.items():
@@ -205,8 +208,13 @@ def test_pages_are_self_contained_well_formed_and_small(which: str, request: pyt
         for target in re.findall(r"url\(([^)]*)\)", text):
             assert target.startswith("#")
         policy = [a["content"] for t, a in page.elements if a.get("http-equiv") == "Content-Security-Policy"]
-        assert policy
         assert str(policy[0]).startswith("default-src 'none'")
+        # one script of ours, named by its digest: whatever else came into the page would not run
+        assert [a for t, a in page.elements if t == "script"] == [{}]
+        (script,) = re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
+        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+        assert f"script-src 'sha256-{digest}';" in str(policy[0])
+        assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|eval|fetch|import", script)
 
 
 def test_references_inside_figures_are_met_once(cubic: Case) -> None:
@@ -216,6 +224,38 @@ def test_references_inside_figures_are_met_once(cubic: Case) -> None:
         used = re.findall(r'href="#([^"]*)"', text) + re.findall(r"url\(#([^)]*)\)", text)
         assert used
         assert set(used) <= set(ids)
+
+
+def test_the_contents_lead_to_every_section(clean: Case) -> None:
+    for text in pages(clean).values():
+        headings = re.findall(r'<h2 id="([^"]*)">([^<]*)</h2>', text)
+        listed = re.findall(r'<li><a href="#([^"]*)">([^<]*)</a></li>', text)
+        assert headings == listed
+        assert len(headings) >= 5
+
+
+def test_what_the_script_zooms_is_there_and_says_what_it_spans(cubic: Case) -> None:
+    for text in pages(cubic).values():
+        ids = set(re.findall(r' id="([^"]*)"', text))
+        shown = [a["data-live"] for t, a in Page(text).elements if t == "svg" and "data-live" in a]
+        assert shown
+        for described in map(json.loads, filter(None, shown)):
+            for n, axes in enumerate(described["axes"]):
+                for k in range(len(axes["curves"])):
+                    assert f"{described['name']}-c{n}-{k}" in ids
+                assert {f"{described['name']}-{which}{n}" for which in "xy"} <= ids
+                assert any(axes["curves"])
+                assert axes["x"][0] < axes["x"][1]
+                assert axes["y"][0] < axes["y"][1]
+
+
+def test_colours_of_figures_are_the_style_sheet_s(clean: Case) -> None:
+    for text in pages(clean).values():
+        style = text.split("<style>")[1].split("</style>")[0]
+        known = set(re.findall(r"--([a-z]+):", style))
+        assert set(re.findall(r"var\(--([a-z]+)\)", text)) <= known | {"own"}
+        drawn = "".join(re.findall(r"<svg.*?</svg>", text, re.DOTALL))
+        assert not re.findall(r": #[0-9a-f]{6}", drawn)
 
 
 def test_names_of_strangers_are_text(cubic: Case) -> None:
@@ -270,6 +310,18 @@ def test_missing_effect_is_named_with_its_size_and_its_ambiguity(cubic: Case) ->
     # a cubic term of A3 and its opposite in A4, which feels the opposite force, are the same in G_out
     r = next(r for r in cubic.diagnosis.ranking if r.effect == "cubic-input")
     shown = effect_values.values(cubic.diagnosis.fitted, r)
+    (headline,) = effect_values.headlines(r.parameters, r.combinations)
+    told = [
+        q
+        for q in (*r.parameters, *r.combinations)
+        if headline.text.startswith(numbers.plus_minus(q.value, q.std))
+    ]
+    assert told  # one of the numbers of terminal and JSON
+    assert re.sub(r"\s+", " ", headline.text) in said
+    assert any(
+        str(line).startswith("cubic-input: ") and headline.text in line
+        for line in report.diagnose_page.lead(cubic.diagnosis)
+    )
     both = {
         v.of: float(re.match(r"[−\d.]+", v.text)[0].replace("−", "-"))
         for v in (*shown.values, *shown.instead)

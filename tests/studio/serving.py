@@ -14,6 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pyarrow as pa
+import pyarrow.csv
 import pyarrow.parquet as pq
 
 from ragg_runtime.workflow import loop
@@ -28,6 +30,7 @@ class Served:
 
     address: str
     process: subprocess.Popen[str]
+    exchanged: httpx.Response | None = None
 
     @property
     def origin(self) -> str:
@@ -41,7 +44,8 @@ class Served:
     def client(self) -> Iterator[httpx.Client]:
         """One that has exchanged the token for the cookie."""
         with httpx.Client(base_url=self.origin, timeout=PATIENCE, headers={"origin": self.origin}) as c:
-            assert c.get(self.address.removeprefix(self.origin)).status_code == 303
+            self.exchanged = c.get(self.address.removeprefix(self.origin))
+            assert self.exchanged.status_code == 303
             yield c
 
 
@@ -56,13 +60,14 @@ def brief(flight: Path) -> None:
     pq.write_table(table.slice(0, 2 * 60 * 16), flight)
 
 
-def ragg(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "ragg_runtime", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def foreign(path: Path) -> None:
+    """Two minutes of it as a company might hand them over: other names, and no unit of the accelerations."""
+    names = {"time": "GPSTIME [s]", "G_out": "SUM [V]"}
+    names |= {f"a_{k}": f"ACC_{k.upper()}" for k in "xyz"} | {
+        f"omega_{k}": f"gyro_{k} [rad/s]" for k in "xyz"
+    }
+    table = pq.read_table(DEMO, columns=list(names)).slice(0, 2 * 60 * 16)
+    pa.csv.write_csv(table.rename_columns(list(names.values())), path)
 
 
 @contextmanager
@@ -94,5 +99,17 @@ def settled(client: httpx.Client, *, diagnosed: bool = True) -> dict[str, Any]:
         state: dict[str, Any] = client.get("/api/state").json()
         if not state["status"]["job"] and (state["effects"] or not diagnosed or state["status"]["error"]):
             return state
-        time.sleep(0.05)
+        time.sleep(0.1)
     raise AssertionError("the server does not come to an end")
+
+
+def compared(client: httpx.Client) -> dict[str, Any]:
+    """The state once the flights are compared; the tests of the effects, which take most of the time, are cancelled."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        state: dict[str, Any] = client.get("/api/state").json()
+        if state["banner"] is not None or not state["status"]["job"]:
+            client.post("/api/do/cancel", json={})
+            return settled(client, diagnosed=False)
+        time.sleep(0.1)
+    raise AssertionError("the flights are not compared")

@@ -13,7 +13,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from serving import DEMO, Served, new, served
+from serving import DEMO, Served, foreign, new, served
 
 from ragg_runtime.model_dir.directory import load_model_dir
 
@@ -45,6 +45,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
     new(folder / "model")
     flight = folder / f"{HOSTILE.replace('/', '')}.parquet"
     flight.write_bytes(DEMO.read_bytes())
+    foreign(folder / "foreign.csv")
     with served(folder / "model", flight) as s:
         s.folder = folder  # type: ignore[attr-defined]
         yield s
@@ -236,17 +237,67 @@ def test_09_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
     page.get_by_role("button", name="Save 1 changed parameter").click()
     expect(page.get_by_role("button", name="Nothing changed")).to_be_visible(timeout=PATIENCE)
     expect(page.get_by_label("K0 of A1, ug")).to_have_value(f"{float(old) + 1:g}")
-    idle(page)
     assert load_model_dir(server.folder / "model").history[-1].action == "edit"  # type: ignore[attr-defined]
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.locator("#trouble")).to_contain_text("cancelled", timeout=PATIENCE)
+    page.locator("#main").focus()
+    page.keyboard.press("u")
+    expect(page.get_by_label("K0 of A1, ug")).to_have_value(old, timeout=PATIENCE)
+    idle(page)
 
 
-def test_10_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: Page) -> None:
+def test_10_compensated_channels_and_their_quality(page: Page) -> None:
+    page.keyboard.press("6")
+    page.get_by_role("button", name="Control the quality").click()
+    expect(page.locator("#trouble")).to_contain_text("compensate them first")
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Compensate", exact=True).click()
+    expect(page.locator(".channels .u-over")).to_have_count(2, timeout=PATIENCE)
+    table = page.locator("section", has_text="Compensated channels").locator("tbody tr")
+    expect(table.first).to_contain_text("inline")
+    before, after = (float(re.sub(r"\s", "", t)) for t in table.first.locator("td").all_text_contents()[:2])
+    assert after < 1e-3 * before
+    with page.expect_download() as got:
+        page.get_by_role("link", name="Take it as CSV").click()
+    rows = Path(got.value.path()).read_text().splitlines()
+    assert rows[0] == "time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]"
+    assert len(rows) == 1 + 11520
+    idle(page)
+    page.get_by_role("button", name="Control the quality").click()
+    expect(page.locator(".view-apply .headline")).to_contain_text("1 line", timeout=PATIENCE)
+    idle(page)
+    picture = shown(page, ".channels figure:first-child .plot")
+    box = in_view(page, ".channels figure:first-child .u-over")
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
+    page.mouse.wheel(0, -300)
+    changes(page, ".channels figure:first-child .plot", picture)
+
+
+def test_11_of_foreign_columns_only_what_the_file_leaves_open_is_asked(page: Page) -> None:
+    page.keyboard.press("5")
+    page.get_by_role("button", name="Say what the columns of foreign.csv are").click()
+    asked = page.locator("section > .wide .mapping tbody tr")
+    expect(asked).to_have_count(3)
+    expect(page.locator(".mapping")).to_have_count(2)
+    keep = page.get_by_role("button", name="Keep with the model and open the flight")
+    expect(page.locator("p[role=status]")).to_contain_text("the unit is not answered yet")
+    expect(keep).to_be_disabled()
+    for axis in "xyz":
+        page.get_by_label(f"unit of a_{axis}", exact=True).fill("m/s^2")
+    expect(keep).to_be_enabled()
+    expect(asked.first.locator(".sparkline path")).to_be_attached()
+    page.get_by_label("unit of a_x", exact=True).fill("parsec")
+    expect(keep).to_be_disabled()
+
+
+def test_12_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: Page) -> None:
+    page.locator("#main").focus()
     page.keyboard.press("1")
     expect(page.locator(".ranking li").first).to_be_visible(timeout=PATIENCE)
     idle(page)
     for scheme in ("light", "dark"):
         page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
-        for key in "123456":
+        for key in "1234567":
             page.locator("#main").focus()
             page.keyboard.press(key)
             expect(page.locator("#main h2").first).to_be_visible()
@@ -262,7 +313,7 @@ def test_10_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: 
 
 
 @pytest.mark.parametrize("width, height", [(1280, 720), (3840, 2160), (820, 1180)])
-def test_11_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -> None:
+def test_13_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -> None:
     page.set_viewport_size({"width": width, "height": height})
     page.wait_for_timeout(200)
     over = page.evaluate("() => document.documentElement.scrollWidth - innerWidth")
@@ -273,20 +324,72 @@ def test_11_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -
     page.set_viewport_size({"width": 1440, "height": 900})
 
 
-def test_12_figures_and_reports_are_taken_along(page: Page) -> None:
+def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
     for name, begin in (("SVG", b"<svg"), ("PNG", b"\x89PNG")):
         with page.expect_download() as got:
             page.locator("figure.spectrum").hover()
             page.locator("figure.spectrum").get_by_role("button", name=name).click()
         assert Path(got.value.path()).read_bytes().startswith(begin)
-    page.keyboard.press("6")
+    page.keyboard.press("7")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
-    assert "ragg diagnose" in Path(got.value.path()).read_text()
+    commands = Path(got.value.path()).read_text()
+    assert "ragg diagnose" in commands
+    assert "ragg compensate" in commands
     page.keyboard.press("1")
 
 
-def test_14_a_day_at_100_Hz_is_seen_before_it_is_read(browser: Browser, tmp_path: Path) -> None:
+def test_16_a_report_is_read_out_and_zoomed_without_a_server(
+    page: Page, browser: Browser, tmp_path: Path
+) -> None:
+    report = tmp_path / "compare.html"
+    report.write_bytes(page.request.get(page.url.split("#")[0] + "api/take/compare.html").body())
+    with browser.new_context(viewport={"width": 1280, "height": 900}, offline=True) as context:
+        made = context.new_page()
+        said: list[str] = []
+        made.on("console", lambda m: said.append(m.text))
+        made.on("pageerror", lambda e: said.append(str(e)))
+        made.goto(report.as_uri())
+        expect(made.locator("html[data-ready]")).to_be_attached()
+        svg = made.locator("svg[data-live]", has=made.locator("#time-c0-0"))
+        curve = made.locator("#time-c0-1 path")
+        whole, other = curve.get_attribute("d"), made.locator("#channels-c0-0 path").get_attribute("d")
+        svg.scroll_into_view_if_needed()
+        box = svg.bounding_box()
+        assert box is not None
+        y = box["y"] + 0.2 * box["height"]
+        made.mouse.move(box["x"] + 0.4 * box["width"], y)
+        made.mouse.down()
+        made.mouse.move(box["x"] + 0.6 * box["width"], y, steps=3)
+        made.mouse.up()
+        assert curve.get_attribute("d") != whole
+        assert made.locator("#channels-c0-0 path").get_attribute("d") != other  # one window of time
+        labels = made.locator("#time-x1 .own text").all_text_contents()
+        assert len(labels) >= 4
+        assert all(100.0 < float(t) < 600.0 for t in labels)
+        made.mouse.move(box["x"] + 0.5 * box["width"], y)
+        expect(made.locator(".tip")).to_contain_text("least to greatest value")
+        made.mouse.dblclick(box["x"] + 0.5 * box["width"], y)
+        assert curve.get_attribute("d") == whole
+        ground = "() => getComputedStyle(document.body).backgroundColor"
+        light = made.evaluate(ground)
+        for _ in ("light", "dark"):
+            found = Axe().run(made).response["violations"]
+            assert [v["id"] for v in found if v["impact"] in ("serious", "critical")] == []
+            made.get_by_role("button", name="Light or dark").click()
+        made.get_by_role("button", name="Light or dark").click()
+        assert made.evaluate(ground) != light
+        made.set_viewport_size({"width": 400, "height": 800})
+        assert made.evaluate("() => document.documentElement.scrollWidth - innerWidth") <= 0
+        assert said == []
+    with browser.new_context(java_script_enabled=False) as context:
+        plain = context.new_page()
+        plain.goto(report.as_uri())
+        expect(plain.locator("#time-c0-1 path")).to_be_visible()
+        expect(plain.locator(".tools")).to_have_count(0)
+
+
+def test_17_a_day_at_100_Hz_is_seen_before_it_is_read(browser: Browser, tmp_path: Path) -> None:
     n = 8_640_000
     time = np.arange(n) / 100.0
     series = {"time": ("s", time), "G_out": ("V", np.sin(time) + 1e-3 * (np.arange(n) % 977))}
@@ -306,7 +409,7 @@ def test_14_a_day_at_100_Hz_is_seen_before_it_is_read(browser: Browser, tmp_path
         page.close()
 
 
-def test_13_the_address_holds_the_view_for_another_tab(page: Page, server: Served) -> None:
+def test_15_the_address_holds_the_view_for_another_tab(page: Page, server: Served) -> None:
     page.keyboard.press("c")
     page.wait_for_timeout(250)
     other = page.context.new_page()

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import math
+import re
 import struct
+import tomllib
+from pathlib import Path
 
 import numpy as np
+import pyarrow.csv
 import pytest
-from serving import DEMO, new
+from serving import brief, foreign, new
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
+from ragg_runtime.studio import mapping, session
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.session import branches
@@ -21,10 +28,11 @@ from ragg_runtime.workflow import loop
 
 @pytest.fixture(scope="module")
 def diagnosis(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
-    model = tmp_path_factory.mktemp("m") / "model"
-    new(model)
-    m = loop.load(model)
-    return loop.diagnose(m, loop.read_flights(m, [DEMO]))
+    folder = tmp_path_factory.mktemp("m")
+    new(folder / "model")
+    brief(folder / "flight.parquet")
+    m = loop.load(folder / "model")
+    return loop.diagnose(m, loop.read_flights(m, [folder / "flight.parquet"]))
 
 
 @pytest.mark.parametrize(
@@ -46,7 +54,7 @@ def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
     f = diagnosis.fitted
     v = foresee.coefficients(f, field_of(f, ["thermal-scale"]), ["thermal-scale"])
     rows, taken = foresee.signature(f, 0, v)
-    assert rows == slice(0, 11520)
+    assert rows == slice(0, 1920)
     before, after = (f.residuals_of(x)[0] for x in (np.zeros(f.size), v))
     assert np.allclose(taken, before - after, atol=1e-12 * np.max(np.abs(before)))
 
@@ -60,8 +68,8 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
-    field = field_of(f, ["thermal-scale"])
-    given = heat.heat(f.flown[0], f.triangles[0], f.n_base, foresee.columns_of(field, ["thermal-scale"]))
+    found = list(diagnosis.found)
+    given = heat.heat(f.flown[0], f.triangles[0], f.n_base, foresee.columns_of(field_of(f, found), found))
     assert np.nanmax(np.abs(given.z)) < h.level
 
 
@@ -104,6 +112,66 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     assert branches(steps[:7]) == ([0, 1, 6], [])
     assert branches(steps[:8]) == ([0, 1], [6])
     assert branches(steps) == ([0, 1, 6], [])
+
+
+def test_modules_import_downwards_alone() -> None:
+    static = Path(session.__file__).parent / "static" / "js"
+    below = {
+        m: {
+            (m.parent / name).resolve()
+            for name in re.findall(r'^import .*? from "(\.[^"]*)";', m.read_text(), re.MULTILINE)
+        }
+        for m in static.glob("**/*.js")
+    }
+    assert len(below) > 20
+    left = {m.resolve(): {b for b in names if static in b.parents} for m, names in below.items()}
+    while left:
+        bottom = {m for m, names in left.items() if not names & set(left)}
+        assert bottom, f"these import each other: {sorted(m.name for m in left)}"
+        left = {m: names for m, names in left.items() if m not in bottom}
+
+
+def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
+    new(tmp_path / "model")
+    m = loop.load(tmp_path / "model")
+    path = tmp_path / "flight.csv"
+    foreign(path)
+    given = mapping.begun(m, path)
+    asked = [r for r in given["rows"] if r["asked"]]
+    assert [r["channel"] for r in asked] == ["a_x", "a_y", "a_z"]
+    assert "not answered" in mapping.tried(m, path, given)["error"]["what"]
+    for r in asked:
+        r["unit"] = "g"
+    found = mapping.tried(m, path, given)
+    assert found["error"] is None
+    x = next(p for p in found["preview"] if p["channel"] == "a_z")
+    raw = pyarrow.csv.read_csv(path)["ACC_Z"].to_numpy()
+    assert x["unit"] == "m/s²"
+    assert x["points"] == pytest.approx(
+        raw[:: len(raw) // len(x["points"])][: len(x["points"])] * m.instrument.g0
+    )
+    for r in asked:
+        r["unit"] = "m/s^2"
+    found = mapping.tried(m, path, given)
+    mapping.keep(m, path, given, replace=False)
+    (flight,) = loop.read_flights(m, [path])
+    assert flight.channels["a_z"] == pytest.approx(raw)
+    assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
+    assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
+    given["rows"][0]["sign"] = -1
+    with pytest.raises(UserError, match="mapping already"):
+        mapping.keep(m, path, given, replace=False)
+    mapping.keep(m, path, given, replace=True)
+    for wrong in (
+        {"scale": {"a": 1}},
+        {"column": 'x"\n[time]', "unit": "g"},
+        {"scale": math.nan},
+        {"unit": "]"},
+    ):
+        bad = given | {"rows": [given["rows"][0] | wrong]}
+        assert mapping.tried(m, path, bad)["error"]
+        with pytest.raises(UserError):
+            mapping.keep(m, path, bad, replace=True)
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

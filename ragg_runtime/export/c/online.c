@@ -10,8 +10,8 @@ enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = STATES
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */
+static const double STEEPER = 2.0;     /* walk of inline over that of cross */
 static const double UNKNOWN_EO = 1e4;  /* of the gradient before anything is known */
-static const double SIGN[4] = {1.0, 1.0, -1.0, -1.0};
 
 /* Turn row and into, both zero before column first, so that row vanishes there. */
 static void turn(double *restrict into, double *restrict row, int first) {
@@ -35,11 +35,11 @@ static void fold(ragg_online *o, double row[WIDTH], int first) {
     }
 }
 
-/* g' = g + w, w of variance walk^2 t: w is eliminated, column by column, from the last row up, so that the triangle stays. */
+/* g' = g + w, w of variance walk^2 t (inline STEEPER times the walk): w is eliminated, column by column, from the last row up, so that the triangle stays. */
 static void walk(ragg_online *o, double t) {
     double own[2][WIDTH] = {{0.0}}, coupled[STATES][2], pivot[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
     for (int k = 0; k < 2; ++k) {
-        pivot[k][k] = 1.0 / (o->walk * sqrt(t));
+        pivot[k][k] = 1.0 / ((k == 0 ? STEEPER : 1.0) * o->walk * sqrt(t));
     }
     for (int i = 0; i < STATES; ++i) {
         for (int k = 0; k < 2; ++k) {
@@ -82,19 +82,19 @@ static void fade(ragg_online *o, double t) {
     for (int i = 0; i < FITTED_N; ++i) {
         double row[WIDTH] = {0.0};
         row[i] = sqrt(1.0 - kept);
-        row[STATES] = sqrt(1.0 - kept) * FITTED[i].sheet;
+        row[STATES] = sqrt(1.0 - kept) * FITTED[o->output][i].sheet;
         fold(o, row, i);
     }
 }
 
-void ragg_online_start(ragg_online *o, double noise, double walk_, double forget) {
+void ragg_online_start(ragg_online *o, int output, double noise, double walk_, double forget) {
     memset(o, 0, sizeof *o);
-    o->noise = noise, o->walk = walk_, o->forget = forget;
+    o->output = output, o->noise = noise, o->walk = walk_, o->forget = forget;
     for (int i = 0; i < FITTED_N; ++i) {
         for (int k = i; k < FITTED_N; ++k) {
-            o->R[i][k] = START_AT_SHEET ? (i == k) : START[START_AT_SHEET ? 0 : i * FITTED_N - i * (i - 1) / 2 + k - i];
+            o->R[i][k] = START[output][i * FITTED_N - i * (i - 1) / 2 + k - i];
         }
-        o->R[i][STATES] = START_AT_SHEET ? FITTED[i].sheet : 0.0;
+        o->R[i][STATES] = START_AT_SHEET ? FITTED[output][i].sheet : 0.0;
     }
     for (int i = FITTED_N; i < STATES; ++i) {
         o->R[i][i] = 1.0 / UNKNOWN_EO;
@@ -104,24 +104,28 @@ void ragg_online_start(ragg_online *o, double noise, double walk_, double forget
 /* The sample as a row; 0 where something in it is no number. */
 static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G, double row[WIDTH]) {
     const double *series[ONLINE_INPUTS], *encoder = isnan(angle) ? NULL : &angle;
+    const int output = o->output;
     double predicted, D[RAGG_CHAIN_ROWS];
     for (int k = 0; k < ONLINE_INPUTS; ++k) {
         series[k] = in + k;
     }
-    ragg_chain_output(1, &t, series, POINT, encoder, &predicted);
+    PREDICT((size_t)ONLINE_OUTPUT[output].which, &t, series, POINT, encoder, &predicted);
     memset(row, 0, WIDTH * sizeof *row);
-    for (int j = 0; j < 4; ++j) {
+    for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
+        const int j = MEMBER[output][m].j;
+        const double sign = MEMBER[output][m].sign;
         ragg_chain_derivatives((size_t)j, 1, &t, series, POINT, encoder, D);
         for (int n = 0; n < FITTED_N; ++n) {
-            if (FITTED[n].accelerometer < 0 || FITTED[n].accelerometer == j) {
-                row[n] += SIGN[j] * FITTED[n].scale * D[FITTED[n].row];
+            if (FITTED[output][n].accelerometer == -1 || FITTED[output][n].accelerometer == j) {
+                row[n] += sign * FITTED[output][n].scale * D[FITTED[output][n].row];
             }
         }
     }
-    const double turns = POINT[1] * t;
+    const double turns = POINT[SPIN[output]] * t;
     const double phi = encoder ? angle : 6.283185307179586 * (turns - rint(turns));
-    row[FITTED_N] = 0.5 * SCALE_FACTOR * sin(2.0 * phi);
-    row[FITTED_N + 1] = -SCALE_FACTOR * cos(2.0 * phi);
+    const double carrier = 2.0 * phi + ONLINE_OUTPUT[output].phase;
+    row[FITTED_N] = 0.5 * ONLINE_OUTPUT[output].scale_factor * sin(carrier);
+    row[FITTED_N + 1] = -ONLINE_OUTPUT[output].scale_factor * cos(carrier);
     row[STATES] = G - predicted;
     int whole = 1;
     for (int k = 0; k < WIDTH; ++k) {
@@ -175,6 +179,6 @@ void ragg_online_parameters(const ragg_online *o, double p[ONLINE_PARAMETERS]) {
     }
     memcpy(p, POINT, sizeof POINT);
     for (int n = 0; n < FITTED_N; ++n) {
-        p[FITTED[n].place] += x[n] * FITTED[n].scale;
+        p[FITTED[o->output][n].place] += x[n] * FITTED[o->output][n].scale;
     }
 }

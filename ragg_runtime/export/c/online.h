@@ -1,6 +1,7 @@
 /* Calibrate and compensate sample by sample, without allocation: a square-root information filter.
  *
- * States: the fitted parameters, and the gradient's channels inline and cross, which wander. Memory: one ragg_online. */
+ * A filter is of one output. States: the fitted parameters of its accelerometers, and the gradient's channels inline and
+ * cross, which wander. Memory: one ragg_online. */
 #ifndef RAGG_ONLINE_H
 #define RAGG_ONLINE_H
 
@@ -12,7 +13,7 @@ typedef struct {
     double R[RAGG_ONLINE_STATES][RAGG_ONLINE_STATES + 1]; /* upper triangle, and the right-hand side */
     double noise, walk, forget;
     double before, waited, faded;
-    int begun;
+    int begun, output;
 } ragg_online;
 
 /* What is known of the gradient: channels and their standard deviations, Eo. */
@@ -20,12 +21,12 @@ typedef struct {
     double inline_Eo, cross_Eo, inline_std, cross_std;
 } ragg_gradient;
 
-/* Begin at the calibration that is built in. noise: standard deviation of a sample of G_out, V. walk: of the gradient,
- * Eo/sqrt(s), 0 if it is constant. forget: time constant, s, with which parameters forget; INFINITY: never. */
-void ragg_online_start(ragg_online *o, double noise, double walk, double forget);
+/* Begin at the calibration that is built in. output: 0 ... ONLINE_OUTPUTS - 1 (see ONLINE_OUTPUT). noise: standard deviation of a sample of G_out, V. walk: of the cross
+ * channel, Eo/sqrt(s), inline twice as much; 0 if they are constant. forget: time constant, s, with which parameters forget; INFINITY: never. */
+void ragg_online_start(ragg_online *o, int output, double noise, double walk, double forget);
 
 /* Take a sample: t, s, since the first; in, the model's inputs (gradients zero); angle of the disc, rad, or NaN for
- * 2 pi spin_frequency t; G_out, V. What is not a number is passed over; gaps may be of any length. Returns 1 where the
+ * 2 pi spin_frequency t; G, the output, V. What is not a number is passed over; gaps may be of any length. Returns 1 where the
  * gradient has just taken a step of its walk. */
 int ragg_online_step(ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G);
 

@@ -1,62 +1,109 @@
-/* ragg_online NOISE WALK FORGET < SAMPLES.csv > OUT.csv: an example of online.h.
+/* ragg_online NOISE_V WALK_EO FORGET_S [TIMES] < FLIGHT.csv > OUT.csv: an example of online.h.
  *
- * SAMPLES.csv: a line of names, then `time, inputs of the model in their order, G_out`, SI units, nan where one is missing.
- * OUT.csv: time,inline,cross,inline_std,cross_std (Eo) at every step of the gradient's walk; at last the parameters, one a
- * line after #. With a fourth argument N the samples are taken N times over, and their time is told on stderr instead. */
+ * FLIGHT.csv: the columns of a record (record.h) and the recorded outputs, in SI units. Every output that sees a gradient
+ * and is there is filtered; recorded gradients do not enter. OUT.csv: time,inline,cross,inline_std,cross_std (Eo; of several
+ * outputs each with its ending) at every step of the gradient's walk, nan where nothing was recorded yet; at last the
+ * parameters, one a line after #, output after output. With TIMES the samples are taken so many times over, and their time
+ * is told on stderr instead. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
+
+#include "record.h"
 
 #include "online.h"
 
-enum { MOST = 65536, COLUMNS = ONLINE_INPUTS + 2 };
+const char *const ragg_program = "ragg_online";
 
-static double samples[MOST][COLUMNS];
+static ragg_online filters[ONLINE_OUTPUTS];
+static int there[ONLINE_OUTPUTS], stepped[ONLINE_OUTPUTS];
+
+/* Take sample i, at t s since the first; whether the gradient has taken a step. */
+static int take(const ragg_record *r, size_t i, double t) {
+    int any = 0;
+    for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
+        if (!there[n]) {
+            continue;
+        }
+        const size_t which = (size_t)ONLINE_OUTPUT[n].which;
+        const double *in[INPUTS], *angle = ragg_inputs(r, which, i, in);
+        double x[ONLINE_INPUTS];
+        for (size_t k = 0; k < INPUTS; ++k) {
+            x[k] = INPUT[k].column != DISC_ANGLE && strncmp(COLUMN[INPUT[k].column].name, "Gamma_", 6) == 0 ? 0.0 : *in[k];
+        }
+        double G = r->column[FIRST_OUTPUT + (int)which][i];
+        G = angle && isnan(*angle) ? (double)NAN : G;
+        stepped[n] = ragg_online_step(&filters[n], t, x, angle ? *angle : (double)NAN, G);
+        any |= stepped[n];
+    }
+    return any;
+}
+
+static void header(void) {
+    static const char *const names[] = {"inline", "cross", "inline", "cross"}, *const ends[] = {"", "", "_std", "_std"};
+    fputs("time", stdout);
+    for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
+        for (int k = 0; there[n] && k < 4; ++k) {
+            printf(",%s%s%s", names[k], ONLINE_OUTPUT[n].ending, ends[k]);
+        }
+    }
+    puts("");
+}
+
+static void tell(double t) {
+    printf("%.17g", t);
+    for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
+        if (there[n]) {
+            const ragg_gradient g = ragg_online_gradient(&filters[n]);
+            printf(",%.17g,%.17g,%.17g,%.17g", g.inline_Eo, g.cross_Eo, g.inline_std, g.cross_std);
+        }
+    }
+    puts("");
+}
 
 int main(int count, char **arguments) {
     if (count < 4) {
-        fprintf(stderr, "usage: ragg_online NOISE_V WALK_EO FORGET_S [TIMES] < SAMPLES.csv > OUT.csv\n");
+        fprintf(stderr, "usage: ragg_online NOISE_V WALK_EO FORGET_S [TIMES] < FLIGHT.csv > OUT.csv\n");
         return 2;
     }
-    static ragg_online o;
-    ragg_online_start(&o, strtod(arguments[1], NULL), strtod(arguments[2], NULL), strtod(arguments[3], NULL));
-    static char line[65536];
-    if (!fgets(line, sizeof line, stdin)) {
-        return 2;
+    static ragg_record r;
+    ragg_read(&r, stdin, 1);
+    int any = 0;
+    for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
+        there[n] = r.there[FIRST_OUTPUT + ONLINE_OUTPUT[n].which];
+        any |= there[n];
+        ragg_online_start(&filters[n], n, strtod(arguments[1], NULL), strtod(arguments[2], NULL), strtod(arguments[3], NULL));
     }
-    int n = 0;
-    for (; n < MOST && fgets(line, sizeof line, stdin); ++n) {
-        char *at = line;
-        for (int k = 0; k < COLUMNS; ++k) {
-            samples[n][k] = strtod(at, &at);
-            at += *at == ',';
-        }
+    if (!any) {
+        ragg_fail("the column is missing", ONLINE_OUTPUT[0].name, "a recorded output in V");
     }
     const long times = count > 4 ? strtol(arguments[4], NULL, 10) : 1;
-    const double length = n > 1 ? samples[n - 1][0] + samples[1][0] - 2.0 * samples[0][0] : 0.0;
+    const double length = r.n > 1 ? r.seconds[r.n - 1] + r.seconds[1] : 0.0;
     const clock_t begun = clock();
     if (times == 1) {
-        puts("time,inline,cross,inline_std,cross_std");
+        header();
     }
     for (long k = 0; k < times; ++k) {
-        for (int i = 0; i < n; ++i) {
-            const double t = samples[i][0] - samples[0][0] + (double)k * length;
-            const int stepped = ragg_online_step(&o, t, samples[i] + 1, (double)NAN, samples[i][COLUMNS - 1]);
-            if (stepped && times == 1) {
-                const ragg_gradient g = ragg_online_gradient(&o);
-                printf("%.17g,%.17g,%.17g,%.17g,%.17g\n", t, g.inline_Eo, g.cross_Eo, g.inline_std, g.cross_std);
+        for (size_t i = 0; i < r.n; ++i) {
+            const double t = r.seconds[i] + (double)k * length;
+            if (take(&r, i, t) && times == 1) {
+                tell(r.column[TIME][i]);
             }
         }
     }
     if (times > 1) {
-        const double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
-        fprintf(stderr, "%ld samples, %.3g microseconds a sample\n", times * n, 1e6 * seconds / (double)(times * n));
+        const double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC, samples = (double)times * (double)r.n;
+        fprintf(stderr, "%.0f samples, %.3g microseconds a sample\n", samples, 1e6 * seconds / samples);
     }
-    double p[ONLINE_PARAMETERS];
-    ragg_online_parameters(&o, p);
-    for (int k = 0; k < ONLINE_PARAMETERS; ++k) {
-        printf("# %.17g\n", p[k]);
+    for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
+        double p[ONLINE_PARAMETERS];
+        ragg_online_parameters(&filters[n], p);
+        for (int k = 0; there[n] && k < ONLINE_PARAMETERS; ++k) {
+            printf("# %.17g\n", p[k]);
+        }
     }
+    ragg_free(&r);
     return 0;
 }

@@ -31,12 +31,15 @@ class Shown:
         The flights with the model as it was fitted last: of a diagnosis with what was found, of ``add`` with the effect.
     residual
         (N,) V of every flight, what that model leaves.
+    before
+        The same before the effect was added.
     diagnosis
         Of a report of ``diagnose``.
     """
 
     fitted: Fitted
     residual: Sequence[Array]
+    before: Sequence[Array] | None = None
     diagnosis: Diagnosis | None = None
 
 

@@ -1,16 +1,19 @@
-"""The demodulated residual: the error of the measured gradients."""
+"""The demodulated residual: the error of the measured gradients, before a step and after it."""
 
 from __future__ import annotations
 
 from ragg_runtime.report import figures, page, panels, series
 from ragg_runtime.report.panel import Panel, Shown
 
-REPORTS = ("compare",)
+REPORTS = ("compare", "add")
 
 
 def panel(shown: Shown) -> Panel:
     chosen = series.worst(shown.fitted, shown.residual, panels.FLIGHTS)
-    drawn = panels.channel_panels(shown.fitted, shown.residual, chosen)
+    lines = [(figures.ONLY, shown.residual)]
+    if shown.before is not None:
+        lines = [(figures.BEFORE, shown.before), (figures.AFTER, shown.residual)]
+    drawn = panels.channel_panels(shown.fitted, lines, chosen)
     if not drawn:
         said = (
             "The record is too short for the demodulator’s low-pass: there are no inline and cross channels."

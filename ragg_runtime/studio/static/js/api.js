@@ -33,8 +33,10 @@ const query = (values) =>
 
 export const ask = async (what, values = {}, signal) => (await sent(`/api/${what}?${query(values)}`, { signal })).json();
 
-export const act = async (what, body = {}) =>
-  (await sent(`/api/do/${what}`, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) })).json();
+export const post = async (what, body = {}) =>
+  (await sent(`/api/${what}`, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) })).json();
+
+export const act = (what, body) => post(`do/${what}`, body);
 
 export const upload = async (file) =>
   (await sent(`/api/upload?${query({ name: file.name })}`, { method: "POST", body: file })).json();

@@ -1,5 +1,11 @@
 // The page: tabs, keys, what the server is doing, and which view is open.
-import { act, ask, events, Refused } from "./api.js";
+//
+// Imports go down alone: app -> views -> plots and doing -> store, api, dom.
+//   dom     elements, numbers, MathML                 api    what the server is asked
+//   store   what is known (server) and looked at (view)   doing  actions, and telling what went wrong
+//   plots/  draw what they are given                  views/ one a tab, and the panes of the loop
+import { ask, events, Refused } from "./api.js";
+import { doing, trouble } from "./doing.js";
 import { fill, h } from "./dom.js";
 import { known, look, on, recall, server, view } from "./store.js";
 import { loopView } from "./views/loop.js";
@@ -7,6 +13,7 @@ import { parametersView } from "./views/parameters.js";
 import { sheetView } from "./views/sheet.js";
 import { historyView } from "./views/history.js";
 import { filesView } from "./views/files.js";
+import { applyView } from "./views/apply.js";
 import { takeView } from "./views/take.js";
 import { help } from "./views/help.js";
 
@@ -16,37 +23,11 @@ const VIEWS = [
   ["sheet", "Test sheet", sheetView],
   ["history", "History", historyView],
   ["files", "Files", filesView],
+  ["apply", "Apply", applyView],
   ["take", "Take away", takeView],
 ];
 const $ = (id) => document.getElementById(id);
 let leave = null;
-
-/** Facts of an error, where everyone sees them. */
-export function trouble(facts) {
-  const box = $("trouble");
-  box.hidden = !facts;
-  if (!facts) return;
-  const rows = ["where", "found", "expected", "remedy"].filter((k) => facts[k]);
-  fill(
-    box,
-    h("p.first", {}, facts.what),
-    rows.length ? h("dl", {}, rows.map((k) => [h("dt", {}, k), h("dd", {}, facts[k])])) : null,
-    h("button.quiet", { type: "button", onclick: () => trouble(null), "aria-label": "Close this message" }, "Close"),
-  );
-}
-
-/** Do something; what goes wrong is told. */
-export async function doing(what, body) {
-  try {
-    trouble(null);
-    await act(what, body);
-    return true;
-  } catch (error) {
-    if (!(error instanceof Refused)) throw error;
-    trouble(error.facts);
-    return false;
-  }
-}
 
 function tabs() {
   fill($("tabs"), VIEWS.map(([id, name], k) =>
@@ -112,6 +93,7 @@ function opened() {
   main.className = `view-${view.view}`;
   main.setAttribute("aria-label", name);
   leave = open(main);
+  scrollTo(0, 0);
   tabs();
 }
 

@@ -83,6 +83,9 @@ export function number(x, digits = 3) {
   return (x < 0 ? "−" : "") + text;
 }
 
+/** A whole number in groups of three. */
+export const counted = (n) => n.toLocaleString("en").replaceAll(",", "\u202f");
+
 const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 export const superscript = (n) => String(n).replace(/./g, (c) => RAISED[c]);
 

@@ -11,11 +11,11 @@ const fonts = () => {
 };
 export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
-const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−"));
+const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
 
 export function axis(label, more = {}) {
   return {
-    label, labelSize: label ? rem() * 1.15 : 0, labelGap: 0, size: more.side === undefined ? rem() * 1.9 : rem() * 3.5, gap: 4,
+    label, labelSize: label ? rem() * 1.15 : 0, labelGap: 0, ...(more.side === undefined ? {} : { space: 1.5 * rem() }), size: more.side === undefined ? rem() * 1.9 : rem() * 3.5, gap: 4,
     font: fonts(), labelFont: fonts(),
     stroke: () => colour("ink"), grid: { stroke: () => colour("grid"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 },
     values: (u, found) => found.map(tick),

@@ -3,7 +3,7 @@ import { fill, h, number } from "../dom.js";
 import { on, server, view } from "../store.js";
 import { stepBars } from "../plots/bars.js";
 import { foreseen } from "./foresee.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 
 export function banner(box) {
   const known = () => {

@@ -1,7 +1,7 @@
 // The effects, best first: evidence, equation, physics, what absorbs them; a tick shows what it would do.
 import { fill, h, maths, number } from "../dom.js";
 import { look, on, server, view } from "../store.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 import { foreseen } from "./foresee.js";
 
 // a meter is full at this evidence (-log10 p) at least, lest chance look like a finding

@@ -9,7 +9,7 @@ import { ramp, spectrogramPlot } from "../plots/spectrogram.js";
 import { spectrumLines, spectrumPlot } from "../plots/spectrum.js";
 import { timePlot } from "../plots/time.js";
 import { pointedAt } from "./effects.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 
 const UNITS = { V: ["V", "v"], Eo: ["Eo", "e"], inline: ["inline", "i"], cross: ["cross", "c"] };
 const MARGIN = 1; // windows to either side that are asked for beforehand, so that moving finds them there
@@ -164,12 +164,13 @@ export function figures(box) {
   });
   const drawMeasured = () => latest("measured", async () => {
     if (!flight()) return;
-    const common = asked(points()), modelled = ready();
+    const common = asked(points()), modelled = ready(), [a, b] = limits();
     const began = performance.now();
     const [m, p] = await Promise.all([series({ ...common, what: "measured" }), modelled ? series({ ...common, what: "modelled" }) : null]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
     note("measured", modelled ? "" : "As the file has it, not yet examined.");
     plots.measured.show([m, p]);
+    loaded = { from: common.from, to: common.to, width: b - a };
     legend("measured", [[`measured, ${modelled ? unitName() : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
   });
   const drawResidual = () => latest("residual", async () => {
@@ -222,16 +223,25 @@ export function figures(box) {
   const drawHeatTable = () => heatShown && heatTable(heat, heatShown, { chosen: view.term, choose: (term) => look({ term }), marked: inBand });
 
   const slow = calm(() => (drawSpectrum(), drawSpectrogram()), 140);
+  // What is loaded reaches beyond the window: as long as it covers it and is neither too coarse nor too fine, moving
+  // draws what is there, one drawing a frame, and asks only once things are quiet.
+  let loaded = null;
+  const covered = () => {
+    const [a, b] = limits();
+    return loaded && a >= loaded.from && b <= loaded.to && b - a > 0.4 * loaded.width && b - a < 1.6 * loaded.width;
+  };
+  const fresh = () => (drawMeasured(), ready() && drawResidual());
+  const refine = calm(fresh, 120);
   const zoomed = () => {
     plots.strip.shade();
     plots.measured.zoomed();
     head.querySelector(".window").textContent = windowText();
     headed();
-    drawMeasured();
+    if (covered()) refine();
+    else fresh();
     if (!ready()) return;
     plots.residual.zoomed();
     plots.spectrogram.zoomed();
-    drawResidual();
     slow();
   };
   const all = () => {

@@ -1,14 +1,15 @@
 // Choose or drop files: model directories, test sheets, flights, below the folders that were named at the start.
 import { ask, Refused, upload } from "../api.js";
-import { fill, h, number } from "../dom.js";
+import { counted, fill, h, number } from "../dom.js";
 import { look, on, server } from "../store.js";
-import { doing, trouble } from "../app.js";
+import { doing, trouble } from "../doing.js";
+import { mappingPane } from "./mapping.js";
 
 const SIZE = (b) => (b > 1e9 ? `${number(b / 1e9)} GB` : b > 1e6 ? `${number(b / 1e6)} MB` : b > 1e3 ? `${number(b / 1e3)} kB` : `${b} B`);
 
 export function filesView(main) {
   const now = h("section.card");
-  const list = h("section.card");
+  const list = h("section.card"), columns = h("section.card", { hidden: true });
   const chosen = new Set();
   let folder = "";
   const show = async (place) => {
@@ -37,7 +38,8 @@ export function filesView(main) {
         e.kind === "folder" ? h("button.quiet", { type: "button", onclick: () => show(e.path) }, `${e.name}/`)
         : e.kind === "model" ? [h("span", {}, h("b", {}, e.name), h("small", {}, " model directory")), h("span.do", {}, h("button", { type: "button", onclick: () => show(e.path) }, "look inside"), h("button", { type: "button", disabled: busy, onclick: () => open(e.path, []) }, "open"))]
         : e.kind === "sheet" ? [h("span", {}, e.name, h("small", {}, " test sheet")), h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => doing("new", { model: `${folder}/${name.value}`, sheet: e.path }) }, "make a model of it"))]
-        : h("label", {}, h("input", { type: "checkbox", checked: chosen.has(e.path), onchange: (x) => (x.target.checked ? chosen.add(e.path) : chosen.delete(e.path), show(folder)) }), e.name, h("small", {}, ` ${SIZE(e.bytes)}`))))),
+        : [h("label", {}, h("input", { type: "checkbox", checked: chosen.has(e.path), onchange: (x) => (x.target.checked ? chosen.add(e.path) : chosen.delete(e.path), show(folder)) }), e.name, h("small", {}, ` ${SIZE(e.bytes)}`)),
+          e.kind === "flight" && model ? h("span.do", {}, h("button", { type: "button", disabled: busy, onclick: () => mappingPane(columns, e.path, trouble), "aria-label": `Say what the columns of ${e.name} are` }, "columns")) : null]))),
       h("div.row", {},
         h("button.main", { type: "button", disabled: !chosen.size || !model || busy, onclick: () => open(null, [...chosen]) }, chosen.size ? `Open ${chosen.size} ${chosen.size > 1 ? "flights" : "flight"} with ${model ? server.state.model.name : "a model"}` : "Tick flights to open them"),
         h("span.spacer"), name,
@@ -68,10 +70,10 @@ export function filesView(main) {
     fill(now, h("h2", {}, "Open now"),
       state && state.model ? h("p", {}, h("b", {}, state.model.name), " ", h("code", {}, state.model.path), state.model.notes.map((n) => h("p.note", {}, n))) : h("p.note", {}, "No model."),
       state && state.flights.length ? h("div.wide", {}, h("table.numbers", {}, h("thead", {}, h("tr", {}, h("th", {}, "flight"), h("th.n", {}, "samples"), h("th.n", {}, "rate, Hz"), h("th.n", {}, "duration, s"), h("th.n", {}, "not usable"), h("th", {}, "outputs"))),
-        h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, f.samples.toLocaleString("en").replaceAll(",", "\u202f")), h("td.n", {}, number(f.rate_Hz, 4)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
+        h("tbody", {}, state.flights.map((f) => h("tr", {}, h("th", { scope: "row" }, f.name, f.notes.map((n) => h("small.block", {}, n))), h("td.n", {}, counted(f.samples)), h("td.n", {}, number(f.rate_Hz, 4)), h("td.n", {}, number(f.duration_s, 4)), h("td.n", {}, String(f.samples - f.valid)), h("td", {}, f.outputs.join(", "))))))) : h("p.note", {}, "No flight."));
     if (folder) show(folder);
   };
-  fill(main, now, drop, list);
+  fill(main, now, columns, drop, list);
   known();
   show("");
   return on("server", known);

@@ -1,7 +1,7 @@
 // The steps as they were made, and the branches that were left; any state can be compared beside the present one.
 import { fill, h, number } from "../dom.js";
 import { on, server } from "../store.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 
 const SAID = { new: "made from a test sheet", add: "added", remove: "removed", edit: "sheet edited:", undo: "undo", redo: "redo", restore: "went back" };
 

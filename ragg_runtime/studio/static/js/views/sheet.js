@@ -1,7 +1,7 @@
 // The test sheet as a table that can be edited: values of A1 ... A4 in display units, and how far they may be off.
 import { fill, h, number, symbol } from "../dom.js";
 import { on, server } from "../store.js";
-import { doing } from "../app.js";
+import { doing } from "../doing.js";
 
 export function sheetView(main) {
   const changed = new Map();

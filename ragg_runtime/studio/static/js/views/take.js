@@ -8,6 +8,8 @@ const FILES = [
   ["steps.html", "Report of the steps", "the error before and after, step by step"],
   ["diagnosis.json", "Diagnosis as JSON", "every number, with what it was made of"],
   ["compare.json", "Comparison as JSON", ""],
+  ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties, once they are made under Apply"],
+  ["quality.html", "Report of the quality control", "of the flights as lines of a survey, once it is made under Apply"],
   ["model.toml", "The model", "test sheet and effects with their calibrated values"],
   ["commands.sh", "The commands", "what does the same in a shell"],
 ];
@@ -15,7 +17,7 @@ const FILES = [
 export function takeView(main) {
   const known = () => {
     const { state } = server;
-    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "model.toml": state && state.model, "commands.sh": state && state.model };
+    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "compensated.csv": state && state.compensated, "quality.html": state && state.quality, "model.toml": state && state.model, "commands.sh": state && state.model };
     fill(
       main,
       h("section.card", {}, h("h2", {}, "Files"),

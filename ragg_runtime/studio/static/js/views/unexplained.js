@@ -1,7 +1,7 @@
 // What no known effect explains: a term, or an expression of one's own, tried and kept.
 import { fill, h, number } from "../dom.js";
-import { look, on, server, view } from "../store.js";
-import { doing } from "../app.js";
+import { look, server, view } from "../store.js";
+import { doing } from "../doing.js";
 
 export function unexplainedPane(box) {
   const status = h("div");
@@ -75,4 +75,3 @@ function own() {
   };
 }
 
-on("term", () => {});

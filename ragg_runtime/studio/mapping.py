@@ -1,0 +1,153 @@
+"""What the columns of a foreign file are: a first mapping to be answered, what comes of it, and keeping it with the model."""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.flight.formats import open_file
+from ragg_runtime.flight.guess import draft, sample
+from ragg_runtime.flight.mapping import UNKNOWN, Mapped, parse_mapping
+from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.flight.source import Heading, Look
+from ragg_runtime.instrument.units import Units
+from ragg_runtime.model_dir.directory import MAPPING
+from ragg_runtime.wording import numbers
+from ragg_runtime.workflow.loop import Loaded
+
+Json = dict[str, Any]
+
+NEEDED = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
+"""Channels that every flight has."""
+
+OUTPUTS = ("G_out", "V_1", "inline")
+"""Channels of which one must be there as well."""
+
+POINTS = 160
+"""Samples of a column that are drawn."""
+
+
+def begun(m: Loaded, path: Path) -> Json:
+    """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
+    headings = open_file(path, Look(text=True))[0].headings
+    names = {h.name for h in headings}
+    own = m.directory.path / MAPPING
+    text = read_text(own) if own.exists() else None
+    if text is not None and parse_mapping(text, own).columns <= names:
+        return _shown(tomllib.loads(text), headings, {}, kept=True)
+    made = draft(path)
+    return _shown(tomllib.loads(made.text), headings, made.sure, kept=text is not None)
+
+
+def _shown(data: Json, headings: tuple[Heading, ...] | Any, sure: Mapping[str, str], *, kept: bool) -> Json:
+    rows = []
+    columns = data.get("columns", {})
+    missing = [n for n in NEEDED if n not in columns]
+    if not any(n.startswith(OUTPUTS) for n in columns):
+        missing.append(OUTPUTS[0])
+    for name in (*columns, *missing):
+        raw = columns.get(name, {"column": UNKNOWN, "unit": UNKNOWN})
+        entry = {"column": raw} if isinstance(raw, str) else raw
+        how = "missing" if name in missing else sure.get(name, "certain")
+        asks = how in ("missing", "guess") or UNKNOWN in (entry["column"], entry.get("unit"))
+        rows.append({"channel": name, "unit": "", "sign": 1, "scale": 1, **entry, "sure": how, "asked": asks})
+    time = {"format": "seconds", "unit": "s", **data.get("time", {"column": UNKNOWN})}
+    return {
+        "columns": [{"name": h.name, "unit": h.unit or "", "text": h.text} for h in headings],
+        "rows": rows,
+        "time": {k: str(v) if k == "origin" else v for k, v in time.items()},
+        "file": data.get("file", {}),
+        "axes": {a: data.get("axes", {}).get(a, a) for a in "xyz"},
+        "kept": kept,
+    }
+
+
+def written(given: Mapping[str, Any]) -> str:
+    """``mapping.toml`` of what the page says; rows without a column are left out."""
+
+    def table(values: Mapping[str, Any], names: tuple[str, ...]) -> list[str]:
+        return [f"{k} = {_toml(values[k])}" for k in names if values.get(k) not in (None, "", [])]
+
+    time = given.get("time", {})
+    lines = ["[time]", *table(time, ("column", "format"))]
+    if time.get("format", "seconds") == "seconds":
+        lines += [f"unit = {_toml(time.get('unit', 's'))}"]
+        lines += [f"origin = {time['origin']}"] if _instant(time.get("origin")) else []
+    if given.get("file"):
+        lines += ["", "[file]", *table(given["file"], ("line", "lines", "part"))]
+    lines += ["", "[columns]"]
+    for row in given.get("rows", []):
+        if row.get("column") and row["column"] != UNKNOWN:
+            parts = [f"{k} = {_toml(row[k])}" for k in ("column", "unit") if row.get(k)]
+            parts += [f"{k} = {_toml(row[k])}" for k in ("sign", "scale") if row.get(k, 1) != 1]
+            parts += [f"offset = {_toml(row['offset'])}"] if row.get("offset") else []
+            lines.append(f"{json.dumps(row['channel'])} = {{ {', '.join(parts)} }}")
+    axes = given.get("axes", {})
+    if any(axes.get(a, a) != a for a in "xyz"):
+        lines += ["", "[axes]", *(f"{a} = {_toml(axes.get(a, a))}" for a in "xyz")]
+    return "\n".join(lines) + "\n"
+
+
+def _toml(value: Any) -> str:
+    """Texts, numbers and lists of them are written alike in JSON and TOML."""
+    if value is None or (isinstance(value, float) and not math.isfinite(value)):
+        raise UserError("a number is needed", where=MAPPING)
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _instant(value: Any) -> bool:
+    return isinstance(value, str) and bool(value) and all(c in "0123456789-:.TZ+ " for c in value)
+
+
+def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
+    """The mapping as text, what is still wrong with it, and what its channels look like on the first rows."""
+    text = ""
+    try:
+        text = written(given)
+        how = parse_mapping(text, Path(MAPPING))
+        return {"text": text, "error": None, "preview": _preview(m.instrument.units, path, how)}
+    except UserError as e:
+        facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
+        return {"text": text, "error": facts, "preview": []}
+
+
+def _preview(known: Units, path: Path, how: Mapped) -> list[Json]:
+    table = open_file(path, Look(text=True))[0]
+    values, units = sample(table), {h.name: h.unit or "" for h in table.headings}
+    found = []
+    for name, e in how.channels.items():
+        if e.column not in values:
+            raise UserError("the file has no such column", where=name, found=e.column)
+        if values[e.column].dtype.kind not in "fiu":
+            raise UserError("the column holds no numbers", where=name, found=e.column)
+        unit = e.unit or units[e.column]
+        si = SI_UNITS.get(name, unit)
+        x = np.asarray(values[e.column], dtype=np.float64) * e.factor + e.offset
+        x = known.to_si(x, unit, si, f"[columns] {name}") if unit != si else x
+        seen = x[np.isfinite(x)]
+        step = max(1, len(x) // POINTS)
+        middle = numbers.number(float(np.median(seen)), 4) if len(seen) else numbers.ABSENT
+        ends = [numbers.number(float(v), 3) for v in (seen.min(), seen.max())] if len(seen) else []
+        row = {"channel": name, "unit": numbers.unit(si), "median": middle, "ends": ends}
+        found.append(row | {"points": x[::step][:POINTS].tolist()})
+    return found
+
+
+def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
+    """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
+    text, place = written(given), m.directory.path / MAPPING
+    _preview(m.instrument.units, path, parse_mapping(text, place))
+    if place.exists() and not replace and read_text(place) != text:
+        raise UserError(
+            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
+        )
+    with replacing(place) as temporary:
+        temporary.write_text(text, "utf-8")

@@ -1,0 +1,105 @@
+// What a model is for: compensated channels with their band, quality control of the flights, and both as files.
+import { Refused, series } from "../api.js";
+import { counted, fill, h } from "../dom.js";
+import { on, server, view } from "../store.js";
+import { timePlot } from "../plots/time.js";
+import { doing } from "../doing.js";
+
+const KINDS = [
+  ["self", "fitted to these flights", "parameters fitted to all of it: the band is a little narrow"],
+  ["crossed", "fitted to the other blocks of time", "every block has the parameters of all others: what it leaves is held out"],
+  ["frozen", "as kept with the model", "ragg calibrate --save keeps them; nothing of these flights gets into them"],
+];
+const DEMODULATORS = [["fir", "FIR, 0.2 Hz, no delay"], ["butterworth", "Butterworth, order 6, both ways"], ["causal", "Butterworth, forward alone"]];
+
+const chosen = { calibration: "self", demodulator: "fir" };
+const choice = (id, label, options) => [
+  h("label", { for: id }, label),
+  h("select", { id, onchange: (e) => (chosen[id] = e.target.value) }, options.map(([value, name]) => h("option", { value, selected: chosen[id] === value }, name))),
+];
+const head = (names) => h("thead", {}, h("tr", {}, names.map((n, k) => h(k ? "th.n" : "th", { scope: "col" }, n))));
+
+export function applyView(main) {
+  const box = h("section.card"), figures = h("section.card.channels", { hidden: true }), control = h("section.card");
+  fill(main, box, figures, control);
+  let plots = [], shown = "", window_ = null;
+
+  const compensation = (state) => {
+    const c = state.compensated, busy = Boolean(state.status.job);
+    fill(box, h("h2", {}, "Compensated channels"),
+      h("p.note", {}, "The gravity gradient as the instrument saw it: all removed that the model explains, demodulated, with one standard uncertainty of parameters and noise together."),
+      h("div.row.choices", {}, choice("calibration", "parameters", KINDS), choice("demodulator", "demodulator", DEMODULATORS),
+        h("button.main", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("compensate", chosen) }, "Compensate")),
+      c ? c.outputs.map((x) => [
+        h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
+        h("p.note", {}, `${counted(x.good)} of ${counted(x.samples)} samples have a value; ${c.demodulator.what}.`, x.quality.map(([n, what]) => ` ${counted(n)}: ${what}.`)),
+        h("div.wide", {}, h("table.numbers", {}, head(["channel", "before, Eo/√Hz", "after", "noise alone"]), h("tbody", {}, x.rows.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, name), cells.map((t) => h("td.n", {}, t))))))),
+        h("details", {}, h("summary", {}, "What was removed, Eo"), h("div.wide", {}, h("table.numbers", {}, head(["of", "inline", "cross"]), h("tbody", {}, x.contributions.map(([name, ...cells]) => h("tr", {}, h("th", { scope: "row" }, h("code", {}, name)), cells.map((t) => h("td.n", {}, t)))))))),
+      ]) : null,
+      c ? h("p.row", {}, ["csv", "parquet"].map((e) => h("a", { href: `/api/take/compensated.${e}`, download: `compensated.${e}` }, `Take it as ${e === "csv" ? "CSV" : "Parquet"}`))) : null);
+  };
+
+  const drop = () => (plots.forEach((p) => p.made.gone()), (plots = []));
+  const draw = () => plots.forEach(async ({ name, made, box: place }) => {
+    const [a, b] = limits(), width = b - a;
+    const common = { flight: view.flight, unit: "Eo", from: a - width, to: b + width, points: 3 * Math.max(300, place.clientWidth) };
+    try {
+      const [value, low, high] = await Promise.all(["", ":low", ":high"].map((edge) => series({ ...common, what: `compensated:${name}${edge}` })));
+      made.show([{ ...value, low: low.low, high: high.high }, value]);
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+    }
+  });
+  const whole = () => [0, server.state.flights[view.flight] ? server.state.flights[view.flight].duration_s : 1];
+  const limits = () => window_ || whole();
+  const moved = (from, to) => {
+    const [a, b] = whole();
+    window_ = from === null || to - from >= b - a ? null : [Math.max(a, from), Math.min(b, Math.max(to, from + 1))];
+    plots.forEach((p) => p.made.zoomed());
+    draw();
+  };
+  const curves = (state) => {
+    const c = state.compensated;
+    const key = JSON.stringify([c && [c.calibration, c.demodulator.name, c.channels, c.outputs.map((x) => x.rows)], view.flight]);
+    if (key === shown) return;
+    shown = key;
+    drop();
+    figures.hidden = !c;
+    if (!c) return;
+    const panels = c.channels.map((name) => ({ name, body: h("div.plot") }));
+    fill(figures, panels.map(({ name, body }) => h("figure", { "aria-label": `${name}, compensated` },
+      h("figcaption", {}, h("h2", {}, `${name}, Eo`), h("div.legend", {}, h("span", {}, h("i.key.residual"), "value"), h("span", {}, h("i.key.band"), "± one standard uncertainty"))), body)));
+    plots = panels.map(({ name, body }, k) => ({ name, box: body, made: timePlot(body, {
+      limits, moved, label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
+      lines: [{ name: "band", colour: "before", width: 0, alpha: "80" }, { name: "value", colour: "residual", width: 1.2 }],
+    }) }));
+    draw();
+  };
+
+  const quality = (state) => {
+    const q = state.quality, busy = Boolean(state.status.job);
+    fill(control, h("h2", {}, "Quality control"),
+      h("p.note", {}, "What ragg qc says of these flights as lines of a survey: of the files where they hold demodulated channels, else of what compensation made of them."),
+      h("div.row", {}, h("button", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("quality") }, "Control the quality"),
+        q ? h("a", { href: "/api/take/quality.html", download: "quality.html" }, "The report") : null),
+      q ? [
+        h(`div.verdict.${q.state}`, {}, h("p.headline", {}, q.headline), q.lead.map((t) => h("p.lead", {}, t))),
+        q.refused.map(([name, lines]) => h("p.note", {}, h("b", {}, name), ` ${lines.join(" ")}`)),
+        q.limits.length ? h("div.wide", {}, h("table.numbers", {}, head(["limit", "allowed", "median", "worst", "lines beyond"]), h("tbody", {}, q.limits.map((x) => h("tr", {}, h("th", { scope: "row", title: x.what }, x.name), [x.value, x.median, x.worst, String(x.failed)].map((t) => h("td.n", {}, t))))))) : null,
+        h("div.wide", {}, h("table.numbers", {}, head(["line", ...q.heads.map(([name, unit]) => `${name}, ${unit}`), "beyond"]), h("tbody", {}, q.rows.map((r) => h("tr", {}, h("th", { scope: "row" }, r.name), r.cells.map((t) => h("td.n", {}, t)), h("td.n", {}, r.failed)))))),
+      ] : null,
+      h("p.note", {}, "Hundreds of flights, on this machine or a Dask cluster: ", h("code", {}, "ragg survey")));
+  };
+
+  const known = () => {
+    const { state } = server;
+    if (!state || !state.model) return void fill(main, h("p.empty-note", {}, "Open a model and a flight to apply it."));
+    if (!box.isConnected) fill(main, box, figures, control);
+    compensation(state);
+    curves(state);
+    quality(state);
+  };
+  known();
+  const offs = [on("server", known), on("flight", known)];
+  return () => (offs.forEach((f) => f()), drop());
+}

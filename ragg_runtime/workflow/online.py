@@ -1,0 +1,172 @@
+"""What a computer on board would have found: flights sample by sample through the recursive filter, for commands and notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
+from ragg_runtime.compensation.compensate import seeing, without_gradients
+from ragg_runtime.compensation.frozen import information
+from ragg_runtime.compensation.output import writing
+from ragg_runtime.compensation.recursive import Followed, Online, Tuning
+from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.fit.observation import Observation, observations_of
+from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.layout import column_endings
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.signals.demodulate import CUTOFF
+from ragg_runtime.workflow.after import saved_calibration
+from ragg_runtime.workflow.loaded import Loaded
+
+Array = NDArray[np.float64]
+
+CHANNELS = ("inline", "cross", "inline_std", "cross_std")
+
+
+@dataclass(frozen=True)
+class Watched:
+    """The result of ``online``: ``series`` of every flight (name -> (k,)), unless they went to a file."""
+
+    name: str
+    result: Mapping[str, Any]
+    series: tuple[Mapping[str, Array], ...]
+
+    def __repr__(self) -> str:
+        flights = ", ".join(x["flight"] for x in self.result["flights"])
+        return f"<{flights} sample by sample by {self.name}>"
+
+    def as_json(self) -> dict[str, Any]:
+        return dict(self.result)
+
+
+@one_thread
+def online(
+    m: Loaded,
+    flights: Sequence[Flight],
+    noise: float | None = None,
+    walk: float | None = None,
+    forget: float = float("inf"),
+    output: Path | None = None,
+) -> Watched:
+    """Calibrate and compensate sample by sample, every flight from the calibration that is kept, else from the sheet.
+
+    Parameters
+    ----------
+    noise
+        Density of the noise of the cross channel about twice the spin rate, Eo/sqrt(Hz); by default what the kept
+        calibration left.
+    walk
+        Of the cross channel, Eo/sqrt(s), twice that of the inline one; by default both are followed with the time constant
+        of the demodulators' low-pass, 1/(2 pi 0.2 Hz).
+    forget
+        Time constant, s, with which the parameters forget the flight.
+    output
+        A file for the series; without one they are in the result.
+    """
+    saved = None if m.directory.calibration is None else saved_calibration(m)
+    density = _density(m, saved) if noise is None else noise
+    walk = density / np.sqrt(2.0) * 2 * np.pi * CUTOFF if walk is None else walk
+    found = [
+        _flight(m, saved, without_gradients(x), Tuning(noise=density, walk=walk, forget=forget))
+        for x in flights
+    ]
+    series = [s for s, _ in found]
+    _written(output, series)
+    result = {
+        "started": "sheet" if saved is None else f"calibration made {saved.time}",
+        "noise_Eo_per_rtHz": density,
+        "walk_Eo_per_rts": walk,
+        "follows_within_s": density / (np.sqrt(2.0) * walk) if walk > 0.0 else None,
+        "forget_s": forget if np.isfinite(forget) else None,
+        "effects": [e.id for e in m.model.effects],
+        "flights": [entry for _, entries in found for entry in entries],
+    }
+    return Watched(name=m.name, result=result, series=() if output is not None else tuple(series))
+
+
+def _density(m: Loaded, saved: Saved | None) -> float:
+    """What a kept calibration left in the cross channel, Eo/sqrt(Hz)."""
+    left = None if saved is None else saved.error.get("calibrated", {}).get("cross_Eo_per_rtHz")
+    if not isinstance(left, float) or not left > 0.0:
+        raise UserError(
+            "how large the noise is cannot be known",
+            where=m.directory.path,
+            found="no saved calibration"
+            if saved is None
+            else "a saved calibration without a demodulated error",
+            remedy="say it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
+        )
+    return left
+
+
+def _flight(
+    m: Loaded, saved: Saved | None, x: Flight, asked: Tuning
+) -> tuple[dict[str, Array], list[dict[str, Any]]]:
+    """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density."""
+    endings = column_endings(m.instrument.layout.output_names)
+    root = None if saved is None else information(saved, m.model, m.instrument)
+    columns: dict[str, Array] = {}
+    told = []
+    observed = observations_of([x], m.instrument)
+    for o in (observed[k] for k in seeing(m.instrument, observed)):
+        if o.kind == "channels":
+            raise UserError(
+                "the filter works on the output before demodulation",
+                where=x.path or x.name,
+                found="inline and cross",
+                expected=o.output.name,
+            )
+        p = vector(m.model, m.instrument) if saved is None else saved.p
+        volts = asked.noise / np.sqrt(2.0) * scale_factor(m.model, p, o.place) * np.sqrt(o.record.rate / 2)
+        f = Online(m.model, m.instrument, replace(asked, noise=float(volts)), p, root, o.place)
+        got = _fed(f, o)
+        columns["time"] = got.time + float(x.time[0])
+        end = endings[o.place]
+        columns |= {f"inline{end}": got.inline, f"cross{end}": got.cross}
+        columns |= {f"inline{end}_std": got.inline_std, f"cross{end}_std": got.cross_std}
+        told.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters(f)})
+    return columns, told
+
+
+def _fed(f: Online, o: Observation) -> Followed:
+    """A whole flight through the filter, in parts that fit into memory."""
+    n, parts = len(o.record.time), []
+    for first in range(0, n, ROWS):
+        some = slice(first, min(first + ROWS, n))
+        parts.append(f.feed(o.part(some)))
+        progress.step(float(some.stop - some.start))
+    return Followed(*(np.concatenate([getattr(x, n) for x in parts]) for n in ("time", *CHANNELS)))
+
+
+def _parameters(f: Online) -> list[dict[str, Any]]:
+    p, root = f.parameters()
+    std = np.linalg.norm(np.linalg.inv(root), axis=1) * f.scale
+    return [
+        {
+            "name": c.name,
+            "accelerometer": c.accelerometer,
+            "value": float(p[k] / c.unit_factor),
+            "std": float(s / c.unit_factor),
+            "unit": c.unit,
+        }
+        for c, k, s in zip(f.columns, f.index, std, strict=True)
+    ]
+
+
+def _written(output: Path | None, series: Sequence[Mapping[str, Array]]) -> None:
+    if output is None:
+        return
+    units = {n: "s" if n == "time" else "Eo" for n in series[0]}
+    units |= {"flight": "1"} if len(series) > 1 else {}
+    with writing(output, sum(len(s["time"]) for s in series), units) as write:
+        for k, s in enumerate(series, 1):
+            write({**s, "flight": np.full(len(s["time"]), k)})
