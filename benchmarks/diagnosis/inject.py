@@ -175,7 +175,7 @@ def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> 
     if len(at) > 1 and rng.random() < 0.5:
         at = [at[int(rng.integers(len(at)))]]
     drawn = rng.standard_normal(len(at))
-    if effect == "lag":
+    if effect in ("lag", "output-filter"):  # what is no filter at all with the other sign
         drawn = np.abs(drawn)
     weights[at] = drawn / np.linalg.norm(drawn)
     return weights

@@ -20,30 +20,26 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
+from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.explained import explained
-from ragg_runtime.diagnosis.impossible import impossible
+from ragg_runtime.diagnosis.line_rival import line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
 from ragg_runtime.evidence import selection, sequential
-from ragg_runtime.evidence.likelihood_ratio import Test
-from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
-from ragg_runtime.fit import columns as design
-from ragg_runtime.fit import convergence, prepared
+from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
-from ragg_runtime.fit.passes import Piece
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_effects import recognised
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
-from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -85,24 +81,24 @@ def diagnose_fitted(
     output = _output_effects(f, flights)
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
-    f, field, choice = last.fitted, last.field, last.choice
+    c = confirmed(last, extend)
+    f, field, choice, final = last.fitted, c.field, c.choice, c.final
     chosen = list(choice.chosen)
-    final = _confirmed(f, chosen, extend)
-    while final is not None and (wrong := impossible(final, chosen)):
-        left = {e: c for e, c in field.candidates.items() if e not in wrong}
-        field = replace(field, candidates=left)
-        choice = selection.choose(field)
-        chosen = list(choice.chosen)
-        final = _confirmed(f, chosen, extend)
     given = [n for e in chosen for n, _ in field.candidates[e]]
-    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
-    if not rem.significant and (simpler := _simpler(f, field, choice)) is not None:
-        rem = simpler
-    remains = rem.significant and not _truncated(rem, steps)
-    if remains:
-        random = {}
+    random = {e: v.test() for e, v in c.random.items()}
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
+    rem = c.remainder
+    simpler = None if rem.significant else _simpler(f, field, choice)
+    rem = rem if simpler is None else simpler
+    line = line_rival(steps, replace(last, field=field, choice=choice))
+    if line is not None and not line.better(rem, alone=simpler is not None):
+        line = None
+    rem = rem if line is None else line.within(rem)
+    uneven = c.random[random_found[0][1]].uneven if random_found else 1.0
+    remains = line is not None or (rem.beside(uneven) and not _truncated(rem, steps))
+    if remains:
+        random, random_found = {}, []
     target = f if final is None else final
     v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
     extra = given if final is None else ()
@@ -118,7 +114,7 @@ def diagnose_fitted(
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
         verdict = "missing-effect" if found else "adequate"
-    by_terms = sum(s.chi2 for s in rem.searches) if rem.significant else 0.0
+    by_terms = sum(s.chi2 for s in rem.searches) if remains else 0.0
     whitened = sum(s.square for s in rem.searches)
     ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     ranking += _ranked_random(f, random, before)
@@ -134,7 +130,7 @@ def diagnose_fitted(
         ranking=tuple(sorted(ranking, key=_place([*(t.effect for t in steps), *chosen]))),
         found=tuple(found),
         not_testable=tuple(_not_testable(first.fitted, first.field)),
-        remainder=rem if rem.significant else _without_terms(rem),
+        remainder=rem if remains else _without_terms(rem),
         remainder_share=by_terms / whitened if whitened else 0.0,
         before=before,
         scored=after,
@@ -146,7 +142,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=comparison.remark(output_explained, target),
+        remark=output_explained.complaint or (line and line.words) or comparison.disturbed(target),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
@@ -197,9 +193,10 @@ SIMPLER_THAN_ONE = 16.0
 are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
 
 
-TRUNCATED = 1e-3
+TRUNCATED = 2e-3
 """Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
-theirs. Of an effect of 10,000 sigma ten sigma are left over so, and say nothing of a further one."""
+theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
+of a further one."""
 
 
 def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:
@@ -210,59 +207,6 @@ def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:
 
 def _without_terms(rem: Remainder) -> Remainder:
     return Remainder(tuple(replace(s, terms=()) for s in rem.searches))
-
-
-def _confirmed(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
-    """The chosen effects derived into the model and everything fitted again, if that can be done."""
-    steps = {e.id for e in f.model.candidates if e.kind == "step"}
-    if not chosen or extend is None or (steps & set(chosen)):
-        return None
-    extended = extend(f.model, chosen)
-    start = _linear(f, chosen, extended)
-    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
-
-
-def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
-    """Parameter vector of the extended model as the linear fit has it, SI."""
-    own = [
-        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect in chosen
-    ]
-    fitted, _ = f.coefficients([n for n, _ in own])
-    columns = (*f.calibration.columns, *(c for _, c in own))
-    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
-    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
-    p = vector(extended, f.instrument)
-    for c, place in design.base_columns(extended, f.instrument):
-        p[place] = value[c.label]
-    return p
-
-
-def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Test]]:
-    """What is left once ``given`` columns are projected out, and the tests of random effects, in one pass."""
-    places = _random_columns(f)
-
-    def variances(piece: Piece, y: Array) -> dict[str, Variance]:
-        return {e: Variance.of(piece, place, y) for e, place in places.items()}
-
-    searches, counted = [], []
-    for x, triangles in zip(f.flown, f.triangles, strict=True):
-        found, more = omnibus.search(x, prepared.projector(triangles, f.n_base, given), variances)
-        searches.append(found)
-        counted += more
-    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]).test() for e in places}
-
-
-def _random_columns(f: Fitted) -> dict[str, int]:
-    """The place of every random effect's column."""
-    if any(o.kind == "channels" for o in f.observations):
-        return {}  # neighbouring samples of a demodulated channel are not independent
-    columns = design.candidate_columns(f.model, f.instrument)
-    found = {}
-    for e in f.model.candidates:
-        own = [n for n, c in enumerate(columns) if c.effect == e.id]
-        if e.kind == "random" and own:
-            found[e.id] = f.n_base + own[0]
-    return found
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:

@@ -53,13 +53,15 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         ]
         # By itself, unless it explains far more beside the first choice.
         step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - BESIDE else scans[0]
-        found = _stepped(stepped, x, step, [f.n_base + n for n, _ in own])
+        places = [f.n_base + n for n, _ in own]
+        found = _stepped(stepped, x, step, places)
         field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
         if e.id in selection.choose(field).chosen:
             step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
+            projector = prepared.projector(triangles, f.n_base, given)
+            step = replace(step, sample=special.sharpened(x, step.sample, projector, places))
             exact[e.id] = float(time[step.sample])
         instants[e.id] = float(time[step.sample])
-        places = [f.n_base + n for n, _ in own]
         stepped = _stepped(stepped, x, step, places)
         sums[np.ix_(x.edges[:-1] < step.sample, np.array(places))] = 0.0
     if exact and not quiet:

@@ -63,9 +63,10 @@ class Stage:
     choice: Choice
 
     @staticmethod
-    def of(f: Fitted) -> Stage:
+    def of(f: Fitted, *, beside: bool = False) -> Stage:
+        """``beside``: effects were taken into the model before."""
         field, fitted, instants = with_steps(f)
-        return Stage(field, fitted, instants, selection.choose(field))
+        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
 
     @property
     def strong(self) -> bool:
@@ -105,7 +106,7 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
         best = _strongest(stage, extend)
         found.append(best)
         found = _needed(found, first.fitted, extend)
-        stage = Stage.of(found[-1].after)
+        stage = Stage.of(found[-1].after, beside=True)
     return found, stage
 
 
@@ -119,16 +120,18 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (tests[e].log_p, e))[:CONTENDERS]
-    scores = dict.fromkeys(near, 0.0)
-    if len(near) > 1:
-        held = {
-            e: frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
-            for e in near
-        }
-        scores = {e: _score(f, tests[e], held[e], _derived(f, [e], stage.instants, extend)) for e in near}
-    best = min(scores.values())
-    equal = [e for e in near if scores[e] < best + selection.INDISTINGUISHABLE]
+    near = sorted(near, key=lambda e: (tests[e].log_p, e))
+
+    def score(e: str) -> float:
+        held = frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
+        return _score(f, tests[e].rank, held, _derived(f, [e], stage.instants, extend))
+
+    tried = near[:CONTENDERS]
+    scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    best = min(tried, key=lambda e: (scores[e], e))
+    # effects with the same signature are all of its group, however many they are
+    scores |= {e: score(e) for e in near[CONTENDERS:] if _twins(tests[e], tests[best])}
+    equal = [e for e in near if scores.get(e, np.inf) < scores[best] + selection.INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
     after = fit(model, instrument, f.observations)
@@ -136,6 +139,11 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
         return _strongest(stage, extend, (*without, effect))
     instant = stage.instants.get(effect)
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
+
+
+def _twins(a: Test, b: Test) -> bool:
+    """Whether two effects explain the same, with as many coefficients, as far as a linear test tells."""
+    return a.rank == b.rank and abs(a.chi2 - b.chi2) < selection.INDISTINGUISHABLE
 
 
 def _derived(
@@ -151,11 +159,12 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, test: Test, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
+def _score(f: Fitted, rank: int, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
     """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC).
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
-    the fit: an effect of many would otherwise explain some of the noise for nothing.
+    the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
+    which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, instrument = derived
     c = calibrate.fit(
@@ -166,8 +175,14 @@ def _score(f: Fitted, test: Test, held: frozenset[str], derived: tuple[Model, In
     )
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
-    cost = float(values @ np.linalg.solve(c.covariance[np.ix_(others, others)], values)) if others else 0.0
-    return c.chi2 + cost + test.rank * float(np.log(c.rows))
+    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
+    if others:
+        # of a Gaussian: the variances once some of its variables are given
+        C = c.covariance[:, others]
+        given = np.linalg.solve(C[others], C.T)
+        cost = float(values @ np.linalg.solve(C[others], values))
+        known += float(np.sum(given * C.T)) - len(others)
+    return c.chi2 + cost + rank * float(np.log(c.rows)) + 2.0 * known
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

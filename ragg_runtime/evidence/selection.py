@@ -129,8 +129,11 @@ def significant(t: Test, count: int, family: float = FAMILY) -> bool:
     return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
 
 
-def choose(f: Field) -> Choice:
-    """Forward selection; after each addition every chosen effect may be swapped for a better one."""
+def choose(f: Field, *, beside: bool = False) -> Choice:
+    """Forward selection; after each addition every chosen effect may be swapped for a better one.
+
+    ``beside``: of what is left beside effects that are in the model already, so that the first is a companion, too.
+    """
     first = f.tests()
     count = sum(t.rank > 0 for t in first.values())
     chosen: list[str] = []
@@ -140,7 +143,9 @@ def choose(f: Field) -> Choice:
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
         ranked = sorted((t.log_p, e) for e, t in remaining.items())
-        if not ranked or not significant(remaining[ranked[0][1]], count, FURTHER if chosen else FAMILY):
+        if not ranked or not significant(
+            remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
+        ):
             break
         best = ranked[0][1]
         chosen.append(best)

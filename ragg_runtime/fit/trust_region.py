@@ -192,6 +192,8 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             if fallen < SETTLED and at.decrement < VALLEY:
                 return Minimum(x, at, True, "nothing worth having is left to gain", trials)
         elif radius < _smallest(x):
+            if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
+                return Minimum(x, at, True, "nothing worth having is left to gain", trials)
             return Minimum(x, at, False, "no step, however small, lowers the misfit", trials)
     return Minimum(x, at, settled(at), f"it was stopped after {most} trials", trials)
 

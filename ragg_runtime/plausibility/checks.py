@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
@@ -63,8 +63,11 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
             remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
         )
     for name, values in flight.outputs.items():
-        there = values[flight.valid & np.isfinite(values)]
+        usable = flight.valid & np.isfinite(values)
+        there = values[usable]
         let_go(values)
+        if name in instrument.layout.columns and name not in DEMODULATED:
+            _fast_enough(name, flight, usable, f)
         if len(there) and np.ptp(there) == 0 and name in instrument.layout.columns:
             raise UserError(
                 "the output does not change",
@@ -73,6 +76,22 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
+
+
+def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float) -> None:
+    """UserError if an output before demodulation was recorded more seldom than the motion, and too seldom for the disc."""
+    at_samples = np.flatnonzero(usable)
+    if len(at_samples) < 2 or f == 0.0:
+        return
+    rate = flight.rate / float(np.median(np.diff(at_samples)))
+    if rate <= 4 * f:
+        raise UserError(
+            "the output is sampled too slowly for the disc",
+            where=at(flight.path or flight.name, f"column {name!r}"),
+            found=f"{rate:.6g} Hz, beside motion at {flight.rate:.6g} Hz",
+            expected=f"more than {4 * f:.6g} Hz: the gradient stands at twice the spin rate of {f:.6g} Hz",
+            remedy="give the output at its full rate, or demodulated (inline and cross) before it is thinned out",
+        )
 
 
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:

@@ -11,10 +11,12 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
+from ragg_runtime.plausibility import other_demodulator
 from ragg_runtime.plausibility.mistakes import mistakes
 from ragg_runtime.plausibility.quick_fit import Explained, explain
 from ragg_runtime.plausibility.subsample import Picker
 from ragg_runtime.plausibility.timing import searches
+from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.signals.derivative import differentiate
 
 SUSPICIOUS = 30.0
@@ -93,7 +95,23 @@ def likely(model: Model, instrument: Instrument, p: Picker) -> Likely | None:
     tried += [
         _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
     ]
-    return _chosen(before, tried)
+    found = _chosen(before, tried)
+    if p.kind != "channels" or (found is not None and found.factor > BETTER):
+        return found
+    made = other_demodulator.best(model, instrument, p)  # takes a while: if nothing else would do
+    return found if made is None else _chosen(before, [*tried, _otherwise(made)])
+
+
+def _otherwise(made: other_demodulator.Made) -> _Tried:
+    return _Tried(
+        what=f"inline and cross were made by another demodulator, such as {made.what}",
+        remedy=(
+            f"record G_out itself, or demodulate as here: a symmetric FIR low-pass, half amplitude at {CUTOFF:g} Hz,"
+            " channels not delayed"
+        ),
+        plainness=3,
+        left=made.left,
+    )
 
 
 def _chosen(before: Explained, tried: Sequence[_Tried]) -> Likely | None:

@@ -86,8 +86,8 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
     def scaled(factor: float) -> Callable[[Rows], Rows]:
         return lambda r: replace(r, data=factor * r.data)
 
-    yield Mistake(f"the sign of {what} is reversed", f"multiply {what} by -1", scaled(-1.0), 0)
     if rows.kind == "channels":
+        yield from _definitions()
         for factor, unit, given in ((1e-9, "Eo", "s^-2"), (1e9, "s^-2", "Eo")):
             yield Mistake(
                 f"{what} are in {unit}, not in {given} as the header says",
@@ -101,6 +101,7 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
             1,
         )
         return
+    yield Mistake(f"the sign of {what} is reversed", f"multiply {what} by -1", scaled(-1.0), 0)
     given = written.get(rows.names[0], "V")
     for unit, factor in _meant(units_, given, ("V", "mV", "uV", "kV")):
         yield Mistake(
@@ -123,6 +124,38 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
             _reordered(order),
             len(swapped),
         )
+
+
+DEFINED = (1.0, -1.0, 2.0, -2.0, 0.5, -0.5)
+"""Factors by which people define the channels otherwise: (Gamma_xx - Gamma_yy)/2, Gamma_yy - Gamma_xx, 2 Gamma_xy, ..."""
+
+
+def _definitions() -> Iterator[Mistake]:
+    """Inline and cross with other signs or factors than Gamma_xx - Gamma_yy and Gamma_xy."""
+    for inline, cross in product(DEFINED, DEFINED):
+        changed = [(n, x) for n, x in (("inline", inline), ("cross", cross)) if x != 1.0]
+        if not changed:
+            continue
+        if inline == cross == -1.0:
+            what, remedy = "the sign of inline and cross is reversed", "multiply inline and cross by -1"
+        else:
+            what = "; ".join(_defined(n, x) for n, x in changed)
+            remedy = ", ".join(f"multiply {n} by {x:g}" for n, x in changed)
+        factors = np.array([[inline], [cross]])
+        yield Mistake(what, remedy, partial(_each, factors=factors), 2 * len(changed) - 2 * (inline == cross))
+
+
+def _defined(name: str, undo: float) -> str:
+    """In words, what a channel is if so many times it is what it should be."""
+    component = {"inline": "Gamma_xx - Gamma_yy", "cross": "Gamma_xy"}[name]
+    size = {1.0: "", 2.0: "half of ", 0.5: "twice "}[abs(undo)]
+    if not size:
+        return f"the sign of {name} is reversed"
+    return f"{name} is {'minus ' if undo < 0 else ''}{size}{component}"
+
+
+def _each(rows: Rows, factors: Array) -> Rows:
+    return replace(rows, data=factors * rows.data)
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:

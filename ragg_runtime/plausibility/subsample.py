@@ -29,6 +29,10 @@ MOST = 1500
 """Rows that a fit takes: many times the number of parameters."""
 
 
+SPARSE = 8.0
+"""Most times longer a stretch of demodulated channels is taken where they were recorded more seldom than the motion."""
+
+
 @dataclass(frozen=True)
 class Rows:
     """n rows of a flight, not necessarily neighbours (neighbours where only the channels are recorded).
@@ -56,6 +60,8 @@ class Rows:
     output: Output = PAPER.outputs[0]
     names: tuple[str, ...] = ("G_out",)
     """Columns of ``data``."""
+    usable: Mask | None = None
+    """(n,) rows whose output is there; all, unless the rows are neighbours whatever they hold."""
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, n) in the order of the chain's INPUTS; what was not recorded is zero."""
@@ -88,12 +94,12 @@ class Rows:
 
     @property
     def inner(self) -> Mask:
-        """(n,) where a demodulator has seen enough of the record on either side."""
+        """(n,) where the output is there, and a demodulator has seen enough of the record on either side."""
         inside = np.ones(len(self.time), dtype=np.bool_)
         edge = len(self.taps) // 2
         inside[:edge] = False
         inside[len(inside) - edge :] = False
-        return inside
+        return inside if self.usable is None else inside & self.usable
 
     @property
     def gradient_recorded(self) -> bool:
@@ -132,7 +138,8 @@ class Picker:
         )
         if self.kind == "channels":
             whole = np.arange(first, len(self.usable) if last is None else last)
-            return whole[: max(most, 3 * len(self.taps))]
+            sparse = min(SPARSE, len(self.usable) / max(float(np.sum(self.usable)), 1.0))
+            return whole[: max(most, round(3 * sparse * len(self.taps)))]
         return np.asarray(there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)])
 
     def pick(
@@ -184,9 +191,20 @@ class Picker:
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
-        data = np.stack([_picked(v, rows + output_shift) for v in self._output()])
+        return self._rows(rows + output_shift, time, phi + phase, channels)
+
+    def _rows(self, rows: Index, time: Array, phi: Array, channels: Mapping[str, Array]) -> Rows:
+        """With the output of these rows."""
         return Rows(
-            self.kind, np.nan_to_num(data), time, phi + phase, channels, self.taps, self.output, self.columns
+            kind=self.kind,
+            data=np.nan_to_num(np.stack([_picked(v, rows) for v in self._output()])),
+            time=time,
+            phi=phi,
+            channels=channels,
+            taps=self.taps,
+            output=self.output,
+            names=self.columns,
+            usable=self.usable[rows] if self.kind == "channels" else None,
         )
 
     @cached_property

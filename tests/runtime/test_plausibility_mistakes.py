@@ -7,14 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.model import model
-from ragg_runtime.plausibility import examined, likely
+from ragg_runtime.model.evaluate import scale_factor, vector
+from ragg_runtime.plausibility import examined, identify, likely, mistakes, other_demodulator
 from ragg_runtime.plausibility.quick_fit import explain, shrunken
 from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.signals.demodulate import demodulate
 
 G0 = 9.8
 MODEL = model.packaged()
@@ -92,6 +95,72 @@ def test_the_mistake_is_named_on_any_instrument_without_a_known_gradient(trim: s
         with pytest.raises(UserError, match="likely mistake") as caught:
             examined(MODEL, s.sheet, wrong)
         assert words in str(caught.value)
+
+
+def demodulated(s: Scenario, x: Flight, low_pass: Any = None) -> Flight:
+    """Inline and cross alone; through our low-pass, or another one."""
+    phi, k = 2 * np.pi * 0.25 * x.time, scale_factor(MODEL, vector(MODEL, s.sheet)) * 1e9
+    channels = {n: np.full(len(x), np.nan) for n in ("inline", "cross")}
+    if low_pass is None:
+        d = demodulate(x.outputs["G_out"], phi, x.rate, k)
+        channels["inline"][d.valid], channels["cross"][d.valid] = d.inline, d.cross
+    else:
+        channels["inline"] = low_pass(4 * x.outputs["G_out"] * np.sin(2 * phi)) / k
+        channels["cross"] = low_pass(-2 * x.outputs["G_out"] * np.cos(2 * phi)) / k
+    return dataclasses.replace(x, outputs=channels)
+
+
+DEFINITIONS = {
+    (1.0, -1.0): "the sign of cross is reversed",
+    (0.5, 1.0): "inline is half of Gamma_xx - Gamma_yy",
+    (-1.0, 2.0): "the sign of inline is reversed; cross is twice Gamma_xy",
+}
+
+
+def test_channels_that_are_defined_otherwise_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    # of all mistakes these alone, and none of time: each is tried on 3,000 rows
+    monkeypatch.setattr(identify, "mistakes", lambda *_, **__: mistakes._definitions())
+    monkeypatch.setattr(identify, "searches", lambda *_: [])
+    s, x = flown(13, gradient_rms=20e-9)
+    good = demodulated(s, x)
+    assert likely(MODEL, s.sheet, picker(good, s.sheet)) is None
+    for (inline, cross), words in DEFINITIONS.items():
+        o = {"inline": inline * good.outputs["inline"], "cross": cross * good.outputs["cross"]}
+        found = likely(MODEL, s.sheet, picker(dataclasses.replace(good, outputs=o), s.sheet))
+        assert found is not None
+        assert (found.what, found.others) == (words, ())
+        assert found.factor > 100.0
+
+
+def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(identify, "mistakes", lambda *_, **__: iter(()))
+    monkeypatch.setattr(identify, "searches", lambda *_: [])
+    own = [m for m in other_demodulator.FAMILIES if m.order in (0, 2, 3)]
+    monkeypatch.setattr(other_demodulator, "FAMILIES", own)
+    s, x = flown(14)
+    sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
+    wrong = demodulated(s, x, lambda z: signal.sosfilt(sections, z))
+    found = likely(MODEL, s.sheet, picker(wrong, s.sheet))
+    assert found is not None
+    assert found.what.endswith("such as a causal Butterworth low-pass of order 3 at 0.15 Hz")
+    assert found.factor > 1000.0
+
+
+def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:
+    """Channels may be; an output before demodulation must keep up with the disc."""
+    s, x = flown(15, voltages=False)
+    seldom = np.arange(len(x)) % 16 == 0
+    good = demodulated(s, x)
+    thinned = {n: np.where(seldom, v, np.nan) for n, v in good.outputs.items()}
+    assert examined(MODEL, s.sheet, dataclasses.replace(good, outputs=thinned)).notes == ()
+    for every, enough in ((8, True), (16, False)):
+        G = np.where(np.arange(len(x)) % every == 0, x.outputs["G_out"], np.nan)
+        slow = dataclasses.replace(x, outputs={"G_out": G})
+        if enough:
+            examined(MODEL, s.sheet, slow)
+            continue
+        with pytest.raises(UserError, match="the output is sampled too slowly for the disc"):
+            examined(MODEL, s.sheet, slow)
 
 
 @pytest.mark.parametrize("error", [-0.03, -0.01, 0.004, 0.02])

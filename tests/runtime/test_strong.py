@@ -18,9 +18,16 @@ from ragg_runtime.cli.terminal import added as added_text
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.diagnosis.strong import Stage
+from ragg_runtime.evidence.random_effects import Variance
 from ragg_runtime.fit import calibrate
+from ragg_runtime.fit.fitted import fit
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.files import write_flight
+from ragg_runtime.lack_of_fit.dictionary import Term
+from ragg_runtime.lack_of_fit.omnibus import Found, Omnibus
+from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive as extend
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -164,3 +171,29 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     assert "nothing was added" in capsys.readouterr().err
     assert json.loads((tmp_path / "a.json").read_text())["converged"] is False
     assert {p: p.read_bytes() for p in sorted((tmp_path / "m").rglob("*")) if p.is_file()} == before
+
+
+def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
+    """Whitened columns that are cut off before the step lack its edge: they put it elsewhere."""
+    s = scenario(33, duration=300.0, red_corner=0.05, noise_density=5e-9)
+    flight = s.simulate({"bias-step": {"dK0": [1e-8, 0, 0, 0], "t_step": 141.2}}).flight()
+    stage = Stage.of(fit(load.packaged(), s.sheet, observations_of([flight], s.sheet)))
+    assert stage.choice.chosen == ("bias-step",)
+    assert (
+        stage.instants["bias-step"] == 141.25
+    )  # of samples a sixteenth of a second apart the first after it
+
+
+def test_beside_a_strong_random_effect_terms_are_less_sure_than_they_seem() -> None:
+    rng = np.random.default_rng(5)
+    slope, noise = rng.standard_normal(20_000), rng.standard_normal(20_000)
+    s2, e2 = (
+        slope**2,
+        (noise * slope) ** 2,
+    )  # nothing but the effect: the scores of terms like it vary three times as much
+    v = Variance(len(s2), np.array([np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2]))
+    assert v.uneven == pytest.approx(3.0, rel=0.1)
+    term = Found(Term("const", ("a_x",)), 1.0, 0.2, 5.5, 30.25, 0.0)
+    left = Remainder((Omnibus(-8.0, 2000, (term,), 30.25, 2e4),))
+    assert left.significant and left.beside(1.0)
+    assert not left.beside(v.uneven)

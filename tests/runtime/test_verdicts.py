@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -51,6 +52,26 @@ def test_noise_that_follows_the_motion_is_said_and_accuses_nothing() -> None:
     d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": sim.G_out_noise_free + noise})])
     assert d.verdict == "adequate"
     assert "the noise changes its level with abs(a_x)" in str(d.as_json()["reason"])
+
+
+@pytest.mark.parametrize(("frequency", "own"), [(0.5003, False), (0.5, True)])
+def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: float, own: bool) -> None:
+    """At 300 s it slips by a tenth of a turn. What keeps step with the disc is the disc's."""
+    s = scenario(12, duration=300.0)
+    sim = s.simulate()
+    x = sim.flight()
+    size = 1.4 * np.std(sim.G_out - sim.G_out_noise_free)
+    G = sim.G_out + size * np.cos(2 * np.pi * frequency * x.time + 1.0)
+    d = diagnose(packaged(), s.sheet, [replace(x, outputs={"G_out": G})])
+    assert d.ranking[0].log_p < -20.0  # an effect alone would be beyond doubt
+    if own:
+        assert d.verdict == "missing-effect"
+        return
+    assert (d.verdict, d.found) == ("unexplained", ())
+    said = re.search(r"the output has a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))
+    assert said is not None
+    assert abs(float(said[1]) - frequency) < 0.2 / 300.0
+    assert [t.kind for r in d.remainder.searches for t in r.terms] == ["line"]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,141 @@
+"""Lines beside the spin rate and its multiples, which what turns with the disc can pass for.
+
+A line that is off a multiple of the spin rate by less than one over the record's length slips by a fraction of a turn in
+all of it: an effect whose signature stands at that multiple and changes slowly explains most of it, and a search of what
+is left finds nothing. So a sinusoid of free frequency is fitted there in the place of an effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit import prepared, unknown_gradient
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared import Flown, Projector
+
+Array = NDArray[np.float64]
+
+MULTIPLES = (1, 2, 3, 4)
+"""Of the spin rate: those up to which the sensors' signatures reach."""
+
+REACH = 4.0
+"""Widths of a line (one over the record's length) up to which one beside a multiple is sought; those farther off the search of
+the spectrum sees."""
+
+STEP = 0.25
+"""Width between the frequencies tried first; about the best of them others follow, so much finer again."""
+
+FINER = 8
+
+DISTINCT = 1e-6
+"""Share of a wave that must be left by what is fitted for it to have a direction of its own."""
+
+
+@dataclass(frozen=True)
+class NearLine:
+    """A sinusoid in what is left of a record.
+
+    Attributes
+    ----------
+    frequency
+        Hz.
+    chi2
+        What it explains of the whitened residual, beside what is fitted.
+    amplitude
+        V.
+    slip
+        How much of ``chi2`` a sinusoid at the very multiple would not explain.
+    log_p
+        p-value of ``chi2``, as a logarithm, times the frequencies tried.
+    """
+
+    frequency: float
+    chi2: float
+    amplitude: float
+    slip: float
+    log_p: float
+
+
+def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
+    """The sinusoid beside a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
+
+    ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
+    """
+    if len(f.flown) != 1 or f.observations[0].kind == "channels":
+        return None
+    x = f.flown[0]
+    r = x.observation.record
+    if not r.turning:
+        return None
+    projector = prepared.projector(f.triangles[0], f.n_base, given)
+    width = 1.0 / float(r.time[-1] - r.time[0])
+    offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
+    found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
+    found = found[found < r.rate / 2 - width]
+    if not len(found):
+        return None
+    first = _explained(x, projector, found)
+    rough = float(found[int(np.argmax(first[0]))])
+    multiple = round(rough / r.spin_frequency) * r.spin_frequency
+    near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
+    chi2, size = _explained(x, projector, near)
+    k = int(np.argmax(chi2[:-1]))
+    if not chi2[k] > 0.0:
+        return None
+    volts2 = sum(float(m.psd(near[k : k + 1])[0]) for m in x.noise.models) * r.rate / 2
+    return NearLine(
+        frequency=float(near[k]),
+        chi2=float(chi2[k]),
+        amplitude=float(size[k] * np.sqrt(volts2)),
+        slip=float(chi2[k] - chi2[-1]),
+        log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
+    )
+
+
+def _explained(x: Flown, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
+    """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows.
+
+    The noise's filter turns and stretches a sinusoid, which spans the same as it did; where it starts from rest, and after
+    gaps, the direction is a little worse than the best.
+    """
+    n = len(frequencies)
+    dot, gram = np.zeros(2 * n), np.zeros((2 * n, 2))
+    along = np.zeros((2 * n, len(projector.along)))
+
+    def sums(piece: Piece) -> tuple[Array, Array, Array]:
+        X = _waves(x, piece, frequencies)
+        Q = projector.basis(piece)
+        partner = np.concatenate([X[n:], X[:n]])
+        inner = np.stack([np.einsum("ij,ij->i", X, X), np.einsum("ij,ij->i", X, partner)], axis=1)
+        return X @ projector.left(piece, Q), inner, X @ Q
+
+    for d, g, a in x.each(sums):
+        dot += d
+        gram += g
+        along += a
+    whole = gram[:, 0].copy()
+    gram[:, 0] -= np.einsum("ij,ij->i", along, along)
+    gram[:, 1] -= np.einsum("ij,ij->i", along, np.concatenate([along[n:], along[:n]]))
+    G = np.array([[gram[:n, 0], gram[:n, 1]], [gram[n:, 1], gram[n:, 0]]]).transpose(2, 0, 1)
+    d = np.stack([dot[:n], dot[n:]], axis=1)
+    sizes, V = np.linalg.eigh(G)
+    seen = sizes > DISTINCT * np.maximum(whole[:n], whole[n:])[:, None]
+    c = np.einsum("nij,ni->nj", V, d) / np.where(seen, sizes, np.inf)
+    return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
+
+
+def _waves(x: Flown, piece: Piece, frequencies: Array) -> Array:
+    """(2 n, rows): cosines, then sines, in whitened rows."""
+    r = piece.observation.record
+    phase = 2 * np.pi * np.outer(frequencies, r.time)
+    X = np.concatenate([np.cos(phase), np.sin(phase)])[:, r.valid]
+    if x.noise.level.parts:
+        X /= np.asarray(x.noise.level.of(r.quantity))[r.valid]
+    X = np.concatenate([w * X for w in piece.observation.weights], axis=1)
+    unknown_gradient.project(X, piece.windows)
+    return X
