@@ -74,8 +74,8 @@ def _dense(f: Fitted) -> list[Row]:
 
     candidates = design.grouped(design.candidate_columns(f.model, f.instrument))
     tested = testable_effects(f)
-    columns = np.concatenate([*f.flown[0].each(lambda p: p.white)], axis=1)
-    edges = f.flown[0].edges
+    columns = np.concatenate([*f.prepared[0].each(lambda p: p.white)], axis=1)
+    edges = f.prepared[0].edges
     fitted_rows = np.concatenate([np.arange(edges[b], edges[b + 1]) for b in fitted.FITTED_BLOCKS])
     places = {e: [n for n, _ in candidates[e]] for e in tested}
 
@@ -138,18 +138,18 @@ def _coloured(m: Loaded) -> list[Row]:
     import statsmodels.api as sm
     from scipy.linalg import toeplitz
 
-    from ragg_runtime.fit import fitted, observation, prepared
+    from ragg_runtime.fit import fitted, observation, prepared_flight
     from ragg_runtime.workflow.simulate import simulated
 
     short = simulated(m.instrument, HIDDEN, seed=1, duration=300.0, rate=16.0)
     f = fitted.fit(m.model, m.instrument, [observation.observe(short, m.instrument)])
-    (piece,) = f.flown[0].each(lambda p: p)
+    (piece,) = f.prepared[0].each(lambda p: p)
     X, y = piece.columns[:, 0, :], piece.residual[0]
     n = X.shape[1]
-    psd = f.flown[0].noise.models[0].psd(np.fft.rfftfreq(2 * n, 1 / 16.0))
+    psd = f.prepared[0].noise.models[0].psd(np.fft.rfftfreq(2 * n, 1 / 16.0))
     sigma = toeplitz(np.fft.irfft(psd)[:n] * 8.0)
     whole = _processor_time(sm.GLS(y, X[: f.n_base].T, sigma=sigma).fit)
-    streamed = _processor_time(lambda: prepared.blocks(f.flown[0].released()))
+    streamed = _processor_time(lambda: prepared_flight.blocks(f.prepared[0].released()))
     return [
         Row("statsmodels GLS, base columns alone", whole, "s", f"{n} rows; an hour at 100 Hz needs 1 TB"),
         Row("our whitened triangles, all columns", streamed, "s", f"{n} rows"),

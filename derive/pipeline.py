@@ -161,10 +161,10 @@ def _complete(
 
 def _told(form: Form) -> Mapping[str, object]:
     """A form in the manifest; the paper's layout is not worth a word."""
-    told = dataclasses.asdict(form)
+    described = dataclasses.asdict(form)
     if form.layout.is_paper:
-        del told["layout"]
-    return told
+        del described["layout"]
+    return described
 
 
 def manifest_text(manifest: Mapping[str, object]) -> str:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.fit import columns as design
-from ragg_runtime.fit import prepared, unknown_gradient
+from ragg_runtime.fit import prepared_flight, unknown_gradient
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.reference.effects import CATALOGUE
@@ -81,15 +81,15 @@ class Bench:
     def __init__(self, fitted: Fitted, simulation: Simulation) -> None:
         self.fitted = fitted
         self.simulation = simulation
-        self.noise = fitted.flown[0].noise
-        (self.piece,) = fitted.flown[0].each(lambda p: p)  # short flights are one piece
+        self.noise = fitted.prepared[0].noise
+        (self.piece,) = fitted.prepared[0].each(lambda p: p)  # short flights are one piece
         self.columns = design.candidate_columns(fitted.model, fitted.instrument)
         self._base = self.basis(())
 
     def basis(self, given: Sequence[int]) -> Array:
         """(rows, k): orthonormal basis of base and ``given`` candidate columns."""
         f = self.fitted
-        return prepared.projector(f.triangles[0], f.n_base, given).basis(self.piece)
+        return prepared_flight.projector(f.triangles[0], f.n_base, given).basis(self.piece)
 
     def of(self, effect: str) -> list[int]:
         """Positions of an effect's columns among the candidates."""

@@ -39,7 +39,7 @@ class Columns:
 
 def columns(f: Fitted, kinds: Sequence[str] = ("deterministic", "step")) -> Columns:
     """The candidate columns and the residual of one flight, base projected out, not whitened."""
-    (piece,) = f.flown[0].each(lambda p: p)  # short flights are one piece
+    (piece,) = f.prepared[0].each(lambda p: p)  # short flights are one piece
     valid = piece.observation.record.valid
     whole_columns = piece.columns[:, 0, valid]
     for w in piece.windows:  # an unknown gradient is projected out of everything

@@ -139,7 +139,7 @@ def without_acceleration(folder: Path) -> Path:
 
 def residuals(found: Found) -> list[Array]:
     """What is left of the motion's voltages, each by itself, m/s^2."""
-    (piece,) = found.fitted.flown[1].each(lambda p: p)
+    (piece,) = found.fitted.prepared[1].each(lambda p: p)
     return [G0 * e[piece.observation.record.valid] for e in piece.residual]
 
 

@@ -44,8 +44,8 @@ class UserError(Exception):
         head = self.what if self.where is None else f"{self.where}: {self.what}"
         facts = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
         # Further lines of a fact are set in: names in it could otherwise pass for facts of ours.
-        told = (f"  {name}: {text}".replace("\n", "\n    ") for name, text in facts if text is not None)
-        return "\n".join([head, *told])
+        lines = (f"  {name}: {text}".replace("\n", "\n    ") for name, text in facts if text is not None)
+        return "\n".join([head, *lines])
 
     def __reduce__(self) -> tuple[object, ...]:
         # Keyword arguments would be lost between processes otherwise.

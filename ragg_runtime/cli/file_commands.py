@@ -29,11 +29,11 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
 
     if mapping is not None and mapping.resolve() == target.resolve():
         raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
-    told = _convert(source, target, None if mapping is None else read_mapping(mapping))
-    for note in told.notes:
+    done = _convert(source, target, None if mapping is None else read_mapping(mapping))
+    for note in done.notes:
         click.echo(printable(f"note: {note}"), err=True)
-    lines = f"{told.lines} lines, " if told.lines > 1 else ""
-    click.echo(printable(f"{target}: {lines}{told.rows} rows of {len(told.columns)} columns"))
+    lines = f"{done.lines} lines, " if done.lines > 1 else ""
+    click.echo(printable(f"{target}: {lines}{done.rows} rows of {len(done.columns)} columns"))
 
 
 @click.command(name="map", cls=Command)

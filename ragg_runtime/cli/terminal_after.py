@@ -109,9 +109,9 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
             f"    {q['of']:28} {q['inline_Eo']:10.4g} {q['cross_Eo']:10.4g}"
             for q in x["contributions"][:CONTRIBUTIONS]
         ]
-        told = [f"{name} {n}" for name, n in x["quality"].items() if n]
-        if told:
-            lines.append(f"  quality: {', '.join(told)} samples")
+        counts = [f"{name} {n}" for name, n in x["quality"].items() if n]
+        if counts:
+            lines.append(f"  quality: {', '.join(counts)} samples")
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 

@@ -285,8 +285,8 @@ def changed(f: Fitted, root: Array) -> Change:
     n = f.n_base
     T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)
-    told = s**2 >= INFORMED
-    both = (U.T @ T[:n])[told] / np.sqrt(1.0 + s[told] ** 2)[:, None]
+    informed = s**2 >= INFORMED
+    both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
     total = float(np.sum(T[:, n] ** 2))
     return Change(z=both[:, n], signatures=both[:, :n], squares=(total, float(T[n, n] ** 2)))
 

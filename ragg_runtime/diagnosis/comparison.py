@@ -76,7 +76,7 @@ class Comparison:
         f = self.fitted
         return [
             np.concatenate([*lean.each(partial(nominal_residual, f, self.nominal_values), whitened=False)])
-            for lean, _ in (x.for_residuals(np.zeros((1, f.size)), f.n_base) for x in f.flown)
+            for lean, _ in (x.for_residuals(np.zeros((1, f.size)), f.n_base) for x in f.prepared)
         ]
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
@@ -146,7 +146,9 @@ class Comparison:
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
         rows: list[dict[str, object]] = []
-        for x, blocks, k_ggi in zip(self.fitted.flown, self.scored.blocks, self.fitted.scales, strict=True):
+        for x, blocks, k_ggi in zip(
+            self.fitted.prepared, self.scored.blocks, self.fitted.scales, strict=True
+        ):
             time = x.observation.record.time
             for b, volts in enumerate(blocks):
                 if np.isfinite(volts):
@@ -165,10 +167,10 @@ class Comparison:
 
 def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     """Residual demodulated at const, cos k, sin k, as the demodulator would see it, largest first."""
-    turning = any(x.observation.record.turning for x in f.flown)
+    turning = any(x.observation.record.turning for x in f.prepared)
     total = dict.fromkeys(harmonics() if turning else ("const",), 0.0)
     counted = 0
-    for x, k_ggi in zip(f.flown, f.scales, strict=True):
+    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         rate = x.observation.record.rate
         taps = low_pass(rate)
         if len(x.observation.record.time) < 2 * len(taps):
@@ -211,7 +213,7 @@ def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> 
     calibrated, half, nominal = _three_scores(f)
     if calibrated.whole.rms_V > nominal.whole.rms_V:
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
-        f = fit(model, instrument, observations, f.calibration.noise, plain=True)
+        f = fit(model, instrument, observations, f.calibration.noise, unweighted=True)
         calibrated, half, nominal = _three_scores(f)
     return concluded(f, nominal.whole, calibrated, half.held_out)
 
@@ -272,10 +274,12 @@ def remark(e: Explained, f: Fitted) -> str | None:
 
 def disturbed(f: Fitted) -> str | None:
     """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
-    found = [bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.flown]
+    found = [
+        bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.prepared
+    ]
     said = [
-        text if len(f.flown) == 1 else f"{x.observation.name}: {text}"
-        for x, text in zip(f.flown, found, strict=True)
+        text if len(f.prepared) == 1 else f"{x.observation.name}: {text}"
+        for x, text in zip(f.prepared, found, strict=True)
         if text is not None
     ]
     return "; ".join(said) or None
@@ -295,5 +299,5 @@ def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Arra
 
 def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Array]:
     """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
-    r = f.flown[flight].observation.record
+    r = f.prepared[flight].observation.record
     return channels(x, r, f.scales[flight], r.valid)

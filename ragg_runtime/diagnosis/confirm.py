@@ -18,7 +18,7 @@ from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import columns as design
-from ragg_runtime.fit import prepared
+from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.lack_of_fit import omnibus
@@ -122,8 +122,8 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Va
         return {e: Variance.of(piece, place, y) for e, place in places.items()}
 
     searches, counted = [], []
-    for x, triangles in zip(f.flown, f.triangles, strict=True):
-        found, more = omnibus.search(x, prepared.projector(triangles, f.n_base, given), variances)
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+        found, more = omnibus.search(x, prepared_flight.projector(triangles, f.n_base, given), variances)
         searches.append(found)
         counted += more
     return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in places}

@@ -173,7 +173,7 @@ def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
     if it were nearly the sum of their signatures and fitted the noise better besides.
     """
     blocks = [choice.blocks[e] for e in choice.chosen]
-    if not blocks or len(f.flown) > 1:
+    if not blocks or len(f.prepared) > 1:
         return None
     picked, rank = field.joint(blocks)
     if len(blocks) < 2 and rank <= FEW:
@@ -213,7 +213,7 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Effects of the recorder, recognised in the values of each recorded output."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
-    first = (w for w in f.flown if w.observation.place == f.flown[0].observation.place)
+    first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
         for name, series in x.outputs.items():
             if name not in f.instrument.layout.columns:

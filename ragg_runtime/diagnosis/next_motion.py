@@ -116,21 +116,21 @@ def proposals(
         rows = np.vstack([f.whole, rows_of(f, motion, places)])
         return [separation(rows, f.n_base, field, signals[e], r) for e, r in known]
 
-    first = f.flown[0].observation.record
+    first = f.prepared[0].observation.record
     spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
     motions = [
         (axis, ratio, limits[kind(axis)]) for axis in AXES for ratio in RATIOS if ratio * spin <= 0.2 * rate
     ]
     # a longer record of what there is already gains something as well: only more than that is a reason
-    still, *flown = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
+    still, *moving = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
     found = []
     for n, (e, r) in enumerate(known):
-        best = max(range(len(motions)), key=lambda m: flown[m][n], default=None)
-        if best is None or flown[best][n] <= 1.05 * still[n]:
+        best = max(range(len(motions)), key=lambda m: moving[m][n], default=None)
+        if best is None or moving[best][n] <= 1.05 * still[n]:
             continue
         axis, ratio, size = motions[best]
         now = separation(f.whole, f.n_base, field, signals[e], r)
-        found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, flown[best][n]))
+        found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, moving[best][n]))
     return found
 
 
@@ -165,8 +165,8 @@ def rows_of(
 
     (len(places), size + 1): only the columns at ``places`` are there, the others are zero.
     """
-    flown = f.flown[0]
-    o = flown.observation
+    prepared = f.prepared[0]
+    o = prepared.observation
     n = int(simulated * o.record.rate)
     time = np.arange(n) / o.record.rate
     first = o.record.part(slice(0, min(len(o.record.time), n)))
@@ -178,8 +178,8 @@ def rows_of(
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
     made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
-    columns = linearised(flown.at, made)
-    white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(flown.noise.filters)]
+    columns = linearised(prepared.at, made)
+    white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(prepared.noise.filters)]
     T = np.zeros((len(places), len(columns)))
     T[:, places] = triangle(np.concatenate(white, axis=1))
     return np.asarray(np.sqrt(duration / simulated) * T)

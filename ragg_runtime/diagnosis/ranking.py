@@ -87,10 +87,10 @@ def _ranking(
         parameters = parameter_values(mine, values, spread)
         if e in instants:
             parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
-        twins = rivals.get(e, ())
+        indistinguishable = rivals.get(e, ())
         for main, others in rivals.items():
             if e in others:
-                twins = tuple(sorted({main, *others} - {e}))
+                indistinguishable = tuple(sorted({main, *others} - {e}))
         ranked.append(
             Ranked(
                 e,
@@ -103,7 +103,7 @@ def _ranking(
                 scored[2 * n + 1].held_out,
                 tuple(parameters),
                 tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
-                twins,
+                indistinguishable,
             )
         )
     for e in output:

@@ -103,15 +103,15 @@ class Together:
         return found
 
     def as_json(self) -> dict[str, object]:
-        told: dict[str, object] = {"flight": self.name, "noise_between_complements": self.differences()}
+        figures: dict[str, object] = {"flight": self.name, "noise_between_complements": self.differences()}
         t = self.tensor
         if t is not None:
-            told["tensor"] = {
+            figures["tensor"] = {
                 "mean_Eo": [float(x) for x in np.mean(t.gamma, axis=1)],
                 "std_Eo": [float(x) for x in t.std],
                 "closure": t.quality,
             }
-        return told
+        return figures
 
 
 def together(f: Fitted) -> list[Together]:
@@ -133,7 +133,9 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
     left = np.concatenate([_without_motion(f, o.part(s.rows)) for s in segments(len(o.record.time))])
     time, inline, cross = channels(left, o.record, k_ggi, o.record.valid)
     rate = o.record.rate
-    psd = sum(float(m.psd(np.array([2 * abs(o.record.spin_frequency)]))[0]) for m in f.flown[n].noise.models)
+    psd = sum(
+        float(m.psd(np.array([2 * abs(o.record.spin_frequency)]))[0]) for m in f.prepared[n].noise.models
+    )
     noise = float(np.sqrt(psd * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
     return Seen(place=o.place, time=time, inline=inline, cross=cross, inline_std=2 * noise, cross_std=noise)
 

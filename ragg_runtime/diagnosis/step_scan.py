@@ -12,10 +12,10 @@ from ragg_runtime.evidence import selection
 from ragg_runtime.evidence import steps as special
 from ragg_runtime.evidence.selection import Field, field_of, testable_effects
 from ragg_runtime.fit import columns as design
-from ragg_runtime.fit import prepared
+from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.noise import estimate_noise
-from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
 
 Array = NDArray[np.float64]
@@ -34,9 +34,9 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     """
     available = testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
-    if len(f.flown) != 1 or not steps:
+    if len(f.prepared) != 1 or not steps:
         return field_of(f, available), f, {}
-    x, triangles = f.flown[0], f.triangles[0]
+    x, triangles = f.prepared[0], f.triangles[0]
     time = x.observation.record.time
     columns = design.candidate_columns(f.model, f.instrument)
     plain = field_of(f, available)
@@ -58,7 +58,7 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
         if e.id in selection.choose(field).chosen:
             step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
-            projector = prepared.projector(triangles, f.n_base, given)
+            projector = prepared_flight.projector(triangles, f.n_base, given)
             step = replace(step, sample=special.sharpened(x, step.sample, projector, places))
             exact[e.id] = float(time[step.sample])
         instants[e.id] = float(time[step.sample])
@@ -70,16 +70,18 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         return with_steps(calmer, quiet=True)
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
-        triangles, sums = prepared.blocks(x)
+        triangles, sums = prepared_flight.blocks(x)
         stepped = list(triangles)
     elif instants:
         moved = {e: [f.n_base + n for n, c in enumerate(columns) if c.effect == e] for e in instants}
         x = x.with_steps(instants, moved)
-    f = replace(f, flown=(x,), triangles=(tuple(stepped),), sums=(sums,))
+    f = replace(f, prepared=(x,), triangles=(tuple(stepped),), sums=(sums,))
     return _with_penalty(f, [*available, *instants]), f, instants
 
 
-def _stepped(triangles: Sequence[Array], x: Flown, step: special.Step, places: Sequence[int]) -> list[Array]:
+def _stepped(
+    triangles: Sequence[Array], x: PreparedFlight, step: special.Step, places: Sequence[int]
+) -> list[Array]:
     """Block triangles with the columns at ``places`` put to zero before a step on the edge of a block."""
     found = [t.copy() for t in triangles]
     for b in range(BLOCKS):

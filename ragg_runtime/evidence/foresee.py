@@ -1,7 +1,7 @@
 """What an effect would do before it is derived: the error that would be left, and its signature in the residual.
 
-Tests are made on whitened columns; an error is that of the plain ones. So besides the whitened triangles of
-:class:`~ragg_runtime.fit.fitted.Fitted` those of the plain columns are kept: with both, the error with any choice of
+Tests are made on whitened columns; an error is that of the unwhitened ones. So besides the whitened triangles of
+:class:`~ragg_runtime.fit.fitted.Fitted` those of the unwhitened columns are kept: with both, the error with any choice of
 effects is linear algebra of a few hundred rows, whatever the length of the flights.
 """
 
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Plain:
+class Unwhitened:
     """Of the columns [base | candidates | residual] of G_out, not whitened.
 
     Attributes
@@ -49,8 +49,8 @@ class Plain:
 
 
 @one_thread
-def plain(f: Fitted) -> Plain:
-    """The plain triangles, in one pass over the flights."""
+def unwhitened(f: Fitted) -> Unwhitened:
+    """The triangles of the unwhitened columns, in one pass over the flights."""
     found: list[list[Array]] = [[] for _ in range(BLOCKS)]
     samples = np.zeros(BLOCKS)
 
@@ -63,13 +63,13 @@ def plain(f: Fitted) -> Plain:
             parts.append((b, triangle(e[:, here]), int(np.sum(r.valid[here]))))
         return parts
 
-    for x in f.flown:
+    for x in f.prepared:
         for parts in x.each(own, whitened=False):
             for b, T, count in parts:
                 found[b].append(T)
                 samples[b] += count
     nothing = np.zeros((f.size + 1, f.size + 1))
-    return Plain(tuple(join(t) if t else nothing for t in found), samples)
+    return Unwhitened(tuple(join(t) if t else nothing for t in found), samples)
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: b
 
 
 @one_thread
-def foreseen(f: Fitted, known: Plain, field: Field, effects: Sequence[str]) -> Foreseen:
+def foreseen(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Foreseen:
     """The error that the flights would leave with these effects in the model."""
     scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
     chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
@@ -132,7 +132,7 @@ def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tu
     It is computed for the segments that hold ``rows`` (all samples, if none are given); where they begin and end is
     returned. Of columns of the model it holds the part by which the calibration moves.
     """
-    x = f.flown[flight]
+    x = f.prepared[flight]
     wanted = rows or slice(0, len(x.observation.record.time))
     chosen = [
         s for s in flight_segments(x.observation) if s.rows.start < wanted.stop and s.rows.stop > wanted.start

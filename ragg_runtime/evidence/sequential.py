@@ -119,7 +119,7 @@ def _blocks(f: Fitted) -> Iterator[_Block]:
     nothing = np.zeros((n + 1, n + 1))
     known = with_prior(nothing, range(n), f.to_nominal / WIDE)
     known[:, :n] /= WIDE  # the prior's rows alone stand in it: WIDE times as wide
-    for x, triangles in zip(f.flown, f.triangles, strict=True):
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
         r = x.observation.record
         for T, (first, last) in zip(triangles, pairwise(x.edges), strict=True):
             samples = int(np.sum(r.valid[first:last])) * len(x.observation.series)

@@ -15,7 +15,7 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.passes import Piece, whitened_columns
-from ragg_runtime.fit.prepared import Flown, Projector
+from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS, ROWS
 from ragg_runtime.fit.square_root import join, triangle, with_prior
 
@@ -73,7 +73,7 @@ FINE = 192
 
 
 def refined(
-    flown: Flown,
+    prepared: PreparedFlight,
     step: Step,
     n_base: int,
     given: Sequence[int],
@@ -81,7 +81,7 @@ def refined(
     prior: Array,
 ) -> Step:
     """Move the instant of a step to the sample where it explains most."""
-    length = len(flown.observation.record.time)
+    length = len(prepared.observation.record.time)
     reach = max(1, length // BLOCKS)
     places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
     moved = list(range(n_base + len(given), len(places)))
@@ -97,7 +97,7 @@ def refined(
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
             return [(int(k), triangle(X[:, which == k])) for k in np.unique(which)]
 
-        for own in flown.each(cut):
+        for own in prepared.each(cut):
             for k, T in own:
                 before = triangles[k]
                 triangles[k] = T if before is None else join([before, T])
@@ -120,17 +120,17 @@ POINTS = 16
 """Instants on either side that are tried in each round that looks for the sample."""
 
 
-def sharpened(flown: Flown, sample: int, projector: Projector, places: Sequence[int]) -> int:
+def sharpened(prepared: PreparedFlight, sample: int, projector: Projector, places: Sequence[int]) -> int:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.
 
     :func:`refined` cuts whitened columns off before the step. Of a constant a filter of red noise leaves next to nothing,
     but of a step its edge: cut off so, the edge is not there. Only of a flight of one segment; ``places`` of the columns are
     those among all.
     """
-    length = len(flown.observation.record.time)
+    length = len(prepared.observation.record.time)
     if length > ROWS:
         return sample
-    (piece,) = flown.each(lambda p: p)
+    (piece,) = prepared.each(lambda p: p)
     Q = projector.basis(piece)
     y = projector.left(piece, Q)
     record = piece.observation.record
@@ -138,7 +138,7 @@ def sharpened(flown: Flown, sample: int, projector: Projector, places: Sequence[
     def explained(at: int) -> float:
         columns = piece.columns[list(places)]
         columns[:, :, :at] = 0.0
-        X = whitened_columns(columns, flown.noise, None, record)
+        X = whitened_columns(columns, prepared.noise, None, record)
         unknown_gradient.project(X, piece.windows)
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T

@@ -14,25 +14,25 @@ from ragg_runtime.signals.noise_spectrum import NoiseModel, estimate
 
 Array = NDArray[np.float64]
 
-SPELLS = 48
+INTERVALS = 48
 """Spells into which the residual is divided."""
 
 LOUD = 4.0
-"""Power of a spell over the median's of those before it, and of those after it, from which it is loud: louder than one side
+"""Power of an interval over the median's of those before it, and of those after it, from which it is loud: louder than one side
 alone is a noise that has changed its level."""
 
 BESIDE = 16
 """Spells on either side with which one is compared: twice as many as may be bursts, so that they do not shift a median."""
 
 FEW = 1 / 6
-"""Largest share of spells that are bursts: more of them are noise whose level changes, which the estimate averages."""
+"""Largest share of intervals that are bursts: more of them are noise whose level changes, which the estimate averages."""
 
 MATTERS = 1.3
-"""Mean power of all spells over the median's from which bursts matter: the error then stands so far above the noise that
+"""Mean power of all intervals over the median's from which bursts matter: the error then stands so far above the noise that
 nothing is claimed; smaller ones stay in the noise, lest tests take them for evidence."""
 
 TAPS = 1024
-"""Length of the filter that makes the power of spells comparable."""
+"""Length of the filter that makes the power of intervals comparable."""
 
 ROUNDS = 3
 """Estimates, each without the bursts that the one before has shown."""
@@ -92,8 +92,8 @@ def _estimated(
 
 def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
     taps = model.whitening_filter(TAPS)
-    length = max(64, sum(len(e) for e in residual) // SPELLS)
-    spells: list[tuple[int, int, int]] = []
+    length = max(64, sum(len(e) for e in residual) // INTERVALS)
+    intervals: list[tuple[int, int, int]] = []
     power: list[float] = []
     for k, e in enumerate(residual):
         white = filtered(e[None], taps)[0]
@@ -101,7 +101,7 @@ def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
             part = white[start : start + length]
             heard = part[e[start : start + length] != 0.0]  # what is not valid is zero
             if len(heard) > length // 2:
-                spells.append((k, start, min(start + length, len(e))))
+                intervals.append((k, start, min(start + length, len(e))))
                 power.append(float(np.mean(heard**2)))
     found: list[list[Burst]] = [[] for _ in residual]
     if not power:
@@ -113,7 +113,7 @@ def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
     if len(loud) > FEW * len(power) or np.mean(power) < MATTERS * median:
         return found
     for n in loud:
-        k, start, stop = spells[n]
+        k, start, stop = intervals[n]
         found[k].append(Burst(start, stop, power[n] / near[n]))
     return found
 
@@ -127,9 +127,9 @@ def in_words(bursts: Sequence[tuple[int, int, float]], time: Array) -> str | Non
     if not bursts:
         return None
     worst = sorted(bursts, key=lambda b: -b[2])[:SAID]
-    spells = ", ".join(
+    intervals = ", ".join(
         f"{time[a]:.0f} to {time[min(b, len(time)) - 1]:.0f} s ({factor:.3g} times)"
         for a, b, factor in sorted(worst)
     )
     more = f" and {len(bursts) - SAID} more stretches" if len(bursts) > SAID else ""
-    return f"the record is far noisier than elsewhere, in power, from {spells}{more}: leave them out (NaN)"
+    return f"the record is far noisier than elsewhere, in power, from {intervals}{more}: leave them out (NaN)"

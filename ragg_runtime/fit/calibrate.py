@@ -185,7 +185,7 @@ class _Task:
 
 
 @dataclass(frozen=True)
-class _Plain:
+class _Unweighted:
     """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
 
     task: _Task
@@ -224,30 +224,30 @@ def fit(
     *,
     start: Array | None = None,
     noise: Sequence[Noise] | None = None,
-    plain: bool = False,
+    unweighted: bool = False,
 ) -> Calibration:
     """Least squares on all flights at once, from the nominal values or from ``start``.
 
     First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
     estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
-    than noise (or ``plain`` is asked for), unwhitened still. In the end the null biases take the
+    than noise (or ``unweighted`` is asked for), unwhitened still. In the end the null biases take the
     residual's mean (``design.levelled``).
     """
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    loud = plain
+    loud = unweighted
     if noise is None:
-        some = _Plain(task, WHITE_SEGMENTS)
+        some = _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
         loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
-    return _loud(_Plain(task), x, noise, fixed=plain)
+    return _loud(_Unweighted(task), x, noise, fixed=unweighted)
 
 
-def _loud(p: _Plain, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
+def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
     """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
         left = p.left(x)

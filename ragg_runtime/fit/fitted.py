@@ -12,12 +12,12 @@ from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.fit import calibrate, columns, prepared
+from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.observation import Observation, noise_gain
 from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
-from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
@@ -102,7 +102,7 @@ class Fitted:
     instrument: Instrument
     observations: tuple[Observation, ...]
     calibration: Calibration
-    flown: tuple[Flown, ...]
+    prepared: tuple[PreparedFlight, ...]
     triangles: tuple[tuple[Array, ...], ...]
     sums: tuple[Array, ...]
     to_nominal: Array
@@ -178,7 +178,7 @@ class Fitted:
     def residuals_of(self, v: Array) -> list[Array]:
         """The same with the coefficients of all columns, (size,)."""
         found = []
-        for x in self.flown:
+        for x in self.prepared:
             lean, w = x.for_residuals(v[None], self.n_base)
             parts = lean.each(partial(_left, w), whitened=False)
             found.append(np.concatenate([*parts]))
@@ -193,8 +193,8 @@ class Fitted:
         """
         V = np.stack(vectors) if vectors else np.empty((0, self.size))
         k = len(V) + count
-        tallies, blocks = [], np.full((len(self.flown), BLOCKS, k), np.nan)
-        for n, x in enumerate(self.flown):
+        tallies, blocks = [], np.full((len(self.prepared), BLOCKS, k), np.nan)
+        for n, x in enumerate(self.prepared):
             r = x.observation.record
             tally = Tally(k, 2, r.rate, turning=r.turning)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
@@ -228,7 +228,7 @@ class Fitted:
 
     def released(self) -> Fitted:
         """The same without the columns of its flights in memory."""
-        return replace(self, flown=tuple(x.released() for x in self.flown))
+        return replace(self, prepared=tuple(x.released() for x in self.prepared))
 
 
 @one_thread
@@ -239,22 +239,22 @@ def fit(
     noise: Sequence[Noise] | None = None,
     start: Array | None = None,
     *,
-    plain: bool = False,
+    unweighted: bool = False,
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
     The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
-    ``plain``: all samples weigh the same in it.
+    ``unweighted``: all samples weigh the same in it.
     """
     model = model.for_fits(sum(len(o.record.time) for o in observations))
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, plain=plain)
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     widening = 1.0
     for _ in range(WIDENED):
         wider = widened(model, instrument, c)
         if wider is None:
             break
         instrument, widening = wider[0], widening * wider[1]
-        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, plain=plain)
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
     c = replace(c, widening=widening)
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
@@ -272,17 +272,17 @@ def about(
     model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
 ) -> Fitted:
     """The evidence about a calibration, however it was found."""
-    flown = prepared.prepare(model, instrument, observations, c)
-    triangles, sums = zip(*(prepared.blocks(x) for x in flown), strict=True)
+    prepared = prepared_flight.prepare(model, instrument, observations, c)
+    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model,
         instrument,
         tuple(observations),
         c,
-        flown,
+        prepared,
         triangles,
         sums,
-        prepared.to_nominal(model, instrument, c),
+        prepared_flight.to_nominal(model, instrument, c),
         tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 
@@ -291,7 +291,7 @@ def swell(f: Fitted) -> float:
     """rms of all the noise over that of the floor: bursts are no part of it."""
     power = [
         float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
-        for x in f.flown
+        for x in f.prepared
         for r, level in [(x.observation.record, x.noise.level.of(x.observation.record.quantity))]
     ]
     return float(np.sqrt(np.mean(power)))
@@ -300,7 +300,7 @@ def swell(f: Fitted) -> float:
 def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
-    for x, k_ggi in zip(f.flown, f.scales, strict=True):
+    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
         variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

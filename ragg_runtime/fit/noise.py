@@ -100,7 +100,7 @@ def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
 
 def _parts(at: Point, o: Observation) -> list[_Part]:
     """What is left of segments that are spread over the flight."""
-    plain = Noise((), (np.ones(1),) * len(o.series))
+    unwhitened = Noise((), (np.ones(1),) * len(o.series))
     band = unknown_gradient.band(o)
     rate = o.record.rate if o.kind != "channels" else None
     n_base = len(design.base_columns(at.model, at.instrument))
@@ -125,7 +125,7 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
         )
 
     chosen = spread(flight_segments(o), NOISE_SEGMENTS)
-    return [p for p in passed(at, o, plain, part, chosen=chosen) if p is not None]
+    return [p for p in passed(at, o, unwhitened, part, chosen=chosen) if p is not None]
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:

@@ -87,9 +87,10 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
         kind = "A" if not c.unit and c.name == "line" else "E" if c.name in exponents else "F"
         size = f"{widths[c.name] + 1}" + ("" if kind == "A" else f".{decimals[c.name]}")
         null = nulls[c.name]
-        told = [f"UNIT={_bare(c.unit)}"] * bool(c.unit) + [f"NULL={null}"] * bool(null)
+        attributes = [f"UNIT={_bare(c.unit)}"] * bool(c.unit) + [f"NULL={null}"] * bool(null)
         lines.append(
-            f"DEFN {n} ST=RECD,RT=;{_bare(c.name)}:{kind}{size}" + (":" + ",".join(told) if told else "")
+            f"DEFN {n} ST=RECD,RT=;{_bare(c.name)}:{kind}{size}"
+            + (":" + ",".join(attributes) if attributes else "")
         )
     lines.append(f"DEFN {len(columns) + 1} ST=RECD,RT=;END DEFN")
     path.with_suffix(".dfn").write_text("\n".join(lines) + "\n", "utf-8")
@@ -178,19 +179,19 @@ def _parts(text: str, start: int, path: Path) -> list[_Field]:
             found=repr(size)[:60],
             expected="a Fortran format such as F12.2, I8, E15.7, A4",
         )
-    told = dict(re.findall(r"\b(UNITS?|NULL|NAME)\s*=\s*([^,:]*)", more, re.IGNORECASE))
-    told = {k.upper().rstrip("S"): v.strip() for k, v in told.items()}
+    attributes = dict(re.findall(r"\b(UNITS?|NULL|NAME)\s*=\s*([^,:]*)", more, re.IGNORECASE))
+    attributes = {k.upper().rstrip("S"): v.strip() for k, v in attributes.items()}
     width, count, kind = int(match[3]), int(match[1] or 1), match[2].upper()
     if kind == "X":
         return [_Field(name="RT", unit="", text=True, null=None, start=start, stop=start + width * count)]
     try:
-        null = float(told.get("NULL", ""))
+        null = float(attributes.get("NULL", ""))
     except ValueError:
         null = None
     return [
         _Field(
             name=name if count == 1 else f"{name}_{k + 1}",
-            unit=told.get("UNIT", ""),
+            unit=attributes.get("UNIT", ""),
             text=kind == "A",
             null=null,
             start=start + k * width,

@@ -197,8 +197,8 @@ def _columns(
         )
         sure[name] = role.sure
         scale = f", scale = {role.scale:g}" if role.scale != 1.0 else ""
-        told = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
-        lines.append(f'{_key(name)} = {{ column = "{_quoted(h.name)}", unit = "{unit}"{scale} }}{told}')
+        comment = f"  # {role.sure}" + (f": {role.why}" if role.why else "") + remark.replace("  # ", "; ", 1)
+        lines.append(f'{_key(name)} = {{ column = "{_quoted(h.name)}", unit = "{unit}"{scale} }}{comment}')
     return lines
 
 

@@ -66,9 +66,9 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
         mapped: dict[tuple[str, str], Array] = {
             k: np.memmap(h, np.float64, mode="r") for k, h in maps.items()
         }
-    told = list(notes)
-    if len(told) > NOTES:
-        told = [*told[:NOTES], f"and {len(told) - NOTES} further notes of this kind"]
+    said = list(notes)
+    if len(said) > NOTES:
+        said = [*said[:NOTES], f"and {len(said) - NOTES} further notes of this kind"]
     return Flight(
         time=mapped["own", "time"],
         channels={n: x for (group, n), x in mapped.items() if group == "channels"},
@@ -76,7 +76,7 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
         name=first.name,
         path=first.path,
         digest=first.digest,
-        notes=tuple(told),
+        notes=tuple(said),
         valid=valid,
         units=first.units,
         written=first.written,

@@ -43,7 +43,7 @@ class _Line:
     name: str
     start: int
     stop: int
-    told: tuple[tuple[str, str], ...]
+    header: tuple[tuple[str, str], ...]
 
 
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
@@ -54,11 +54,11 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
             "the XYZ file holds no rows", where=path, expected="/ comments, Line 10, then rows of numbers"
         )
     columns = _columns(path, comments, rows)
-    there = {what for x in lines for what, _ in x.told}
-    told = [
+    there = {what for x in lines for what, _ in x.header}
+    header = [
         Heading(f"//{what.capitalize()}", text=what == "date") for what in ("flight", "date") if what in there
     ]
-    asked = [h for h in told if look.only is not None and h.name in look.only] if not look.text else told
+    asked = [h for h in header if look.only is not None and h.name in look.only] if not look.text else header
     wanted = tuple(h for h in (*columns, *asked) if look.wants(h.name))
     wrong = next((h for h in wanted if h.text and not look.allows_text(h.name)), None)
     if wrong is not None:
@@ -110,7 +110,7 @@ def _scanned(path: Path) -> tuple[list[_Line], list[str], list[str]]:
     lines: list[_Line] = []
     comments: list[str] = []
     rows: list[str] = []
-    told: dict[str, str] = {}
+    header: dict[str, str] = {}
     name, start, any_row = "", 0, False
     with path.open("rb") as stream:
         place = 0
@@ -125,13 +125,13 @@ def _scanned(path: Path) -> tuple[list[_Line], list[str], list[str]]:
                 mark = _MARK.fullmatch(text.strip("\r\n"))
                 if mark is not None:
                     if any_row:
-                        lines.append(_Line(name=name, start=start, stop=place, told=tuple(told.items())))
+                        lines.append(_Line(name=name, start=start, stop=place, header=tuple(header.items())))
                     name, start, any_row = _name(mark[1], mark[2]), place + len(raw), False
                 elif (found := _TOLD.fullmatch(text.strip())) is not None:
                     if any_row:
-                        lines.append(_Line(name=name, start=start, stop=place, told=tuple(told.items())))
+                        lines.append(_Line(name=name, start=start, stop=place, header=tuple(header.items())))
                         start, any_row = place + len(raw), False
-                    told[found[1].lower()] = found[2]
+                    header[found[1].lower()] = found[2]
                 elif head == b"/" and not rows:
                     comments = [*comments[-200:], text[1:].strip()]
                 elif text.strip() and head != b"/":
@@ -143,7 +143,7 @@ def _scanned(path: Path) -> tuple[list[_Line], list[str], list[str]]:
                     rows.append(raw.decode("utf-8", "replace"))
             place += len(raw)
         if any_row:
-            lines.append(_Line(name=name, start=start, stop=place, told=tuple(told.items())))
+            lines.append(_Line(name=name, start=start, stop=place, header=tuple(header.items())))
     return lines, comments, rows
 
 
@@ -193,7 +193,7 @@ def _is_number(text: str) -> bool:
 def _batches(
     path: Path, line: _Line, columns: Sequence[Heading], wanted: Sequence[Heading]
 ) -> Iterator[RawBatch]:
-    told = dict(line.told)
+    header = dict(line.header)
     with path.open("rb") as stream:
         for block in _blocks(stream, line):
             rows = [r for r in block.splitlines() if r.strip() and not r.startswith(b"/")]
@@ -204,7 +204,7 @@ def _batches(
             found: dict[str, NDArray[Any]] = {}
             for h in wanted:
                 if h.name.startswith("//"):
-                    found[h.name] = _repeated(told.get(h.name[2:].lower(), ""), h, len(rows))
+                    found[h.name] = _repeated(header.get(h.name[2:].lower(), ""), h, len(rows))
                     continue
                 column = np.array(cells[columns.index(h) :: len(columns)])
                 found[h.name] = _decoded(column) if h.text else _numbers(column, path, line, h)

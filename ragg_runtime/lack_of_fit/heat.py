@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.fit import prepared
+from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.passes import Piece
-from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.dictionary import Term, harmonics
 from ragg_runtime.lack_of_fit.omnibus import Scores, Sums
@@ -44,16 +44,18 @@ class Heat:
 
 
 @one_thread
-def heat(flown: Flown, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()) -> Heat:
+def heat(
+    prepared: PreparedFlight, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()
+) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    projector = prepared.projector(triangles, n_base, given)
-    scores = Scores(flown, projector)
+    projector = prepared_flight.projector(triangles, n_base, given)
+    scores = Scores(prepared, projector)
 
     def own(piece: Piece) -> Sums:
         Q = projector.basis(piece)
         return scores.of(piece, projector.left(piece, Q), Q)
 
-    for sums in flown.each(own, effort=omnibus.EFFORT):
+    for sums in prepared.each(own, effort=omnibus.EFFORT):
         scores.sums.join(sums)
     return _table(scores)
 
@@ -78,11 +80,11 @@ def _table(s: Scores) -> Heat:
     )
 
 
-def series(flown: Flown, harmonic: str, product: str, coefficient: float) -> Array:
+def series(prepared: PreparedFlight, harmonic: str, product: str, coefficient: float) -> Array:
     """(N,) V: a generic term over a whole flight, with this coefficient."""
     from ragg_runtime.lack_of_fit.dictionary import Dictionary
 
-    r = flown.observation.record
+    r = prepared.observation.record
     channels = () if product == "1" else tuple(product.split("*"))
     x = coefficient * Dictionary(r).series(Term(harmonic, channels), r)
     return np.asarray(np.where(r.valid, x, 0.0))

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.fit import prepared, unknown_gradient
+from ragg_runtime.fit import prepared_flight, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.passes import Piece
-from ragg_runtime.fit.prepared import Flown, Projector
+from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 
 Array = NDArray[np.float64]
 
@@ -66,13 +66,13 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
 
     ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
     """
-    if len(f.flown) != 1 or f.observations[0].kind == "channels":
+    if len(f.prepared) != 1 or f.observations[0].kind == "channels":
         return None
-    x = f.flown[0]
+    x = f.prepared[0]
     r = x.observation.record
     if not r.turning:
         return None
-    projector = prepared.projector(f.triangles[0], f.n_base, given)
+    projector = prepared_flight.projector(f.triangles[0], f.n_base, given)
     width = 1.0 / float(r.time[-1] - r.time[0])
     offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
     found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
@@ -97,7 +97,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
     )
 
 
-def _explained(x: Flown, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
+def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
     """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows.
 
     The noise's filter turns and stretches a sinusoid, which spans the same as it did; where it starts from rest, and after
@@ -129,7 +129,7 @@ def _explained(x: Flown, projector: Projector, frequencies: Array) -> tuple[Arra
     return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
 
 
-def _waves(x: Flown, piece: Piece, frequencies: Array) -> Array:
+def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
     """(2 n, rows): cosines, then sines, in whitened rows."""
     r = piece.observation.record
     phase = 2 * np.pi * np.outer(frequencies, r.time)

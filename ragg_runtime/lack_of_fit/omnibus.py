@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece, flight_segments
-from ragg_runtime.fit.prepared import Flown, Projector
+from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.significance import log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.spectral_line import Periodogram
@@ -125,9 +125,9 @@ class Sums:
 class Scores:
     """The dictionary of a flight against its whitened residual, base and chosen effects projected out."""
 
-    def __init__(self, flown: Flown, projector: Projector) -> None:
-        self.flown, self.projector = flown, projector
-        o = flown.observation
+    def __init__(self, prepared: PreparedFlight, projector: Projector) -> None:
+        self.prepared, self.projector = prepared, projector
+        o = prepared.observation
         self.dictionary = Dictionary(o.record)
         self._excluded = None
         if unknown_gradient.unknown(o):  # there nothing is left of the noise either
@@ -143,8 +143,8 @@ class Scores:
         return Sums(
             len(self.dictionary.terms),
             len(self.projector.along),
-            BlockScores(self.dictionary.first_order, self.flown.observation.record.time),
-            Periodogram(self._longest, self.flown.observation.record.rate, self._excluded),
+            BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
+            Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
         )
 
     def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
@@ -156,7 +156,9 @@ class Scores:
         ones = np.ones((len(piece.observation.record.time), 1))
         s.blocks.level(piece, y)
         s.spectrum.add(piece, y)
-        for at, x, inner, norm2, X in self._of_terms(Directions(self.flown, self.dictionary, piece), right):
+        for at, x, inner, norm2, X in self._of_terms(
+            Directions(self.prepared, self.dictionary, piece), right
+        ):
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
             s.norm2[at] = norm2
@@ -170,7 +172,7 @@ class Scores:
         self, d: Directions, right: Array
     ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
         """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
-        terms, slow = self.dictionary.terms, self.dictionary.slow if d.round else None
+        terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
         for at, x, X in d.whitened(terms[:slow]):
             yield at, x, products(X, right), squares(X), X
         if slow is not None:
@@ -179,10 +181,10 @@ class Scores:
 
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
-        d = Directions(self.flown, self.dictionary, piece)
+        d = Directions(self.prepared, self.dictionary, piece)
         terms = [self.dictionary.terms[k] for k in sorted(places)]
         slow = sum(k < self.dictionary.slow for k in places)
-        found = [*d.whitened(terms[:slow]), *(d.gone_round if d.round else d.whitened)(terms[slow:])]
+        found = [*d.whitened(terms[:slow]), *(d.periodic if d.may_be_periodic else d.whitened)(terms[slow:])]
         return np.concatenate([X for _, _, X in found])
 
     def gram(self, places: Sequence[int]) -> Array:
@@ -193,7 +195,7 @@ class Scores:
             return np.asarray(X @ X.T)
 
         G = np.zeros((len(places), len(places)))
-        for part in self.flown.each(inner):
+        for part in self.prepared.each(inner):
             G += part
         row = np.argsort(np.argsort(places))  # from ascending places to the order asked for
         A = self.sums.along[list(places)]
@@ -201,10 +203,10 @@ class Scores:
 
 
 def search(
-    flown: Flown, projector: Projector, further: Callable[[Piece, Array], T]
+    prepared: PreparedFlight, projector: Projector, further: Callable[[Piece, Array], T]
 ) -> tuple[Omnibus, list[T]]:
     """What is left of a flight, and what ``further`` makes of every segment and its whitened, projected residual."""
-    scores = Scores(flown, projector)
+    scores = Scores(prepared, projector)
 
     def both(piece: Piece) -> tuple[Sums, T]:
         Q = projector.basis(piece)
@@ -212,7 +214,7 @@ def search(
         return scores.of(piece, y, Q), further(piece, y)
 
     found = []
-    for sums, more in flown.each(both, effort=EFFORT):
+    for sums, more in prepared.each(both, effort=EFFORT):
         scores.sums.join(sums)
         found.append(more)
     return choose(scores), found
@@ -244,14 +246,14 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
 
 
 def _line(s: Scores) -> tuple[float, Found] | None:
-    if s.flown.observation.kind == "channels":
+    if s.prepared.observation.kind == "channels":
         return None  # their noise is only white within the demodulator's band
     line = s.sums.spectrum.best()
     if line is None:
         return None
     # back from the whitened residual: the noise's own density at the line
-    volts2 = sum(float(m.psd(np.array([line.frequency]))[0]) for m in s.flown.noise.models)
-    mean_square = line.share * volts2 * s.flown.observation.record.rate / 2
+    volts2 = sum(float(m.psd(np.array([line.frequency]))[0]) for m in s.prepared.noise.models)
+    mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
     chi2 = line.share * s.sums.square
     found = Found(
         Term(f"line {line.frequency:.5g} Hz", ()),
@@ -273,7 +275,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     norm = np.sqrt(np.where(good, left2, np.inf))
     tried = int(np.sum(good))
     z = s.sums.dot / norm
-    freedom = s.flown.noise.freedom
+    freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
     if first >= np.log(FAMILY):
         return Omnibus(first, tried, (), 0.0, s.sums.square)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ragg_runtime.fit import prepared
+from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.features import term_unit
@@ -41,8 +41,8 @@ class Remainder:
 def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
-    for x, triangles in zip(f.flown, f.triangles, strict=True):
-        projector = prepared.projector(triangles, f.n_base, given)
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+        projector = prepared_flight.projector(triangles, f.n_base, given)
         found.append(omnibus.search(x, projector, lambda piece, y: None)[0])
     return Remainder(tuple(found))
 

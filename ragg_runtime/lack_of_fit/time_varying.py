@@ -1,6 +1,6 @@
 """Terms that come and go: a coefficient that is not the same throughout a flight.
 
-Four questions are asked of every term, on its scores in short spells of time: do the coefficients fitted in each
+Four questions are asked of every term, on its scores in short intervals of time: do the coefficients fitted in each
 block of time scatter; does it act in one window only; does it jump; does it swing with a period? All are asked of the
 whitened residual, with everything known projected out, against its own level nearby, so that noise that is not quite
 stationary or not quite white raises no alarm.
@@ -26,10 +26,10 @@ PARTS = 4
 """Spells in a block of time."""
 
 WINDOWS = (1, 2, 4, 8, 16)
-"""Lengths of windows, in spells; each is moved by half of it."""
+"""Lengths of windows, in intervals; each is moved by half of it."""
 
 CYCLES = np.arange(1, 61) / 2
-"""Cycles of a swing in a flight. The shortest is three spells long."""
+"""Cycles of a swing in a flight. The shortest is three intervals long."""
 
 QUESTIONS = 4
 
@@ -51,7 +51,7 @@ class Varying:
 
 
 class BlockScores:
-    """Scores of some terms in every spell of time: sums over segments."""
+    """Scores of some terms in every interval of time: sums over segments."""
 
     def __init__(self, count: int, time: Array) -> None:
         self.count = count
@@ -60,9 +60,9 @@ class BlockScores:
         self.edges = np.concatenate([*inner, blocks[-1:]]).astype(np.intp)
         at = np.minimum(self.edges, len(time) - 1)
         self.time = np.asarray(time[at], dtype=np.float64)
-        spells = len(self.edges) - 1
-        self.dot, self.norm2 = np.zeros((spells, count)), np.zeros((spells, count))
-        self.square, self.rows = np.zeros(spells), np.zeros(spells)
+        intervals = len(self.edges) - 1
+        self.dot, self.norm2 = np.zeros((intervals, count)), np.zeros((intervals, count))
+        self.square, self.rows = np.zeros(intervals), np.zeros(intervals)
 
     def join(self, other: BlockScores) -> None:
         """Count in the sums of further segments."""
@@ -70,16 +70,16 @@ class BlockScores:
             getattr(self, name)[...] += getattr(other, name)
 
     def _runs(self, piece: Piece) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Where, among the whitened rows of a segment, runs within one spell begin; and their spells."""
+        """Where, among the whitened rows of a segment, runs within one interval begin; and their intervals."""
         which = np.searchsorted(self.edges, piece.sample, side="right") - 1
         starts = np.flatnonzero(np.diff(which, prepend=-1))
         return starts, which[starts]
 
     def level(self, piece: Piece, y: Array) -> None:
         """Count in the residual of a segment, (rows,)."""
-        starts, spells = self._runs(piece)
-        np.add.at(self.square, spells, np.add.reduceat(y**2, starts))
-        np.add.at(self.rows, spells, np.diff(starts, append=len(y)).astype(np.float64))
+        starts, intervals = self._runs(piece)
+        np.add.at(self.square, intervals, np.add.reduceat(y**2, starts))
+        np.add.at(self.rows, intervals, np.diff(starts, append=len(y)).astype(np.float64))
 
     def add(self, piece: Piece, y: Array, at: slice, X: NDArray[np.float32]) -> None:
         """Count in the whitened series X (terms, rows) of the terms at places ``at``; others than ours are left."""
@@ -87,10 +87,10 @@ class BlockScores:
             return
         at = slice(at.start, min(at.stop, self.count))
         X = X[: at.stop - at.start]
-        starts, spells = self._runs(piece)
-        for a, b, spell in zip(starts, [*starts[1:], len(y)], spells, strict=True):
-            self.dot[spell, at] += products(X[:, a:b], y[a:b, None])[:, 0]
-            self.norm2[spell, at] += squares(X[:, a:b])
+        starts, intervals = self._runs(piece)
+        for a, b, interval in zip(starts, [*starts[1:], len(y)], intervals, strict=True):
+            self.dot[interval, at] += products(X[:, a:b], y[a:b, None])[:, 0]
+            self.norm2[interval, at] += squares(X[:, a:b])
 
     def best(self, good: NDArray[np.bool_]) -> Varying | None:
         """The most variable of the ``good`` terms."""

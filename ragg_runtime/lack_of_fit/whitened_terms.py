@@ -2,7 +2,7 @@
 
 Any direction tells a standard normal deviate from white noise; the whitened series of a term is the one that finds
 the term best. Terms that are slow or come alone pass through the noise's filter as everything does. The many
-that oscillate go round: through the same filter taken as periodic in the segment. Their inner product
+that oscillate pass the same filter taken as periodic in the segment. Their inner product
 with the residual is then that of the plain series with the residual filtered backwards, and their norm a
 sum over their spectrum, at a quarter of the cost.
 """
@@ -19,7 +19,7 @@ from ragg_runtime.base.threads import count, mapped
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.observation import narrow
 from ragg_runtime.fit.passes import Piece
-from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.signals.fir import filtered
 
@@ -59,16 +59,16 @@ def _kept(X: Singles, valid: NDArray[np.bool_]) -> Singles:
 class Directions:
     """Whitened series of the terms of a dictionary over a segment."""
 
-    def __init__(self, flown: Flown, dictionary: Dictionary, piece: Piece) -> None:
-        self.piece, self.dictionary, self.whole = piece, dictionary, flown.observation
+    def __init__(self, prepared: PreparedFlight, dictionary: Dictionary, piece: Piece) -> None:
+        self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
         r = piece.observation.record
-        self.filters = [taps[:MEMORY] for taps in flown.noise.filters]
+        self.filters = [taps[:MEMORY] for taps in prepared.noise.filters]
         self.size = len(r.time)
-        self.level = flown.noise.level.of(r.quantity)
-        steady = not flown.noise.level.parts
-        self.round = piece.observation.kind != "channels" and bool(r.valid.all()) and steady
-        """Whether terms can go round: not past gaps, nor through the demodulator's filter, nor where the noise changes its level."""
-        if self.round:
+        self.level = prepared.noise.level.of(r.quantity)
+        steady = not prepared.noise.level.parts
+        self.may_be_periodic = piece.observation.kind != "channels" and bool(r.valid.all()) and steady
+        """Whether terms may be filtered periodically: not past gaps, through the demodulator, nor where the noise's level changes."""
+        if self.may_be_periodic:
             cut = [np.asarray(taps[: self.size]) for taps in self.filters]
             self.gains = [
                 w * fft.rfft(h, self.size) for w, h in zip(piece.observation.weights, cut, strict=True)
@@ -99,7 +99,7 @@ class Directions:
     def _even(self, X: Singles) -> Singles:
         return X if isinstance(self.level, float) else np.asarray(X / self.level.astype(np.float32))
 
-    def gone_round(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
+    def periodic(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """As :meth:`whitened`, through the periodic filter."""
         for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
             spectrum = fft.rfft(x, axis=1, workers=count())
@@ -115,7 +115,7 @@ class Directions:
         return X
 
     def scores(self, terms: Sequence[Term], right: Array) -> Iterator[tuple[slice, Singles, Array, Array]]:
-        """Places, series (terms, N), inner products with ``right`` (rows, k), and squared norms, gone round.
+        """Places, series (terms, N), inner products with ``right`` (rows, k), and squared norms, through the periodic filter.
 
         ``right`` must hold nothing that an unknown gradient spans.
         """

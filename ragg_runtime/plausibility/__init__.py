@@ -5,7 +5,7 @@ May import ``fit``, ``model`` and what is below.
 
 from ragg_runtime.model.settings import check_settings
 from ragg_runtime.plausibility.examine import examined
-from ragg_runtime.plausibility.identify import Likely, likely
+from ragg_runtime.plausibility.identify import LikelyMistake, likely_mistake
 from ragg_runtime.plausibility.spikes import spikes
 
-__all__ = ["Likely", "check_settings", "examined", "likely", "spikes"]
+__all__ = ["LikelyMistake", "check_settings", "examined", "likely_mistake", "spikes"]

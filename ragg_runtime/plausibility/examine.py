@@ -19,9 +19,9 @@ from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
-from ragg_runtime.plausibility.identify import Likely, derived_rates, likely
+from ragg_runtime.plausibility.identify import LikelyMistake, derived_rates, likely_mistake
 from ragg_runtime.plausibility.quick_fit import explain
-from ragg_runtime.plausibility.spikes import glitches, spikes, told
+from ragg_runtime.plausibility.spikes import glitches, note_of, spikes
 from ragg_runtime.plausibility.subsample import CHUNK, Picker, picker
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         notes.append(note)
         p = picker(flight, instrument, tuple(model.chain.INPUTS), places[0])
     notes += _saturated(p)
-    found = likely(model, instrument, p)
+    found = likely_mistake(model, instrument, p)
     if found is not None:
         if found.factor > SENSELESS and not found.timing:
             raise _refused(flight, found, notes)
@@ -68,7 +68,7 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
     return dataclasses.replace(flight, valid=valid, notes=(*flight.notes, *notes, *said))
 
 
-def _refused(flight: Flight, found: Likely, notes: list[str]) -> UserError:
+def _refused(flight: Flight, found: LikelyMistake, notes: list[str]) -> UserError:
     also = f" (or: {'; or: '.join(found.others)})" if found.others else ""
     odd = f"; {'; '.join(notes)}" if notes else ""
     return UserError(
@@ -86,7 +86,7 @@ def _left(share: float) -> str:
     return f"the model misses the output by {share:.2g} times its size"
 
 
-def _remark(found: Likely) -> str:
+def _remark(found: LikelyMistake) -> str:
     also = f" (or: {'; or: '.join(found.others)})" if found.others else ""
     gain = (
         f"undone, the model leaves {found.factor:.3g} times less of the output"
@@ -125,7 +125,7 @@ def _without_motion_spikes(flight: Flight) -> Flight:
             rates.append(name)
         channels[name] = x
         valid &= ~mask
-        notes.append(told(name, mask, flight.time, "not used"))
+        notes.append(note_of(name, mask, flight.time, "not used"))
     if not notes:
         return flight
     if rates and derived_rates(flight):
@@ -158,5 +158,5 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
         mask = spikes(e, p.usable)
         if mask.any():
             valid &= ~mask
-            notes.append(told(name, mask, p.flight.time, "not used"))
+            notes.append(note_of(name, mask, p.flight.time, "not used"))
     return valid, notes

@@ -36,7 +36,7 @@ BETTER = 5.0
 
 
 @dataclass(frozen=True)
-class Likely:
+class LikelyMistake:
     """A likely mistake.
 
     Attributes
@@ -74,7 +74,7 @@ class _Tried:
     calming: bool = True
 
 
-def likely(model: Model, instrument: Instrument, p: Picker) -> Likely | None:
+def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMistake | None:
     """The mistake that explains a record, or ``None`` if it looks as it should (or no mistake explains it)."""
     rows = p.pick(p.rows())
     before = explain(model, instrument, rows)
@@ -114,7 +114,7 @@ def _otherwise(made: other_demodulator.Made) -> _Tried:
     )
 
 
-def _chosen(before: Explained, tried: Sequence[_Tried]) -> Likely | None:
+def _chosen(before: Explained, tried: Sequence[_Tried]) -> LikelyMistake | None:
     convincing = [t for t in tried if _explains(before, t.left, calming=t.calming)]
     if not convincing:
         return None
@@ -126,7 +126,7 @@ def _chosen(before: Explained, tried: Sequence[_Tried]) -> Likely | None:
     )
     first = equal[0]
     others = tuple(t.what for t in equal[1:3])
-    return Likely(first.what, first.remedy, others, before, first.left, first.timing)
+    return LikelyMistake(first.what, first.remedy, others, before, first.left, first.timing)
 
 
 def _explains(before: Explained, after: Explained, factor: float = 1.0, *, calming: bool = True) -> bool:

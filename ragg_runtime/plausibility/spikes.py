@@ -165,7 +165,7 @@ def _parts(n: int, part: int) -> Iterator[tuple[slice, slice]]:
         yield slice(first, last), slice(start - first, min(n, start + part) - first)
 
 
-def told(name: str, mask: Mask, time: Array, done: str) -> str:
+def note_of(name: str, mask: Mask, time: Array, done: str) -> str:
     """A note: how many spikes, where, what was done with them."""
     places = np.flatnonzero(mask)
     instants = ", ".join(f"{time[k]:.10g}" for k in places[:3])

@@ -103,7 +103,7 @@ def lead(c: Comparison) -> list[str]:
     if blocks and float(str(blocks[0]["over_noise"])) > 1.15:
         b = blocks[0]
         digits = 0 if float(str(b["to_s"])) - float(str(b["from_s"])) > 10.0 else 1
-        where = f" of {numbers.clean(str(b['flight']))}" if len(f.flown) > 1 else ""
+        where = f" of {numbers.clean(str(b['flight']))}" if len(f.prepared) > 1 else ""
         said.append(
             f"The worst stretch is from {numbers.fixed(float(str(b['from_s'])), digits)} "
             f"to {numbers.fixed(float(str(b['to_s'])), digits)} s"
@@ -136,8 +136,8 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
             " with the noise’s one sigma dashed. Below: rms in each of 24 blocks of time.",
         )
     ]
-    if len(chosen) < len(f.flown):
-        drawn[0]["caption"] += f" The {len(chosen)} worst of {len(f.flown)} flights are drawn."
+    if len(chosen) < len(f.prepared):
+        drawn[0]["caption"] += f" The {len(chosen)} worst of {len(f.prepared)} flights are drawn."
     found.append({"title": "In time", "text": [], "figures": drawn})
     if spectra := panels.spectrum_panels(f, lines, chosen):
         svg = figures.spectra(spectra, "spectrum", "spectrum of the calibrated residual")

@@ -178,7 +178,7 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
                 "inline": numbers.number(r.after.inline_Eo_per_rtHz),
                 "cross": numbers.number(r.after.cross_Eo_per_rtHz),
                 "fitted": _fitted(d, r) if claimed(d, r) or r.effect in d.found else None,
-                "twins": list(r.indistinguishable_from),
+                "indistinguishable": list(r.indistinguishable_from),
             }
         )
     return rows
@@ -287,8 +287,8 @@ def _sections(d: Diagnosis) -> list[dict[str, Any]]:
         drawn.append(page.figure(svg, caption))
     svg = figures.in_blocks(panels.time_panels(f, lines, chosen), "blocks", "error in blocks of time")
     caption = "Error in 24 blocks of time before demodulation."
-    if len(chosen) < len(f.flown):
-        caption += f" The {len(chosen)} worst of {len(f.flown)} flights are drawn."
+    if len(chosen) < len(f.prepared):
+        caption += f" The {len(chosen)} worst of {len(f.prepared)} flights are drawn."
     drawn.append(page.figure(svg, caption))
     title = "The residual before and after" if changed else "The residual"
     return [{"title": title, "text": [], "figures": drawn}]

@@ -41,7 +41,7 @@ def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequ
     """Envelope of the last residual of ``lines``, blocks of time of all."""
     found = []
     for n in chosen:
-        w = f.flown[n]
+        w = f.prepared[n]
         r = w.observation.record
         rows, edges = [], r.time
         for line, residuals in lines:
@@ -58,7 +58,7 @@ def spectrum_panels(
     """Spectra of each residual, and the noise of ``f``; flights without a long enough stretch are left out."""
     found = []
     for n in chosen:
-        w = f.flown[n]
+        w = f.prepared[n]
         r = w.observation.record
         drawn = []
         for line, residuals in lines:
@@ -79,13 +79,13 @@ def channel_panels(
     """Inline and cross of each residual, of each flight that is long enough for the demodulator."""
     found = []
     for n in chosen:
-        w = f.flown[n]
+        w = f.prepared[n]
         r = w.observation.record
         made = [(line, comparison.demodulated_one(f, n, residuals[n])) for line, residuals in lines]
         time = made[0][1][0]
         if not len(time):
             continue
-        several = f" — {w.observation.name}" if len(f.flown) > 1 else ""
+        several = f" — {w.observation.name}" if len(f.prepared) > 1 else ""
         # four samples a cycle of the low-pass's edge draw the whole of it
         step = max(1, int(r.rate / (4.0 * DRAWN)))
         for k, (title, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
@@ -113,7 +113,7 @@ SHOWN_SAMPLES = 2000
 def measured_panel(f: Fitted, residual: Residuals) -> MeasuredPanel:
     """Of the worst flight; the stretch lies in the middle of its worst block of time."""
     (n,) = series.worst(f, residual, 1)
-    w = f.flown[n]
+    w = f.prepared[n]
     r = w.observation.record
     y = series.measured(w)
     edges, rms = series.blocks(w, residual[n], f.scales[n])
@@ -140,7 +140,7 @@ def measured_section(f: Fitted, residual: Residuals) -> dict[str, Any]:
     svg = figures.measured_over_model(drawn, "measured", "measured output over the model's")
     first, last = (numbers.number(float(t), 4) for t in (drawn.time[0], drawn.time[-1]))
     caption = f"Above: least to greatest value, the whole record. Below: {first} to {last} s, where the error is largest."
-    if len(f.flown) > 1:
+    if len(f.prepared) > 1:
         caption += " Of the flight with the largest error."
     return {"title": "Measured over model", "text": [], "figures": [page.figure(svg, caption)]}
 
@@ -150,7 +150,7 @@ def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
     noise = series.harmonic_noise(f) if rows else {}
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
-    seconds = sum(float(w.observation.record.time[-1]) for w in f.flown)
+    seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
     return [
         Bar(numbers.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows

@@ -12,7 +12,7 @@ from scipy import signal
 from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import noise_gain, output_weights
-from ragg_runtime.fit.prepared import Flown
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.lack_of_fit.dictionary import harmonics
 from ragg_runtime.signals.demodulate import low_pass
@@ -53,7 +53,7 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
     return Envelope(middle, *(np.where(empty, np.nan, v) for v in (low, high, rms)))
 
 
-def measured(w: Flown) -> Array:
+def measured(w: PreparedFlight) -> Array:
     """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
     o = w.observation
     pairs = zip(output_weights(o), o.series, strict=True)
@@ -96,12 +96,12 @@ def _binned(f: Array, psd: Array, points: int) -> Spectrum:
     return Spectrum(mean[:, 0], np.sqrt(mean[:, 1]))
 
 
-def noise_density(w: Flown, k_ggi: float, spin: float, f: Array) -> Array:
+def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Array:
     """Density of the estimated noise of what was observed as G_out, Eo/sqrt(Hz)."""
     return np.asarray(np.sqrt(_noise_psd(w, spin, f)) / k_ggi)
 
 
-def _noise_psd(w: Flown, spin: float, f: Array) -> Array:
+def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
     psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
     if w.observation.kind != "channels":
@@ -111,13 +111,13 @@ def _noise_psd(w: Flown, spin: float, f: Array) -> Array:
     return np.asarray(psd * np.abs(H) ** 2)
 
 
-def noise_rms(w: Flown, k_ggi: float) -> float:
+def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
     share = noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
     return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 
-def demodulated_noise(w: Flown, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
+def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
     """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise), as the demodulator makes it.
 
     A one-sided density S of the noise moves by the carrier to both sides, a quarter of amplitude^2 each.
@@ -136,7 +136,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     """Standard deviation of (inline, cross) that the noise alone would give, Eo; NaN if the low-pass is too long."""
     values = [
         [demodulated_noise(w, k, abs(w.observation.record.spin_frequency), 2, a) for a in (4.0, 2.0)]
-        for w, k in zip(f.flown, f.scales, strict=True)
+        for w, k in zip(f.prepared, f.scales, strict=True)
         if _long(w) and w.observation.record.turning
     ]
     if not values:
@@ -147,7 +147,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
 
 def harmonic_noise(f: Fitted) -> dict[str, float]:
     """The same at every harmonic of :func:`ragg_runtime.diagnosis.comparison.harmonic_errors`, Eo."""
-    works = [(w, s) for w, s in zip(f.flown, f.scales, strict=True) if _long(w)]
+    works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _long(w)]
     found = {}
     for h in harmonics():
         k = series_name.harmonic(h).multiple
@@ -159,12 +159,12 @@ def harmonic_noise(f: Fitted) -> dict[str, float]:
     return found
 
 
-def _long(w: Flown) -> bool:
+def _long(w: PreparedFlight) -> bool:
     r = w.observation.record
     return len(r.time) >= 2 * len(low_pass(r.rate))
 
 
-def blocks(w: Flown, residual: Array, k_ggi: float) -> tuple[Array, Array]:
+def blocks(w: PreparedFlight, residual: Array, k_ggi: float) -> tuple[Array, Array]:
     """Edges (BLOCKS + 1,) s and rms (BLOCKS,) Eo of a residual in the blocks of time (NaN: no valid sample)."""
     r = w.observation.record
     edges = r.time[np.minimum(w.edges, len(r.time) - 1)]
@@ -194,7 +194,7 @@ def runs(x: Array) -> list[slice]:
 def worst(f: Fitted, residuals: Sequence[Array], most: int) -> list[int]:
     """Positions of the ``most`` flights with the largest error over their noise, in the flights' own order."""
     ratio = []
-    for w, e in zip(f.flown, residuals, strict=True):
+    for w, e in zip(f.prepared, residuals, strict=True):
         v = w.observation.record.valid
         ratio.append(float(np.sqrt(np.mean(e[v] ** 2))) / noise_rms(w, 1.0))
     return sorted(sorted(range(len(ratio)), key=lambda n: -ratio[n])[:most])

@@ -105,13 +105,13 @@ def _nan(x: float | None) -> float:
 
 def _row(number: int, r: Mapping[str, Any]) -> dict[str, Any]:
     errors = [(r["error"][k] or {}).get("rms_Eo") for k in ("nominal", "calibrated", "holdout", "after")]
-    twins = [f"{e}: or {', '.join(o)}" for e, o in r["indistinguishable"].items() if o]
+    indistinguishable = [f"{e}: or {', '.join(o)}" for e, o in r["indistinguishable"].items() if o]
     return {
         "number": number,
         "name": r["flight"],
         "verdict": r["verdict"],
         "found": ", ".join(r["found"]),
-        "twins": "; ".join(twins),
+        "indistinguishable": "; ".join(indistinguishable),
         "first": "" if not r["ranking"] else r["ranking"][0]["effect"],
         "errors": [*errors, r["noise_floor"]["rms_Eo"]],
         "notes": r["notes"],

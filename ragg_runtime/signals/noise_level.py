@@ -1,6 +1,6 @@
 """How loud a noise is from sample to sample: it may change in time, with the motion, or with the disc's angle.
 
-White noise of a level that is taken for constant where it changes deceives every test: loud spells weigh too much, and a
+White noise of a level that is taken for constant where it changes deceives every test: loud intervals weigh too much, and a
 term that is large where the noise is loud looks significant. A noise whose level follows what is known is made white of
 unit variance by one factor a sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
 Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 CHANGES = false_alarms.LEVEL
 """p-value, over all that is asked, from which the level follows something."""
 
-SPELLS = 48
+INTERVALS = 48
 """Stretches of time whose levels are compared."""
 
 GROUPS = 8
@@ -127,8 +127,8 @@ def _test(u: Array, name: str, x: Array) -> tuple[float, Part | None]:
 
 def _edges(name: str, x: Array) -> Array:
     if name == "time":
-        spells = min(SPELLS, len(x) // (2 * FEWEST))
-        return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, spells + 1)[1:-1]), dtype=np.float64)
+        intervals = min(INTERVALS, len(x) // (2 * FEWEST))
+        return np.asarray(np.quantile(x, np.linspace(0.0, 1.0, intervals + 1)[1:-1]), dtype=np.float64)
     if name == "gap":
         fewest = np.array([min(np.sum(x <= edge), np.sum(x > edge)) for edge in NEAR])
         return np.array(NEAR)[fewest >= 2 * FEWEST]

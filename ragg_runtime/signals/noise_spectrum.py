@@ -218,12 +218,12 @@ def _periodogram(
     n, power, free, log_f = (
         np.asarray(np.bincount(which, x), dtype=np.float64) for x in (np.ones(len(f)), p, left, np.log(f))
     )
-    told = np.flatnonzero((n > 0) & (free >= LEFT * np.maximum(n, 1)))
-    if len(told) < KNOTS:  # so many columns that nothing is left of most: all the same
-        told = np.flatnonzero(n > 0)
+    informed = np.flatnonzero((n > 0) & (free >= LEFT * np.maximum(n, 1)))
+    if len(informed) < KNOTS:  # so many columns that nothing is left of most: all the same
+        informed = np.flatnonzero(n > 0)
         free = n * max(LEFT, float(np.mean(left)))
     # neighbouring bins of a Hann periodogram are correlated
-    return np.exp(log_f[told] / n[told]), power[told] / free[told], free[told] / 1.5
+    return np.exp(log_f[informed] / n[informed]), power[informed] / free[informed], free[informed] / 1.5
 
 
 LINE = 25.0

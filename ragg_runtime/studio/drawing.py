@@ -76,9 +76,9 @@ def _rows(r: Record, a: Asked) -> slice:
 
 def _record(s: State, a: Asked) -> Record:
     f = s.tracks.fitted
-    if not 0 <= a.flight < len(f.flown):
+    if not 0 <= a.flight < len(f.prepared):
         raise UserError("there is no such flight", found=a.flight + 1)
-    return f.flown[a.flight].observation.record
+    return f.prepared[a.flight].observation.record
 
 
 def spectra(s: State, a: Asked) -> dict[str, Any]:
@@ -99,7 +99,7 @@ def spectra(s: State, a: Asked) -> dict[str, Any]:
     if not lines:
         raise UserError("no stretch without gaps is long enough for a spectrum")
     grid = next(iter(lines.values())).frequency
-    noise = reported.noise_density(f.flown[a.flight], f.k_ggi, f.instrument.spin_frequency, grid)
+    noise = reported.noise_density(f.prepared[a.flight], f.k_ggi, f.instrument.spin_frequency, grid)
     return {
         "frequency": grid.tolist(),
         "lines": {n: x.density.tolist() for n, x in lines.items()},

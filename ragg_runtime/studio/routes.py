@@ -130,7 +130,7 @@ async def _state(session: Session, request: Request) -> Response:
 
 
 async def _events(session: Session, request: Request) -> Response:
-    async def told() -> AsyncIterator[str]:
+    async def events() -> AsyncIterator[str]:
         last, waited = -1, 0.0
         while not await request.is_disconnected():
             status = session.jobs.status
@@ -144,7 +144,7 @@ async def _events(session: Session, request: Request) -> Response:
                 await _watched(session)
                 yield ": still here\n\n"
 
-    return StreamingResponse(told(), media_type="text/event-stream")
+    return StreamingResponse(events(), media_type="text/event-stream")
 
 
 async def _watched(session: Session) -> None:
@@ -205,12 +205,12 @@ async def _preview(session: Session, request: Request) -> Response:
 
     def made() -> Any:
         s = session.state
-        if s.diagnosed is None or s.plain is None or s.field is None:
+        if s.diagnosed is None or s.unwhitened is None or s.field is None:
             raise UserError("the effects are not tested yet", remedy="wait a moment")
         known = s.field
         chosen = [e for e in asked.effects if e in known.candidates]
-        found = foresee.foreseen(s.diagnosed.fitted, s.plain, known, chosen)
-        without = foresee.foreseen(s.diagnosed.fitted, s.plain, known, [])
+        found = foresee.foreseen(s.diagnosed.fitted, s.unwhitened, known, chosen)
+        without = foresee.foreseen(s.diagnosed.fitted, s.unwhitened, known, [])
         return found.as_json() | {"before_Eo": without.rms_Eo, "noise_Eo": s.diagnosed.noise_floor}
 
     return _json(await run_in_threadpool(made))

@@ -15,7 +15,7 @@ from ragg_runtime.base.progress import PASSES
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
-from ragg_runtime.evidence.foresee import Plain
+from ragg_runtime.evidence.foresee import Unwhitened
 from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
@@ -54,7 +54,7 @@ class State:
         The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
     glances
         A first look at each file, and its output as it is drawn until the flight is compared.
-    compared, diagnosed, plain
+    compared, diagnosed, unwhitened
         Results for exactly these.
     previous
         The comparison before the last step, for before and after.
@@ -74,7 +74,7 @@ class State:
     glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
-    plain: Plain | None = None
+    unwhitened: Unwhitened | None = None
     previous: Comparison | None = None
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
@@ -111,7 +111,7 @@ class Session:
         self._lock = threading.Lock()
         self._state = State()
         self.shown: tuple[State, dict[str, Any]] | None = None
-        self._results: OrderedDict[object, tuple[Comparison, Diagnosis, Plain]] = OrderedDict()
+        self._results: OrderedDict[object, tuple[Comparison, Diagnosis, Unwhitened]] = OrderedDict()
 
     @property
     def state(self) -> State:
@@ -182,7 +182,7 @@ class Session:
         part("testing every effect", PASSES["diagnose"] * s.samples)
         d = loop.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
-        plain = foresee.plain(d.fitted)
+        plain = foresee.unwhitened(d.fitted)
         self._put(diagnosed=d, plain=plain, tracks=s.tracks.diagnosed(d))
         if s.compared is not None and s.samples <= SMALL:
             self._results[key] = s.compared, d, plain
@@ -323,7 +323,7 @@ def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
 
 def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
-    names = ("compared", "diagnosed", "plain", "previous", "beside", "trial", "compensated", "quality")
+    names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated", "quality")
     return dict.fromkeys(names) | {"tracks": Tracks()}
 
 

@@ -104,11 +104,11 @@ class Tracks:
     def volts(self, name: str, flight: int) -> Array:
         """(N,) V of ``measured``, ``modelled``, ``residual`` or ``before``; zero where a sample is not valid."""
         f = self.fitted
-        if not 0 <= flight < len(f.flown):
+        if not 0 <= flight < len(f.prepared):
             raise UserError("there is no such flight", found=flight + 1)
         if name == "before":
             old = self.before
-            same = old is not None and len(old.fitted.flown) == len(f.flown)
+            same = old is not None and len(old.fitted.prepared) == len(f.prepared)
             if old is None or not same:
                 raise UserError("there is no step before this one")
             return self._of("before", lambda: old.residual)[flight]
@@ -117,7 +117,7 @@ class Tracks:
         if name == "residual":
             return self._of("residual", lambda: now.residual)[flight]
         if name == "measured":
-            return measured(f.flown[flight])
+            return measured(f.prepared[flight])
         if name == "modelled":
             return self.volts("measured", flight) - self.volts("residual", flight)
         raise UserError("there is no such series", found=repr(name[:40]))
@@ -132,9 +132,9 @@ class Tracks:
         d = self.found
         if d is None:
             raise UserError("the effects are not tested yet", remedy="wait a moment")
-        if not 0 <= flight < len(d.fitted.flown):
+        if not 0 <= flight < len(d.fitted.prepared):
             raise UserError("there is no such flight", found=flight + 1)
-        r = d.fitted.flown[flight].observation.record
+        r = d.fitted.prepared[flight].observation.record
         n, rows = len(r.time), slice(0, len(r.time))
         if n > ROWS:
             first, last = window or (0.0, float("inf"))
@@ -161,9 +161,9 @@ class Tracks:
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
             raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
-        flown = self.fitted.flown[flight]
+        prepared = self.fitted.prepared[flight]
         return self.cache.get(  # type: ignore[return-value]
-            ("term", harmonic, product, flight), lambda: heat.series(flown, harmonic, product, c)
+            ("term", harmonic, product, flight), lambda: heat.series(prepared, harmonic, product, c)
         )
 
     def heat(self, effects: tuple[str, ...], flight: int) -> heat.Heat:
@@ -172,11 +172,11 @@ class Tracks:
         f = self.fitted if d is None else d.fitted
         known = field_of(f, [r.effect for r in d.ranking] if d else [])
         given = foresee.columns_of(known, effects)
-        if not 0 <= flight < len(f.flown):
+        if not 0 <= flight < len(f.prepared):
             raise UserError("there is no such flight", found=flight + 1)
 
         def make() -> heat.Heat:
-            return heat.heat(f.flown[flight], f.triangles[flight], f.n_base, given)
+            return heat.heat(f.prepared[flight], f.triangles[flight], f.n_base, given)
 
         return self.cache.get(("heat", effects, flight, d is None), make)  # type: ignore[return-value]
 
@@ -193,7 +193,7 @@ class Tracks:
         ``effect`` is what ``effects`` would take out of the residual, ``left`` what they would leave.
         """
         f = self.fitted
-        r = f.flown[flight if 0 <= flight < len(f.flown) else 0].observation.record
+        r = f.prepared[flight if 0 <= flight < len(f.prepared) else 0].observation.record
         if name in ("effect", "left"):
             e = self.effect(effects, flight, window)
             if len(e.volts) < len(r.time):
@@ -220,7 +220,7 @@ class Tracks:
         """The part of a long flight for which an effect's signature is known."""
         if unit in ("inline", "cross"):
             raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
-        r = self.fitted.flown[flight].observation.record
+        r = self.fitted.prepared[flight].observation.record
         x = e.volts if name == "effect" else self.volts("residual", flight)[e.rows] - e.volts
         y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / self.fitted.k_ggi), np.nan)
         return pyramid(float(r.time[e.rows.start]), 1.0 / r.rate, len(y), lambda s: y[s])
@@ -238,7 +238,7 @@ class Tracks:
 
     def channel(self, name: str, flight: int) -> Pyramid:
         """A recorded channel in its own unit."""
-        r = self.fitted.flown[flight].observation.record
+        r = self.fitted.prepared[flight].observation.record
         if name not in r.wide:
             raise UserError("the flight has no such channel", found=repr(name[:40]))
         y = np.where(r.valid, r.wide[name], np.nan)

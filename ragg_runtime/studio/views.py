@@ -183,7 +183,7 @@ def effects(d: Diagnosis) -> list[Json]:
                 "values": []
                 if values is None
                 else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
-                "twins": row["twins"],
+                "indistinguishable": row["indistinguishable"],
             }
         )
     return found

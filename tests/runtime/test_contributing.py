@@ -245,8 +245,8 @@ def test_a_panel_is_one_file(put: Put) -> None:
     text = compare_html(c, title="t", command="c", sources=())
     assert "Largest residual" in text
     (residual,) = c.residual
-    k = int(np.argmax(np.where(c.fitted.flown[0].observation.record.valid, np.abs(residual), 0.0)))
-    assert f"at {c.fitted.flown[0].observation.record.time[k]:.6g} s." in text
+    k = int(np.argmax(np.where(c.fitted.prepared[0].observation.record.valid, np.abs(residual), 0.0)))
+    assert f"at {c.fitted.prepared[0].observation.record.time[k]:.6g} s." in text
     assert text.index("Demodulated channels") < text.index(
         "Largest residual"
     )  # in the order of the files' names

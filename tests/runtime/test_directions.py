@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ragg_runtime.fit import fitted, observation, prepared
+from ragg_runtime.fit import fitted, observation, prepared_flight
 from ragg_runtime.lack_of_fit.omnibus import Scores
 from ragg_runtime.lack_of_fit.whitened_terms import Directions
 from ragg_runtime.model import model
@@ -27,7 +27,7 @@ def scores_of(gradient_known: bool, samples: int) -> Scores:
         flight, time=flight.time[:samples], channels=channels, outputs=outputs, valid=flight.valid[:samples]
     )
     f = fitted.fit(model.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
-    return Scores(f.flown[0], prepared.projector(f.triangles[0], f.n_base, ()))
+    return Scores(f.prepared[0], prepared_flight.projector(f.triangles[0], f.n_base, ()))
 
 
 @pytest.mark.parametrize("samples", [5000, 5001])
@@ -35,12 +35,12 @@ def scores_of(gradient_known: bool, samples: int) -> Scores:
 def test_the_scores_of_terms_gone_round_are_those_of_their_series(gradient_known: bool, samples: int) -> None:
     """Inner products and norms (transposed filter, Parseval) against the whitened series themselves."""
     s = scores_of(gradient_known, samples)
-    (piece,) = s.flown.each(lambda p: p)
-    d = Directions(s.flown, s.dictionary, piece)
+    (piece,) = s.prepared.each(lambda p: p)
+    d = Directions(s.prepared, s.dictionary, piece)
     Q = s.projector.basis(piece)
     right = np.column_stack([s.projector.left(piece, Q), Q])
     terms = s.dictionary.terms[s.dictionary.slow :][::7]
-    series = np.concatenate([X for _, _, X in d.gone_round(terms)]).astype(np.float64)
+    series = np.concatenate([X for _, _, X in d.periodic(terms)]).astype(np.float64)
     found = [(inner, norm2) for _, _, inner, norm2 in d.scores(terms, right)]
     inner = np.concatenate([i for i, _ in found])
     norm2 = np.concatenate([n for _, n in found])
@@ -53,11 +53,11 @@ def test_going_round_loses_next_to_nothing() -> None:
     """A term's score is that of the series through the filter itself, to a small part of a standard deviation
     for each that it has."""
     s = scores_of(True, 5000)
-    (piece,) = s.flown.each(lambda p: p)
-    d = Directions(s.flown, s.dictionary, piece)
+    (piece,) = s.prepared.each(lambda p: p)
+    d = Directions(s.prepared, s.dictionary, piece)
     terms = s.dictionary.terms[s.dictionary.slow :]
     straight = np.concatenate([X for _, _, X in d.whitened(terms)])
-    around = np.concatenate([X for _, _, X in d.gone_round(terms)])
+    around = np.concatenate([X for _, _, X in d.periodic(terms)])
     cosine = np.einsum("ij,ij->i", straight, around) / np.sqrt(
         np.einsum("ij,ij->i", straight, straight) * np.einsum("ij,ij->i", around, around)
     )
@@ -67,10 +67,12 @@ def test_going_round_loses_next_to_nothing() -> None:
 
 def test_terms_do_not_go_round_past_gaps() -> None:
     s = scores_of(True, 5000)
-    (piece,) = s.flown.each(lambda p: p)
+    (piece,) = s.prepared.each(lambda p: p)
     r = piece.observation.record
     valid = r.valid.copy()
     valid[100] = False
     gap = dataclasses.replace(piece.observation, record=dataclasses.replace(r, valid=valid))
-    assert Directions(s.flown, s.dictionary, piece).round
-    assert not Directions(s.flown, s.dictionary, dataclasses.replace(piece, observation=gap)).round
+    assert Directions(s.prepared, s.dictionary, piece).may_be_periodic
+    assert not Directions(
+        s.prepared, s.dictionary, dataclasses.replace(piece, observation=gap)
+    ).may_be_periodic

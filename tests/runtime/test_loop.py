@@ -95,7 +95,7 @@ def test_a_step_that_is_not_the_answer_is_scored_at_its_instant() -> None:
     d = diagnosed(s, flight)
     (step,) = (r for r in d.ranking if r.effect == "gain-step")
     assert step.after.rms_Eo < step.before.rms_Eo
-    (x,) = d.fitted.flown
+    (x,) = d.fitted.prepared
     assert x.at.instants["gain-step"] > 0.0
     (kept,), (anew,) = (list(f.each(lambda piece: piece)) for f in (x, x.released()))
     np.testing.assert_array_equal(kept.columns, anew.columns)

@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.plausibility import examined, identify, likely, mistakes, other_demodulator
+from ragg_runtime.plausibility import examined, identify, likely_mistake, mistakes, other_demodulator
 from ragg_runtime.plausibility.quick_fit import explain, shrunken
 from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -123,10 +123,10 @@ def test_channels_that_are_defined_otherwise_are_named(monkeypatch: pytest.Monke
     monkeypatch.setattr(identify, "searches", lambda *_: [])
     s, x = flown(13, gradient_rms=20e-9)
     good = demodulated(s, x)
-    assert likely(MODEL, s.sheet, picker(good, s.sheet)) is None
+    assert likely_mistake(MODEL, s.sheet, picker(good, s.sheet)) is None
     for (inline, cross), words in DEFINITIONS.items():
         o = {"inline": inline * good.outputs["inline"], "cross": cross * good.outputs["cross"]}
-        found = likely(MODEL, s.sheet, picker(dataclasses.replace(good, outputs=o), s.sheet))
+        found = likely_mistake(MODEL, s.sheet, picker(dataclasses.replace(good, outputs=o), s.sheet))
         assert found is not None
         assert (found.what, found.others) == (words, ())
         assert found.factor > 100.0
@@ -140,7 +140,7 @@ def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pyt
     s, x = flown(14)
     sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
     wrong = demodulated(s, x, lambda z: signal.sosfilt(sections, z))
-    found = likely(MODEL, s.sheet, picker(wrong, s.sheet))
+    found = likely_mistake(MODEL, s.sheet, picker(wrong, s.sheet))
     assert found is not None
     assert found.what.endswith("such as a causal Butterworth low-pass of order 3 at 0.15 Hz")
     assert found.factor > 1000.0
@@ -167,7 +167,7 @@ def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:
 def test_the_spin_rate_is_measured(error: float) -> None:
     s, x = flown(10)
     sheet = dataclasses.replace(s.sheet, spin_frequency=0.25 * (1 + error))
-    found = likely(MODEL, sheet, picker(x, sheet))
+    found = likely_mistake(MODEL, sheet, picker(x, sheet))
     assert found is not None
     rate = float(found.what.split()[4])
     assert rate == pytest.approx(0.25, rel=1e-6)
@@ -178,7 +178,7 @@ def test_the_shift_of_the_motion_is_measured(samples: int) -> None:
     s, x = flown(11)
     moved = {n: np.roll(v, samples) if n[:2] in ("a_", "om") else v for n, v in x.channels.items()}
     wrong = dataclasses.replace(x, channels=moved)
-    found = likely(MODEL, s.sheet, picker(wrong, s.sheet))
+    found = likely_mistake(MODEL, s.sheet, picker(wrong, s.sheet))
     assert found is not None
     assert found.timing
     assert f"({abs(samples)} sample" in found.what

@@ -8,7 +8,7 @@ import pytest
 
 from ragg_runtime.base import progress
 from ragg_runtime.diagnosis import comparison, diagnose
-from ragg_runtime.fit import observation, passes, prepared
+from ragg_runtime.fit import observation, passes, prepared_flight
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 
@@ -16,7 +16,7 @@ from ragg_runtime.reference.scenario import scenario
 def test_a_command_does_about_as_many_passes_as_foretold(monkeypatch: pytest.MonkeyPatch) -> None:
     s = scenario(61, duration=300.0)
     flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
-    for module in (passes, prepared, observation):
+    for module in (passes, prepared_flight, observation):
         monkeypatch.setattr(module, "ROWS", 1700)
     told: list[float] = []
     for name, run in (("compare", comparison.compare), ("diagnose", diagnose.diagnose)):

@@ -423,7 +423,7 @@ def test_budget_of_the_bias_is_its_analytical_value(clean: Case) -> None:
 def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> None:
     """Against the demodulator itself, on noise drawn with the estimated density."""
     f = clean.comparison.fitted
-    w = f.flown[0]
+    w = f.prepared[0]
     rng = np.random.default_rng(5)
     n = 1 << 17
     frequency = np.fft.rfftfreq(n, 1 / RATE)
@@ -492,7 +492,7 @@ def test_no_line_is_drawn_over_a_gap() -> None:
 
 def test_blocks_are_those_of_the_comparison(cubic: Case) -> None:
     c = cubic.comparison
-    _, rms = series.blocks(c.fitted.flown[0], c.residual[0], c.fitted.k_ggi)
+    _, rms = series.blocks(c.fitted.prepared[0], c.residual[0], c.fitted.k_ggi)
     assert np.nanmax(rms) == pytest.approx(float(str(c.by_time()[0]["rms_Eo"])))
 
 

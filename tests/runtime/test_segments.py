@@ -12,7 +12,7 @@ from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of
-from ragg_runtime.fit import calibrate, fitted, observation, passes, prepared, score
+from ragg_runtime.fit import calibrate, fitted, observation, passes, prepared_flight, score
 from ragg_runtime.fit.segments import BLOCKS, segments
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
 from ragg_runtime.lack_of_fit import remainder
@@ -52,7 +52,7 @@ def test_the_division_leaves_no_trace(
     o = observation.observe(flight, s.sheet)
     noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
     whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
-    for module in (passes, prepared):
+    for module in (passes, prepared_flight):
         monkeypatch.setattr(module, "ROWS", 1700)
     monkeypatch.setattr(calibrate, "WHITE_SEGMENTS", 1000)
     assert len(passes.flight_segments(o)) > 5
@@ -108,7 +108,7 @@ def test_the_diagnosis_of_a_flight_on_disk_is_the_same_to_the_last_digit(
     s, flight = flown
     path = tmp_path / "flight.parquet"
     write_flight(flight, path)
-    for module in (passes, prepared, observation):
+    for module in (passes, prepared_flight, observation):
         monkeypatch.setattr(module, "ROWS", 4000)
     said = []
     for most in (1 << 30, 100_000):

@@ -17,7 +17,7 @@ from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import Choice, field_of
-from ragg_runtime.fit import fitted, observation, prepared
+from ragg_runtime.fit import fitted, observation, prepared_flight
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.lack_of_fit import as_effect, features, omnibus, remainder
@@ -134,9 +134,9 @@ def scored() -> tuple[Scores, Array, Array]:
     """An effect-free flight: its scores, its whitened terms (float32) and the basis of what is projected out."""
     s = scenario(71, duration=300.0)
     f = fitted.fit(load.packaged(), s.sheet, [observation.observe(s.simulate({}).flight(), s.sheet)])
-    projector = prepared.projector(f.triangles[0], f.n_base, ())
-    scores = Scores(f.flown[0], projector)
-    (piece,) = f.flown[0].each(lambda p: p)
+    projector = prepared_flight.projector(f.triangles[0], f.n_base, ())
+    scores = Scores(f.prepared[0], projector)
+    (piece,) = f.prepared[0].each(lambda p: p)
     Q = projector.basis(piece)
     scores.sums.join(scores.of(piece, projector.left(piece, Q), Q))
     X = scores.whitened(piece, range(len(scores.dictionary.terms)))

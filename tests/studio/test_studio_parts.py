@@ -43,7 +43,7 @@ def test_what_is_foreseen_is_what_a_pass_over_the_flight_finds(
 ) -> None:
     f = diagnosis.fitted
     field = field_of(f, [r.effect for r in diagnosis.ranking])
-    found = foresee.foreseen(f, foresee.plain(f), field, effects)
+    found = foresee.foreseen(f, foresee.unwhitened(f), field, effects)
     vectors = [foresee.coefficients(f, field, effects, held_out=h) for h in (False, True)]
     whole, half = f.score(vectors)
     assert found.rms_Eo == pytest.approx(whole.whole.rms_Eo, rel=1e-9)
@@ -63,13 +63,13 @@ def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> Non
     from ragg_runtime.lack_of_fit import remainder
 
     f = diagnosis.fitted
-    h = heat.heat(f.flown[0], f.triangles[0], f.n_base)
+    h = heat.heat(f.prepared[0], f.triangles[0], f.n_base)
     best = remainder.remainder(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
     found = list(diagnosis.found)
-    given = heat.heat(f.flown[0], f.triangles[0], f.n_base, foresee.columns_of(field_of(f, found), found))
+    given = heat.heat(f.prepared[0], f.triangles[0], f.n_base, foresee.columns_of(field_of(f, found), found))
     assert np.nanmax(np.abs(given.z)) < h.level
 
 

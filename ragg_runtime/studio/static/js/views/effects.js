@@ -68,7 +68,7 @@ export function effectsPane(box) {
     e.values.length ? h("table.values", {}, h("tbody", {}, e.values.map((v) => h("tr", {}, h("th", { scope: "row" }, v.name, v.of ? h("small", {}, ` ${v.of}`) : ""), h("td", {}, v.text))))) : null,
     h("dl.facts", {},
       h("dt", {}, "alone"), h("dd", {}, `${number(e.after_Eo)} Eo, held out ${number(e.holdout_Eo)} Eo; p ${e.p}; ΔBIC ${e.delta_bic}`),
-      e.twins.length ? [h("dt", {}, "not told from"), h("dd", {}, e.twins.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
+      e.indistinguishable.length ? [h("dt", {}, "not told from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
       e.channels && e.channels.length ? [h("dt", {}, "needs"), h("dd", {}, e.channels.join(", "))] : null,
       e.limits ? [h("dt", {}, "limits"), h("dd", {}, e.limits)] : null,
       e.source ? [h("dt", {}, "source"), h("dd", {}, e.source)] : null),

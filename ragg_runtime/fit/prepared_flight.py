@@ -26,7 +26,7 @@ R = TypeVar("R")
 
 
 @dataclass(frozen=True)
-class Flown:
+class PreparedFlight:
     """One flight about the calibrated parameters.
 
     A short flight keeps its columns in memory; those of a longer one are computed anew in every pass.
@@ -55,13 +55,15 @@ class Flown:
         self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
         return map(work, self._kept)
 
-    def for_residuals(self, v: Array, n_base: int) -> tuple[Flown, Array]:
+    def for_residuals(self, v: Array, n_base: int) -> tuple[PreparedFlight, Array]:
         """What yields residuals for coefficients v (k, size) at least cost: without candidates if none is used."""
         if self._kept or np.any(v[:, n_base:]):
             return self, v
         return replace(self, at=replace(self.at, with_candidates=False)), v[:, :n_base]
 
-    def with_steps(self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]) -> Flown:
+    def with_steps(
+        self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
+    ) -> PreparedFlight:
         """The same with steps (effect -> instant, s; effect -> places of its columns), kept columns included."""
         moved = [k for e in instants for k in places[e]]
         kept = []
@@ -76,12 +78,12 @@ class Flown:
             kept.append(replace(piece, columns=columns, white=white))
         return replace(self, at=replace(self.at, instants=instants), _kept=kept)
 
-    def released(self) -> Flown:
+    def released(self) -> PreparedFlight:
         """The same without the columns."""
         return replace(self, _kept=[])
 
 
-def blocks(flown: Flown) -> tuple[tuple[Array, ...], Array]:
+def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     """Of the columns [base | candidates | residual]: triangles (n + 1, n + 1) of the whitened ones, one a block of
     time, and (BLOCKS, n + 1), V: sums of the plain ones of G_out.
     """
@@ -98,7 +100,7 @@ def blocks(flown: Flown) -> tuple[tuple[Array, ...], Array]:
 
     triangles: list[Array | None] = [None] * BLOCKS
     totals: list[Array | float] = [0.0] * BLOCKS
-    for parts in flown.each(own):
+    for parts in prepared.each(own):
         for b, T, sums in parts:
             size = len(T)
             before = triangles[b]
@@ -113,10 +115,10 @@ def blocks(flown: Flown) -> tuple[tuple[Array, ...], Array]:
 
 def prepare(
     model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
-) -> tuple[Flown, ...]:
+) -> tuple[PreparedFlight, ...]:
     """Every flight about the calibrated parameters."""
     at = Point(model, instrument, c.p, with_candidates=True)
-    return tuple(Flown(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
+    return tuple(PreparedFlight(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
 
 
 def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
