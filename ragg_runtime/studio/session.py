@@ -170,9 +170,9 @@ class Session:
         key = (s.loaded.directory.text, tuple(x.digest for x in s.flights), s.cuts)
         known = self._results.get(key)
         if known is not None:
-            compared, d, plain = known
+            compared, d, unwhitened = known
             tracks = Tracks.of(compared, s.previous).diagnosed(d)
-            self._put(compared=compared, diagnosed=d, plain=plain, tracks=tracks)
+            self._put(compared=compared, diagnosed=d, unwhitened=unwhitened, tracks=tracks)
             return
         if s.compared is None:
             part("calibrating and comparing", PASSES["compare"] * s.samples)
@@ -182,10 +182,10 @@ class Session:
         part("testing every effect", PASSES["diagnose"] * s.samples)
         d = loop.diagnose(s.model, s.flights, compared=s.compared)
         part("preparing the preview", s.samples)
-        plain = foresee.unwhitened(d.fitted)
-        self._put(diagnosed=d, plain=plain, tracks=s.tracks.diagnosed(d))
+        unwhitened = foresee.unwhitened(d.fitted)
+        self._put(diagnosed=d, unwhitened=unwhitened, tracks=s.tracks.diagnosed(d))
         if s.compared is not None and s.samples <= SMALL:
-            self._results[key] = s.compared, d, plain
+            self._results[key] = s.compared, d, unwhitened
             while len(self._results) > KEPT:
                 self._results.popitem(last=False)
 

@@ -43,7 +43,7 @@ def test_segments_and_their_blocks_cover_a_flight_once(samples: int) -> None:
 def test_the_division_leaves_no_trace(
     flown: tuple[Scenario, Flight], gap: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The same noise, calibration and evidence, from one segment and from many, to 1e-8."""
+    """The same noise, calibration and evidence, from one segment and from many, to rounding."""
     s, flight = flown
     if gap:
         valid = np.ones(len(flight.time), dtype=bool)
@@ -63,7 +63,8 @@ def test_the_division_leaves_no_trace(
     effects = selection.testable_effects(whole)
     expected, found = (field_of(f, effects).tests() for f in (whole, parts))
     for e in effects:
-        assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-6, abs=1e-6)
+        # of an effect that the calibration absorbs nearly whole rounding leaves seven digits at one place, six between two
+        assert found[e].chi2 == pytest.approx(expected[e].chi2, rel=1e-5, abs=1e-6)
     zero = np.zeros(whole.size)
     for a, b in zip(whole.score([zero]), parts.score([zero]), strict=True):
         for name in ("rms_V", "rms_Eo", "inline_Eo", "cross_Eo"):

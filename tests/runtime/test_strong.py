@@ -78,7 +78,7 @@ def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str
     assert c.calibrated.rms_Eo < c.nominal.rms_Eo
     # however the fit is weighted, and wherever it begins, there is no lower point
     task = calibrate._Task.of(c.fitted.model, c.fitted.instrument, c.fitted.observations)
-    plain = calibrate._Plain(task)
+    plain = calibrate._Unweighted(task)
     rng = np.random.default_rng(1)
     for start in (np.zeros(len(task.index)), rng.standard_normal(len(task.index))):
         for share in (0.3, 0.1):

@@ -154,6 +154,7 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
         r["unit"] = "m/s^2"
     found = mapping.tried(m, path, given)
     mapping.keep(m, path, given, replace=False)
+    m = loop.load(tmp_path / "model")
     (flight,) = loop.read_flights(m, [path])
     assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
