@@ -35,10 +35,11 @@ TELLING_PHASE = 3e-5
 0.1 Eo. Further digits of a rate are noise of the search."""
 
 
-def _in_digits(f: float, duration: float) -> str:
-    """A spin rate, Hz, with the fewest digits that this record does not tell from it."""
-    texts = (f"{f:.{n}g}" for n in range(3, 17))
-    return next(x for x in texts if abs(float(x) - f) * 2 * np.pi * duration <= TELLING_PHASE)
+def _in_digits(f: float, f0: float, duration: float) -> str:
+    """A spin rate, Hz, with the fewest digits that this record does not tell from it, and that tell it from the model's ``f0``."""
+    near = min(TELLING_PHASE / (2 * np.pi * duration), abs(f - f0) / 10)
+    texts = (f"{f:.{n}g}" for n in range(3, 18))  # seventeen are the number itself
+    return next(x for x in texts if abs(float(x) - f) <= near)
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,7 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     )
     turned = explain(model, instrument, p.pick(p.rows(), spin_frequency=best))
     backwards = explain(model, instrument, p.pick(p.rows(), backwards=True))
-    percent, shown = 100 * (best / f0 - 1), _in_digits(best, x.duration)
+    percent, shown = 100 * (best / f0 - 1), _in_digits(best, f0, x.duration)
     return [
         Found(
             f"the spin rate is {shown} Hz, not the model's {f0:.9g} Hz ({percent:+.2g} %)"

@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.plausibility import examined, identify, likely_mistake, mistakes, other_demodulator
+from ragg_runtime.plausibility import examined, identify, likely_mistake, mistakes, other_demodulator, timing
 from ragg_runtime.plausibility.quick_fit import explain, shrunken
 from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -171,6 +171,15 @@ def test_the_spin_rate_is_measured(error: float) -> None:
     assert found is not None
     rate = float(found.what.split()[4])
     assert rate == pytest.approx(0.25, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("measured", "shown"), [(0.2500000158, "0.250000016"), (0.250012503, "0.2500125"), (0.25, "0.25")]
+)
+def test_a_spin_rate_that_differs_is_never_told_as_the_models_own(measured: float, shown: str) -> None:
+    text = timing._in_digits(measured, 0.25, 300.0)
+    assert text == shown
+    assert (float(text) == 0.25) == (measured == 0.25)
 
 
 @pytest.mark.parametrize("samples", [1, -3, 40, -200])
