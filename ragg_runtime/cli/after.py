@@ -15,10 +15,12 @@ from ragg_runtime.cli.outputs import Command
 from ragg_runtime.cli.shared import (
     DIRECTORY,
     Finite,
+    about,
     command_line,
     emit,
     json_option,
     load,
+    series_option,
     under_way,
     write_report,
 )
@@ -58,14 +60,7 @@ def calibrate(
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option(
-    "-o",
-    "--output",
-    type=DIRECTORY,
-    required=True,
-    metavar="OUT",
-    help="File to write (.csv, .parquet, .nc).",
-)
+@series_option
 @click.option(
     "--calibration",
     type=click.Choice(["frozen", "self", "crossed"]),
@@ -85,7 +80,7 @@ def calibrate(
 def compensate(
     model_dir: Path,
     flights: Sequence[Path],
-    output: Path,
+    output: str,
     calibration: Kind,
     demodulator: str,
     mapping: Path | None,
@@ -93,33 +88,26 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
-    _writable(output, flights)
+    out = Path(output)
+    format_for(out)
     m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     under_way(f"reading {len(flights)} flight(s)")
     read = after.read_for_compensation(m, flights, mapping)
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
-        c = after.compensate(m, read, calibration, demodulator, output)
+        c = after.compensate(m, read, calibration, demodulator, out)
     origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
-    emit(
-        c.as_json() | {"output": str(output)} | origin, json_file, terminal_after.compensated(c, output, read)
-    )
+    emit(c.as_json() | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
 
 
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option(
-    "-o",
-    "--output",
-    type=DIRECTORY,
-    required=True,
-    metavar="OUT",
-    help="File to write (.csv, .parquet, .nc).",
-)
+@series_option
 @click.option(
     "--noise",
     type=Finite(0.0, min_open=True),
@@ -140,7 +128,7 @@ def compensate(
 def online(
     model_dir: Path,
     flights: Sequence[Path],
-    output: Path,
+    output: str,
     noise: float | None,
     walk: float | None,
     forget: float | None,
@@ -152,19 +140,21 @@ def online(
     Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
     """
     from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
     from ragg_runtime.workflow import online as _online
 
-    _writable(output, flights)
+    out = Path(output)
+    format_for(out)
     m = load(model_dir)
     odd = [] if m.directory.calibration is None else _calibration_notes(m)
     under_way(f"reading {len(flights)} flight(s)")
     read = after.read_for_compensation(m, flights, mapping)
     under_way("following")
     with progress.shown("compare", sum(map(len, read))):
-        w = _online.online(m, read, noise, walk, forget or float("inf"), output)
+        w = _online.online(m, read, noise, walk, forget or float("inf"), out)
     origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
-    emit(w.as_json() | {"output": str(output)} | origin, json_file, terminal_after.watched(w, output, read))
+    emit(w.as_json() | {"output": str(out)} | origin, json_file, terminal_after.watched(w, out, read))
 
 
 @click.command(cls=Command)
@@ -213,13 +203,8 @@ def compare_frozen(
     def page() -> str:
         from ragg_runtime.report import compare_html
 
-        return compare_html(
-            h.comparison,
-            title=f"{m.name}, frozen, and {', '.join(x.name for x in read)}",
-            command=command_line(),
-            sources=loop.sources(m, read),
-            notes=[sentence(h), *odd, *terminal.notes(m, read)],
-        )
+        own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
+        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]]})
 
     write_report(report_file, page)
     origin = terminal.origin(m, read, command_line())
@@ -228,17 +213,6 @@ def compare_frozen(
         json_file,
         terminal_after.held(h, read, m.directory.path, mapping),
     )
-
-
-def _writable(output: Path, flights: Sequence[Path]) -> None:
-    """UserError if a series cannot be written there."""
-    from ragg_runtime.compensation.output import format_for
-
-    format_for(output)
-    if any(output.exists() and x.exists() and output.samefile(x) for x in flights):
-        raise UserError(
-            "a result would be written over what the command reads", where=output, remedy="name another file"
-        )
 
 
 def _calibration_notes(m: Loaded) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,6 +15,7 @@ from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command, asked
 from ragg_runtime.cli.shared import (
     DIRECTORY,
+    about,
     command_line,
     emit,
     json_option,
@@ -26,7 +27,6 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
-    from ragg_runtime.flight import Flight
     from ragg_runtime.workflow import loop
 
 
@@ -70,7 +70,7 @@ def compare(
     def page() -> str:
         from ragg_runtime.report import compare_html
 
-        return compare_html(c, **_about(m, read))
+        return compare_html(c, **about(m, read))
 
     write_report(report_file, page)
     emit(
@@ -116,7 +116,7 @@ def diagnose(
     def page() -> str:
         from ragg_runtime.report import diagnose_html
 
-        return diagnose_html(d, **_about(m, read))
+        return diagnose_html(d, **about(m, read))
 
     write_report(report_file, page)
     emit(
@@ -237,7 +237,7 @@ def add(
                 [s.as_json() for s in result.loaded.directory.history],
                 result.before,
                 result.after,
-                **_about(result.loaded, read, f"{m.name}: {effect} added"),
+                **about(result.loaded, read, f"{m.name}: {effect} added"),
             )
 
         with telling():
@@ -256,19 +256,6 @@ def add(
             remedy=f"see what else is missing: {terminal.command('diagnose', model_dir, read, mapping)}; "
             "or what is wrong with the record",
         )
-
-
-def _about(m: loop.Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
-    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.workflow import loop
-
-    return {
-        "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
-        "command": command_line(),
-        "sources": loop.sources(m, read),
-        "notes": terminal.notes(m, read),
-    }
 
 
 COMMANDS = (compare, diagnose, add, survey)

@@ -18,7 +18,7 @@ from ragg_runtime.cli.outputs import Command, OutputFile
 @click.option(
     "-o",
     "--output",
-    type=click.Path(path_type=Path),
+    type=OutputFile(records=True),
     required=True,
     metavar="MOTION",
     help="Motion file to write.",
@@ -47,7 +47,7 @@ from ragg_runtime.cli.outputs import Command, OutputFile
 def next_motion(
     model_dir: Path,
     flights: Sequence[Path],
-    output: Path,
+    output: str,
     limits: Sequence[str],
     mapping: Path | None,
     json_file: str | None,
@@ -61,5 +61,5 @@ def next_motion(
     m = load(model_dir)
     read = loop.read_flights(m, flights, mapping)
     found = next_flight(m, read, loop.motion_limits(m, limits), **options)
-    write_motion(found, output)
+    write_motion(found, Path(output))
     emit(found.as_json(), json_file, f"{output}: {found.in_words()}")

@@ -14,12 +14,21 @@ from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.cli.outputs import STDOUT, OutputFile, asked
 
 if TYPE_CHECKING:
+    from ragg_runtime.flight import Flight
     from ragg_runtime.workflow.loop import Loaded
 
 DIRECTORY = click.Path(path_type=Path)
 OUTPUT = OutputFile()
 json_option = click.option(
     "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+series_option = click.option(
+    "-o",
+    "--output",
+    type=OutputFile(records=True),
+    required=True,
+    metavar="OUT",
+    help="File to write (.csv, .parquet, .nc).",
 )
 report_option = click.option(
     "--report", "report_file", type=OUTPUT, metavar="FILE.html", help="Write a self-contained report."
@@ -55,6 +64,19 @@ def load(model_dir: Path) -> Loaded:
 def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
     for note in notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+
+
+def about(m: Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
+    """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.workflow import loop
+
+    return {
+        "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
+        "command": command_line(),
+        "sources": loop.sources(m, read),
+        "notes": terminal.notes(m, read),
+    }
 
 
 def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:

@@ -116,6 +116,17 @@ def test_a_result_replaces_no_record_that_the_command_does_not_read(
     assert ragg("history", model, "--json", record)[0] == 0
 
 
+@pytest.mark.parametrize("command", ["compensate", "online", "next-motion", "simulate"])
+def test_a_series_is_not_written_over_what_is_read(command: str, given: tuple[Path, Path]) -> None:
+    model, flight = given
+    before = state(model, flight)
+    read = ["--motion", flight] if command == "simulate" else [flight]
+    status, said = ragg(command, model, *read, "-o", flight)
+    assert status == 2, said
+    assert "written over what the command reads" in said
+    assert state(model, flight) == before
+
+
 def test_two_results_do_not_share_a_file_and_a_flight_is_not_flown_over_its_model(
     given: tuple[Path, Path], tmp_path: Path
 ) -> None:
