@@ -115,7 +115,7 @@ def design(
     best = sorted(range(len(tones)), key=lambda n: (-alone[n], n))[:CANDIDATES]
     tones = [tones[n] for n in sorted(best)]
     found = max((_climbed(worth, tones, limits, x) for x in _starts(tones, alone, best)), key=lambda x: x[1])
-    motion = _multisine(tones, found[0])
+    motion = multisine(tones, found[0])
     length = min(duration, LONGEST)
     rows = np.vstack([f.whole, rows_of(f, motion, places, simulated=length, duration=duration)])
     then = separations(rows)
@@ -143,13 +143,18 @@ def tones_of(spin: float, limits: Mapping[str, float], band: tuple[float, float]
 def _starts(tones: Sequence[Tone], alone: Sequence[float], best: Sequence[int]) -> list[Array]:
     """Shares of the largest amplitudes: all alike, and the best sinusoid of every axis."""
     axes = [axis for axis, _, _ in tones]
-    even = np.array([1.0 / axes.count(axis) for axis in axes])
     order = {n: k for k, n in enumerate(sorted(best))}
     first = np.full(len(tones), STEP)
     for axis in dict.fromkeys(axes):
         own = [n for n in best if axes[order[n]] == axis]
         first[order[max(own, key=lambda n: alone[n])]] = 1.0 - STEP * len(own)
-    return [even, first]
+    return [even(tones), first]
+
+
+def even(tones: Sequence[Tone]) -> Array:
+    """Shares that are alike for all sinusoids about an axis."""
+    axes = [axis for axis, _, _ in tones]
+    return np.array([1.0 / axes.count(axis) for axis in axes])
 
 
 def _climbed(
@@ -159,12 +164,12 @@ def _climbed(
 
     def slopes(x: Array) -> Array:
         here, *there = mapped(
-            lambda y: worth(_multisine(tones, y, least=0.0)), [x, *(x + STEP * e for e in np.eye(len(x)))]
+            lambda y: worth(multisine(tones, y, least=0.0)), [x, *(x + STEP * e for e in np.eye(len(x)))]
         )
         return (np.array(there) - here) / STEP
 
     found = optimize.minimize(  # type: ignore[call-overload]
-        lambda x: -worth(_multisine(tones, x, least=0.0)),
+        lambda x: -worth(multisine(tones, x, least=0.0)),
         start,
         jac=lambda x: -slopes(x),
         bounds=[(0.0, 1.0)] * len(tones),
@@ -174,7 +179,7 @@ def _climbed(
     )
     x = np.clip(found.x, 0.0, None)
     x = x / max(1.0, *(float(A @ x) for A in _peaks(tones, limits)))
-    return x, worth(_multisine(tones, x))
+    return x, worth(multisine(tones, x))
 
 
 def _peaks(tones: Sequence[Tone], limits: Mapping[str, float]) -> list[Array]:
@@ -190,7 +195,7 @@ def _peaks(tones: Sequence[Tone], limits: Mapping[str, float]) -> list[Array]:
     return rows
 
 
-def _multisine(tones: Sequence[Tone], x: Array, least: float = LEAST) -> tuple[Sinusoid, ...]:
+def multisine(tones: Sequence[Tone], x: Array, least: float = LEAST) -> tuple[Sinusoid, ...]:
     """The sinusoids of some shares, with phases that keep the peaks low."""
     found: list[Sinusoid] = []
     for axis in dict.fromkeys(axis for axis, _, _ in tones):

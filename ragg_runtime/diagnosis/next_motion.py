@@ -42,6 +42,9 @@ DURATION = 600.0
 AT_REST = 0.25
 """What counts as the spin frequency of a disc that stands still, Hz: the paper's."""
 
+APART = 3.0
+"""Standard deviations at which two effects count as told apart."""
+
 RIVALS = 3
 """Most rivals of an effect for which a motion is sought."""
 
@@ -66,8 +69,8 @@ class Proposal:
 
     @property
     def separates(self) -> bool:
-        """Whether the motion would tell the two apart, at three standard deviations."""
-        return self.then > 3.0
+        """Whether the motion would tell the two apart."""
+        return self.then > APART
 
     def in_words(self) -> str:
         """One sentence."""

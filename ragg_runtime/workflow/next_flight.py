@@ -10,15 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis.motion_design import Separation, design, tones_of
-from ragg_runtime.diagnosis.next_motion import AXES, Sinusoid, moved
+from ragg_runtime.diagnosis.motion_design import Separation, design, even, multisine, tones_of
+from ragg_runtime.diagnosis.next_motion import APART, AXES, Sinusoid, moved
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
 Array = NDArray[np.float64]
-
-APART = 3.0
-"""Standard deviations at which two effects count as told apart."""
 
 HIGHEST = 0.2
 """Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
@@ -105,21 +102,12 @@ def next_flight(
             expected=f"multiples of the spin frequency among them, none above {HIGHEST * rate:g} Hz",
             remedy="give a wider band or a higher --rate",
         )
-    d = diagnose(m, flights, limits)
+    d = diagnose(m, flights)
     pairs = [(r.effect, o) for r in d.ranking if r.effect in d.found for o in r.indistinguishable_from]
     made = design(d.fitted, pairs, limits, duration=duration, band=band)
-    if made is None:
-        axes = [axis for axis, _, _ in tones]
-        sinusoids: tuple[Sinusoid, ...] = tuple(
-            (axis, frequency, size / axes.count(axis), -np.pi * k * (k + 1) / axes.count(axis))
-            for axis in dict.fromkeys(axes)
-            for k, (_, frequency, size) in enumerate(t for t in tones if t[0] == axis)
-        )
-    else:
-        sinusoids = made.sinusoids
     mean = {n: float(np.mean([np.mean(x.channels[n][x.valid]) for x in flights])) for n in AXES}
     return NextFlight(
-        sinusoids=sinusoids,
+        sinusoids=multisine(tones, even(tones)) if made is None else made.sinusoids,
         mean=mean,
         separations=() if made is None else made.separations,
         duration=duration,
