@@ -13,7 +13,7 @@ from ragg_runtime.flight.record import ANGULAR_ACCELERATION
 TOLERANCE_EO = 1e-6
 """Largest difference of C and Python, Eo, that `make check` allows."""
 
-PROGRAM = ("main.c", "record.c", "record.h", "slopes.c", "slopes.h", "compare.c")
+PROGRAM = ("main.c", "record.c", "record.h", "slopes.c", "slopes.h", "fail.c", "fail.h", "compare.c")
 ONLINE = ("online.h", "online.c", "online_main.c")
 
 

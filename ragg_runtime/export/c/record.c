@@ -8,24 +8,11 @@
 
 #include "slopes.h"
 
-enum { BAD = 2, MOST_FIELDS = 4096 };
+enum { MOST_FIELDS = 4096 };
 
 static const double ENDLESS = 1e100; /* beyond it a value counts as missing */
 static const double UNEVEN = 0.01;   /* share of the interval by which a step may differ from whole intervals */
 static const double JITTER = 1e-3;   /* from which Python resamples before it derives the angular acceleration */
-
-void ragg_fail(const char *what, const char *where, const char *expected) {
-    fprintf(stderr, "%s: %s: %s\n  expected: %s\n", ragg_program, where, what, expected);
-    exit(BAD);
-}
-
-void *ragg_bigger(void *old, size_t count, size_t size) {
-    void *found = count > (size_t)-1 / size ? NULL : realloc(old, count * size);
-    if (!found) {
-        ragg_fail("there is not enough memory", "standard input", "a shorter record");
-    }
-    return found;
-}
 
 /* One line without its end, in a buffer that grows; NULL at the end of the file. */
 static char *line_of(FILE *file, char **buffer, size_t *room) {

@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "fail.h"
 #include "values.h"
 
 typedef struct {
@@ -26,10 +27,5 @@ void ragg_free(ragg_record *r);
 
 /* The inputs of an output from sample at on; returns its encoder's angles, or NULL. */
 const double *ragg_inputs(const ragg_record *r, size_t output, size_t at, const double *in[INPUTS]);
-
-/* One message on stderr, and exit status 2. */
-extern const char *const ragg_program;
-_Noreturn void ragg_fail(const char *what, const char *where, const char *expected);
-void *ragg_bigger(void *old, size_t count, size_t size);
 
 #endif

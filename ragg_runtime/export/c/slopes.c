@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "record.h"
+#include "fail.h"
+#include "values.h"
 
 /* Derivative of a run of n samples, rate in Hz: DERIVATIVE[k] weighs a window of samples at its sample k. Towards the end
  * of the run the window is that at its beginning, turned round. */
