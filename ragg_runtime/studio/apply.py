@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Kind, without_gradients
+from ragg_runtime.compensation.demodulators import DEMODULATORS
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.flight import Flight
 from ragg_runtime.quality.qc import Quality, qc
@@ -35,8 +36,6 @@ BESIDE = (
     "vertical_velocity",
 )
 """Channels of a flight that quality control looks at beside the gradients."""
-
-DEMODULATORS = ("fir", "butterworth", "causal")
 
 
 def compensated(m: Loaded, flights: Sequence[Flight], kind: str, demodulator: str) -> Compensation:

@@ -16,7 +16,7 @@ from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.guess import draft, sample
 from ragg_runtime.flight.mapping import UNKNOWN, Mapped, parse_mapping
-from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.flight.source import Heading, Look
 from ragg_runtime.instrument.units import Units
 from ragg_runtime.model_dir.directory import MAPPING
@@ -25,7 +25,7 @@ from ragg_runtime.workflow.loop import Loaded
 
 Json = dict[str, Any]
 
-NEEDED = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
+NEEDED = (*SPECIFIC_FORCE, *ANGULAR_RATE)
 """Channels that every flight has."""
 
 OUTPUTS = ("G_out", "V_1", "inline")

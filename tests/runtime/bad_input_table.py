@@ -14,17 +14,16 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cache
-from io import StringIO
 from pathlib import Path
 
+import commands
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ragg_runtime.cli.main import main
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -966,14 +965,8 @@ def ran(row: Row, place: Path) -> Ran:
     with inside(place):
         row.make()
         before = tree(Path("model"))
-        out, err = StringIO(), StringIO()
-        status = 0
-        with redirect_stdout(out), redirect_stderr(err):
-            try:
-                main(row.command)
-            except SystemExit as end:
-                status = int(end.code or 0)
-        return Ran(status, out.getvalue(), err.getvalue(), before, tree(Path("model")))
+        done = commands.ragg(*row.command)
+        return Ran(done.returncode, done.stdout, done.stderr, before, tree(Path("model")))
 
 
 def rows() -> list[tuple[str, Row]]:
