@@ -14,6 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Kind, without_gradients
 from ragg_runtime.compensation.demodulators import DEMODULATORS
 from ragg_runtime.compensation.output import writing
+from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.flight import Flight
 from ragg_runtime.quality.qc import Quality, qc
 from ragg_runtime.report.quality_page import quality_html
@@ -111,7 +112,7 @@ def _line(folder: Path, x: Flight, rows: Mapping[str, NDArray[Any]], c: Compensa
 def shown_compensation(c: Compensation) -> dict[str, Any]:
     """What the page says of it, in the digits of the terminal."""
     r = c.as_json()
-    meaning = {name: text for name, _, text in (t.partition(": ") for t in r["quality"].values())}
+    meaning = {str(q.name): text for q, text in MEANING.items()}
     return {
         "calibration": r["calibration"],
         "converged": r["converged"],
