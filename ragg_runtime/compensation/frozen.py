@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.base.errors import UserError, did_you_mean
@@ -197,7 +197,7 @@ class Held:
     @property
     def p_value(self) -> float:
         n = len(self.change.z)
-        return float(stats.chi2.sf(self.change.chi2, n)) if n else 1.0
+        return float(special.chdtrc(n, self.change.chi2)) if n else 1.0
 
     def suspects(self) -> list[dict[str, Any]]:
         """Single parameters whose change would explain the step, the best first; none if the calibration holds."""

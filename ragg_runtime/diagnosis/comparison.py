@@ -8,7 +8,6 @@ from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
@@ -29,6 +28,7 @@ from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.fir import convolved
 from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
@@ -188,7 +188,7 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
         for mixed in lean.each(mix, whitened=False):
             mixed = np.concatenate([tail, mixed], axis=1)
             if mixed.shape[1] >= len(taps):
-                low = oaconvolve(mixed, taps[None], mode="valid", axes=1)
+                low = convolved(mixed, taps)
                 samples += low.shape[1]
                 for h, y in zip(total, low, strict=True):
                     squares[h] += float(y @ y)

@@ -150,11 +150,14 @@ def summed(logs: Mapping[tuple[str, ...], float], effects: Sequence[str]) -> Pro
     kept = {s: v for s, v in logs.items() if v > top - KEPT}
     total = float(logsumexp(list(kept.values())))
     sets = {s: float(np.exp(v - total)) for s, v in sorted(kept.items(), key=lambda x: (-x[1], x[0]))}
-    of = {e: min(1.0, sum(p for s, p in sets.items() if e in s)) for e in effects}
+    of = dict.fromkeys(effects, 0.0)
+    for s, p in sets.items():
+        for e in s:
+            of[e] += p
     credible, held = [], 0.0
     for s, p in sets.items():
         credible.append(s)
         held += p
         if held >= HELD:
             break
-    return Probabilities(of=of, credible=tuple(credible), sets=sets)
+    return Probabilities(of={e: min(1.0, p) for e, p in of.items()}, credible=tuple(credible), sets=sets)

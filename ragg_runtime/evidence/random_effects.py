@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit.passes import Piece
@@ -35,7 +35,7 @@ class Variance:
         if spread <= 0.0 or ratio <= 0.0:
             return Test(0.0, 0, 0.0, (0,))
         z = float(np.sqrt(self.count) * (s2e2 / e2 - s2) / np.sqrt(spread * ratio))
-        return Test(max(z, 0.0) ** 2, 1, float(stats.norm.logsf(z)), (0,))
+        return Test(max(z, 0.0) ** 2, 1, float(special.log_ndtr(-z)), (0,))
 
     @property
     def uneven(self) -> float:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_spectrum import NoiseModel, estimate
+from ragg_runtime.signals.periodogram import hann
 
 Array = NDArray[np.float64]
 
@@ -78,9 +78,7 @@ def _estimated(
     left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
         e = e.copy()
-        weight = (
-            signal.get_window("hann", len(e)) ** 2
-        )  # as the periodogram of the estimate weighs the samples
+        weight = hann(len(e)) ** 2  # as the periodogram of the estimate weighs the samples
         total += float(np.sum(weight))
         for b in own:
             e[b.start : b.stop] = weight[b.start : b.stop] = 0.0

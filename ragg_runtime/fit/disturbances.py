@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.signals.noise_spectrum import LOWEST, without_lines
+from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ def disturbances(
 
 
 def _lines(rest: Array, rate: float, without: tuple[float, float] | None) -> list[Disturbance]:
-    f, p = (x[LOWEST:-1] for x in signal.periodogram(rest, rate, window="hann", detrend="constant"))
+    f, p = (x[LOWEST:-1] for x in periodogram(rest, rate))
     if without is not None:
         kept = (f < without[0]) | (f > without[1])
         f, p = f[kept], p[kept]

@@ -6,12 +6,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg, signal
+from scipy import fft, linalg
 
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
 from ragg_runtime.fit.square_root import triangle
-from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.fir import GROUP, filtered
 from ragg_runtime.signals.noise_spectrum import estimate
+from ragg_runtime.signals.periodogram import hann
 
 Array = NDArray[np.float64]
 
@@ -155,14 +156,15 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     is a windowed wave. Without it the noise would look quietest where the columns are: on a record of a minute by three
     times. ``directions`` (n, k): columns times it are Q.
     """
-    window = signal.get_window("hann", len(valid))
+    window = hann(len(valid))
     bins = len(valid) // 2 + 1
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
-    x = np.zeros(len(valid))
-    for k, column in enumerate(columns):
-        x[valid] = column * window[valid]
-        waves[k] = np.fft.rfft(x)[some]
+    for k in range(0, len(columns), GROUP):
+        part = columns[k : k + GROUP]
+        x = np.zeros((len(part), len(valid)))
+        x[:, valid] = part * window[valid]
+        waves[k : k + GROUP] = fft.rfft(x, axis=1)[:, some]
     taken = np.sum(np.abs(directions.T @ waves) ** 2, axis=0)
     left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
     return np.asarray(np.interp(np.arange(bins), some, np.maximum(left, 0.0)))

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
@@ -20,6 +19,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record, recorded
 from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.fir import convolved
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -123,10 +123,10 @@ def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
 
 def narrow(G: Array, r: Record) -> Array:
     """G_out (..., N) as the demodulator lets it through: demodulated and put back on the carriers."""
-    taps = low_pass(r.rate).reshape((1,) * (G.ndim - 1) + (-1,))
+    taps = low_pass(r.rate)
     cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
-    in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
-    quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
+    in_phase = convolved(2 * G * sine, taps, "same")
+    quadrature = convolved(2 * G * cosine, taps, "same")
     return np.asarray(in_phase * sine + quadrature * cosine)
 
 

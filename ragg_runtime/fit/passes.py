@@ -112,7 +112,9 @@ def passed(
                 tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
             flat = whitened_columns(columns, noise, tail, part.record)
-            unknown_gradient.project(flat, windows)
+            if windows:
+                flat = flat.copy() if np.shares_memory(flat, columns) else flat
+                unknown_gradient.project(flat, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
         return work(Piece(s, part, columns, n_base, flat, sample, windows))
 

@@ -6,11 +6,11 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import oaconvolve
 
 from ragg_runtime.model.evaluate import EOTVOS
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
+from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 
@@ -190,7 +190,7 @@ class Tally:
         for c, carrier in enumerate((4 * np.sin(2 * s.phi), -2 * np.cos(2 * s.phi))):
             for k in range(0, len(s.e), SERIES):
                 some = slice(k, k + SERIES)
-                x = oaconvolve(s.e[some] * carrier, self._taps[None], mode="valid", axes=1)
+                x = convolved(s.e[some] * carrier, self._taps)
                 self._sums[0, :, c, some] += whole @ x.T
                 self._sums[1, :, c, some] += whole @ (x**2).T
 

@@ -14,7 +14,7 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, signal
+from scipy import ndimage
 
 from ragg_runtime.signals.derivative import WINDOW, differentiate, runs, weights
 
@@ -101,6 +101,8 @@ def _unsure(series: Sequence[Array]) -> int:
 
     best = made(wide_weights())
     longest = max(series, key=len)
+    from scipy import signal  # slow to import, and only records with gaps need it
+
     f, p = signal.welch(longest, 2.0, window="hann", nperseg=min(256, len(longest) // 4), detrend="constant")
     noise = np.sqrt(np.median(p[f > BAND][:-1]))
     limit = max(ROUGH * float(np.std(best)), NOISIER * float(noise * np.linalg.norm(wide_weights())))

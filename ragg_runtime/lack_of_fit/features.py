@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
+from scipy import linalg
 
 from ragg_runtime.base import series_name
 from ragg_runtime.base.series_name import Channel, Derivative, Function, Relaxation, Series
@@ -129,8 +129,11 @@ class Relaxations:
                 self._origin[of] = float(x[np.argmax(r.valid)])
             origin = self._origin.get(of, 0.0)
         x = np.where(r.valid, x - origin, 0.0)
-        y, _ = signal.lfilter([1.0 - c], [1.0, -c], x, zi=[c * last])
-        return np.asarray(y)
+        x = (1.0 - c) * x
+        x[:1] += c * last
+        # y_n - c y_n-1 = x_n, solved forwards
+        bands = np.array([np.ones(len(x)), np.full(len(x), -c)])
+        return np.asarray(linalg.blas.dtbsv(1, bands, x, lower=1, diag=1, overwrite_x=True))
 
 
 def term_unit(channels_: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import prepared_flight
@@ -76,7 +76,7 @@ def _table(s: Scores) -> Heat:
             coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
     share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(good)), 1))
     return Heat(
-        harmonics=rows, products=columns, z=z, coefficient=coefficient, level=float(stats.norm.isf(share))
+        harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
     )
 
 

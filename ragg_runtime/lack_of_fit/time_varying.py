@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.segments import block_edges
@@ -152,9 +152,9 @@ class BlockScores:
         chi2 = _ratio(amount**2, variance)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
         z = float(np.sqrt(chi2[n, k]))
-        tail = float(stats.norm.logsf(z) if np.isinf(rows) else stats.t.logsf(z, rows))
-        if not np.isfinite(tail):  # so far out that the density underflows
-            tail = float(stats.norm.logsf(z))
+        share_beyond = 0.0 if np.isinf(rows) else float(special.stdtr(rows, -z))
+        # so far out that the density underflows the normal distribution serves
+        tail = float(np.log(share_beyond) if share_beyond > 0.0 else special.log_ndtr(-z))
         log_p = tail + float(np.log(2 * len(chi2)))
         std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
         return Varying(log_p, int(k), float(chi2[n, k]), std * z, std, how[n])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize, signal
+from scipy import optimize
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
@@ -50,6 +50,8 @@ class _LowPass:
         """(2 half + 1,): centred, for a corner, Hz."""
         if not self.order:
             return _average(FLAT / corner, rate, half, causal=self.causal)
+        from scipy import signal  # slow to import, and only records of channels need it
+
         impulse = np.zeros(half + 1)
         impulse[0] = 1.0
         h = signal.sosfilt(signal.butter(self.order, corner, fs=rate, output="sos"), impulse)

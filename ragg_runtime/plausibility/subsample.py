@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_effects.saturation import saturation
@@ -20,6 +19,7 @@ from ragg_runtime.model.model import Chain
 from ragg_runtime.model.record import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import differentiate
+from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -89,8 +89,7 @@ class Rows:
         if self.kind != "channels":
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
-        taps = self.taps.reshape((1,) * (raw.ndim - 1) + (-1,))
-        return np.asarray(signal.oaconvolve(raw * carriers, taps, mode="same", axes=-1))
+        return convolved(raw * carriers, self.taps, "same")
 
     @property
     def inner(self) -> Mask:

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import firwin, kaiserord, oaconvolve
+from scipy import special
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 
@@ -67,8 +68,14 @@ def low_pass(
             found=f"cutoff {cutoff:g} Hz, transition {width:g} Hz, rate {rate:g} Hz",
             expected="a pass band above zero and a stop band below half of the rate",
         )
-    taps, beta = kaiserord(attenuation, width / (rate / 2))
-    return np.asarray(firwin(taps | 1, cutoff, window=("kaiser", beta), fs=rate), dtype=np.float64)
+    # Kaiser's rules (1974): the length for the transition, the window's shape for the attenuation
+    n = int(np.ceil((attenuation - 7.95) / (2.285 * np.pi * width / (rate / 2)) + 1)) | 1
+    above = max(0.0, attenuation - 21.0)
+    beta = 0.1102 * (attenuation - 8.7) if attenuation > 50 else 0.5842 * above**0.4 + 0.07886 * above
+    m = np.arange(n) - (n - 1) / 2
+    window = special.i0(beta * np.sqrt(1 - (2 * m / (n - 1)) ** 2)) / special.i0(beta)
+    taps = np.sinc(2 * cutoff / rate * m) * window
+    return np.asarray(taps / np.sum(taps))
 
 
 def demodulate(
@@ -117,6 +124,6 @@ def demodulate(
             remedy="record longer, or widen the filter's transition",
         )
     half = taps.size // 2
-    inline = oaconvolve(4 * G * np.sin(2 * angle), taps, mode="valid") / k_ggi
-    cross = -oaconvolve(2 * G * np.cos(2 * angle), taps, mode="valid") / k_ggi
+    inline = convolved(4 * G * np.sin(2 * angle), taps) / k_ggi
+    cross = -convolved(2 * G * np.cos(2 * angle), taps) / k_ggi
     return Demodulated(inline, cross, slice(half, G.size - half), half)

@@ -16,9 +16,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, optimize, signal
+from scipy import interpolate, optimize
 
 from ragg_runtime.signals.noise_level import Level
+from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -206,7 +207,7 @@ def _periodogram(
         raise ValueError("no stretch long enough to estimate the noise from")
     frequency, density, share = [], [], []
     for k in usable:
-        f, p = signal.periodogram(residuals[k], rate, window="hann", detrend="constant")
+        f, p = periodogram(residuals[k], rate)
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
         used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
         used[:LOWEST] = used[-1:] = False
@@ -266,12 +267,23 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
     def density(theta: Array, f: Array) -> Array:
         return np.asarray(white * (np.exp(theta[0]) + np.exp(theta[1]) * (f / 0.1) ** (-theta[2])))
 
-    def cost(theta: Array) -> float:
-        s = density(theta, f)
-        return float(np.sum(count * (np.log(s) + p / s)) + 0.5 * (theta[2] - 1.0) ** 2)
+    log_f = np.log(f / 0.1)
+
+    def cost(theta: Array) -> tuple[float, Array]:
+        """And its gradient, by which the optimum is found to rounding, whatever that does on the way."""
+        flat, red = white * np.exp(theta[0]), white * np.exp(theta[1] - theta[2] * log_f)
+        s = flat + red
+        slope = count * (1.0 - p / s) / s
+        sums = np.array([np.sum(slope) * flat, slope @ red, -(slope * red) @ log_f + theta[2] - 1.0])
+        return float(np.sum(count * (np.log(s) + p / s)) + 0.5 * (theta[2] - 1.0) ** 2), sums
 
     best = optimize.minimize(
-        cost, np.array([0.0, -3.0, 1.0]), method="L-BFGS-B", bounds=[(-5, 5), (-14, 8), (0.1, 3.0)]
+        cost,
+        np.array([0.0, -3.0, 1.0]),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=[(-5, 5), (-14, 8), (0.1, 3.0)],
+        options={"ftol": 1e-14, "gtol": 1e-8},
     )
     return lambda g: density(best.x, g)
 

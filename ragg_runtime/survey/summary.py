@@ -7,9 +7,10 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from ragg_runtime.base.false_alarms import PROMISED, SURVEY
+from ragg_runtime.fit.significance import log_sf
 
 CERTAIN = -30.0
 """Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
@@ -113,7 +114,7 @@ class Trend:
     @property
     def log_p(self) -> float:
         """Logarithm of the probability that a constant parameter scatters so much."""
-        return float(stats.chi2.logsf(self.chi2, self.dof)) if self.dof else 0.0
+        return log_sf(self.chi2, self.dof)
 
 
 @dataclass(frozen=True)
@@ -199,7 +200,7 @@ def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
         mine = [(n, group) for n, group, _ in open_claims if best in group]
         flights = list(dict.fromkeys(n for n, _ in mine))
         shared = frozenset.intersection(*(group for _, group in mine)) - {best}
-        chance = float(stats.binom.logsf(len(flights) - 1, len(done), PROMISED) / np.log(10.0))
+        chance = float(np.log10(special.bdtrc(len(flights) - 1, len(done), PROMISED)))
         names = tuple(str(done[n]["flight"]) for n in flights)
         evidence = [_log10_p(done[n], best) for n in flights]
         strongest = min((p for p in evidence if p is not None), default=None)
