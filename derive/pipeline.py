@@ -32,6 +32,9 @@ FORMAT = 1
 
 Files = Mapping[str, str]
 
+FITS = "fits"
+"""Folder of what serves fits alone, and is no part of a model directory: the signatures in C."""
+
 FULL = "full"
 """Folder of the packaged model of full kinematics."""
 
@@ -67,7 +70,10 @@ def derive_base() -> Files:
 
 
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
-    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
+    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file).
+
+    What stands in the folder :data:`FITS` is beside the model: the manifest does not name it.
+    """
     return _derive(form, effects, candidates)
 
 
@@ -103,7 +109,9 @@ def _derive(
             parts.append(t.paper(*equations))
     files = joined(parts)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    return _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
+    whole = _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
+    signatures = [] if packaged else [_c.chain(x, packaged=True) for x in chains if x.name == "signatures"]
+    return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
 
 
 def _folded(form: Form) -> Folded:
@@ -141,7 +149,7 @@ def _complete(
     candidates: Sequence[Effect],
     models: Sequence[ir.Harmonic | ir.Chain | Folded],
     below: Sequence[str],
-) -> Files:
+) -> dict[str, str]:
     """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
     files["__init__.py"] = _numpy.package_file([m.name for m in models])
     text = "".join(f"{name}\0{files[name]}\0" for name in sorted(files))

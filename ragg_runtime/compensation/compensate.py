@@ -87,7 +87,6 @@ def prepared(
     observations = tuple(o for own in each for o in own)
     of = tuple(k for k, own in enumerate(each) for _ in own)
     sighted = seeing(instrument, observations)
-    model = model.for_fits(sum(len(o.record.time) for o in observations))
     validity: dict[str, tuple[float, float]] = {}
     if kind == "frozen":
         if saved is None:
@@ -153,7 +152,7 @@ class Compensated:
         k_ggi = scale_factor(p.model, p.calibration.p, o.place)
         noise = spectrum.of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
         self.model, self.instrument = p.model, p.instrument
-        many = p.model.in_machine_code and len(self.flight.time) >= MANY
+        many = len(self.flight.time) >= MANY
         s = Setting(
             model=p.model,
             evaluator=p.model.compiled("auto" if many else "numpy"),

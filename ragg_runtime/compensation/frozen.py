@@ -258,7 +258,6 @@ class Held:
 def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved) -> Held:
     """Hold a saved calibration against flights."""
     observations = observations_of(flights, instrument)
-    model = model.for_fits(sum(len(o.record.time) for o in observations))
     f = about(model, instrument, observations, calibration(saved, model, instrument, observations))
     free, _ = f.coefficients(())
     half, _ = f.coefficients((), held_out=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,8 +15,8 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.noise import estimate_noise
-from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.square_root import below, fold, prior
 
 Array = NDArray[np.float64]
 
@@ -41,29 +41,30 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     columns = design.candidate_columns(f.model, f.instrument)
     plain = field_of(f, available)
     first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
-    instants: dict[str, float] = {}
-    exact: dict[str, float] = {}
-    stepped, sums = list(triangles), f.sums[0].copy()
-    for e in steps:
-        own = [(n, c) for n, c in enumerate(columns) if c.effect == e.id]
-        edges = [int(k) for k in x.edges[1:-1]]
-        scans = [
+    edges = [int(k) for k in x.edges[1:-1]]
+    owned = {e.id: [(n, c) for n, c in enumerate(columns) if c.effect == e.id] for e in steps}
+    places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
+    scans: dict[str, tuple[special.Step, Sequence[int]]] = {}
+    for e, own in owned.items():
+        found = [
             (special.best_step(triangles, edges, f.n_base, given, own, f.to_nominal), given)
             for given in ([[], first] if first else [[]])
         ]
         # By itself, unless it explains far more beside the first choice.
-        step, given = scans[-1] if scans[-1][0].test.log_p < scans[0][0].test.log_p - BESIDE else scans[0]
-        places = [f.n_base + n for n, _ in own]
-        found = _stepped(stepped, x, step, places)
-        field = _with_penalty(replace(f, triangles=(tuple(found),)), [*available, *instants, e.id])
-        if e.id in selection.choose(field).chosen:
-            step = special.refined(x, step, f.n_base, given, own, f.to_nominal)
+        scans[e] = found[-1] if found[-1][0].test.log_p < found[0][0].test.log_p - BESIDE else found[0]
+    samples = {e: step.sample for e, (step, _) in scans.items()}
+    root = _root(f, x.edges, samples, places)
+    exact: dict[str, float] = {}
+    for n, (e, (step, given)) in enumerate(scans.items()):
+        so_far = list(samples)[: n + 1]
+        field = _with_penalty(f, [*available, *so_far], _picked(root, f, so_far, places))
+        if e in selection.choose(field).chosen:
+            step = special.refined(x, step, f.n_base, given, owned[e], f.to_nominal)
             projector = prepared_flight.projector(triangles, f.n_base, given)
-            step = replace(step, sample=special.sharpened(x, step.sample, projector, places))
-            exact[e.id] = float(time[step.sample])
-        instants[e.id] = float(time[step.sample])
-        stepped = _stepped(stepped, x, step, places)
-        sums[np.ix_(x.edges[:-1] < step.sample, np.array(places))] = 0.0
+            samples[e] = special.sharpened(x, step.sample, projector, places[e])
+            exact[e] = float(time[samples[e]])
+            root = _root(f, x.edges, samples, places)
+    instants = {e: float(time[k]) for e, k in samples.items()}
     if exact and not quiet:
         noise = estimate_noise(replace(x.at, instants=exact), x.observation)
         calmer = fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
@@ -71,26 +72,56 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     if exact:  # the columns themselves, to the sample, and through the filter
         x = replace(x.released(), at=replace(x.at, instants=exact))
         triangles, sums = prepared_flight.blocks(x)
-        stepped = list(triangles)
-    elif instants:
-        moved = {e: [f.n_base + n for n, c in enumerate(columns) if c.effect == e] for e in instants}
-        x = x.with_steps(instants, moved)
-    f = replace(f, prepared=(x,), triangles=(tuple(stepped),), sums=(sums,))
+    else:
+        sums = f.sums[0].copy()
+        for e, k in samples.items():
+            sums[np.ix_(x.edges[:-1] < k, np.array(places[e]))] = 0.0
+        starts = x.edges[:-1]
+        triangles = tuple(_stepped(t, k, samples, places) for t, k in zip(triangles, starts, strict=True))
+        x = x.with_steps(instants, places)
+    f = replace(f, prepared=(x,), triangles=(triangles,), sums=(sums,))
     return _with_penalty(f, [*available, *instants]), f, instants
 
 
-def _stepped(
-    triangles: Sequence[Array], x: PreparedFlight, step: special.Step, places: Sequence[int]
-) -> list[Array]:
-    """Block triangles with the columns at ``places`` put to zero before a step on the edge of a block."""
-    found = [t.copy() for t in triangles]
-    for b in range(BLOCKS):
-        if x.edges[b] < step.sample:
-            found[b][:, list(places)] = 0.0
+def _stepped(T: Array, start: int, samples: Mapping[str, int], places: Mapping[str, Sequence[int]]) -> Array:
+    """The triangle of a block of time, with the columns of steps put to zero that come on a later edge than its ``start``."""
+    found = T.copy()
+    for e, sample in samples.items():
+        if start < sample:
+            found[:, list(places[e])] = 0.0
     return found
 
 
-def _with_penalty(f: Fitted, effects: Sequence[str]) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant."""
+def _root(
+    f: Fitted,
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> Array:
+    """Triangle of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
+    moved = [k for e in samples for k in places[e]]
+    n, m = f.size + 1, len(moved)
+    blocks = []
+    for T, start in zip(f.triangles[0], edges[:-1], strict=True):
+        blocks.append(np.hstack([T, _stepped(T, int(start), samples, places)[:, moved]]))
+    blocks[0] = np.vstack([blocks[0], np.zeros((m, n + m))])
+    sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
+    return fold([*blocks, sheet])
+
+
+def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, Sequence[int]]) -> Array:
+    """Of :func:`_root` the triangle (n, n) in which some steps begin at their instants."""
+    column = list(range(f.n_base, f.size + 1))
+    first = f.size + 1
+    for e, own in places.items():
+        for n, k in enumerate(own):
+            if e in steps:
+                column[k - f.n_base] = first + n
+        first += len(own)
+    return below(root, f.n_base, column)
+
+
+def _with_penalty(f: Fitted, effects: Sequence[str], T: Array | None = None) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(field_of(f, effects), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(field_of(f, effects, T), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -55,6 +55,8 @@ def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, in
     X = X[:, usable]
     if not X.shape[1]:
         return 0.0, 0
+    if X.shape[1] == 1:
+        return float((X[:, 0] @ P[:, -1]) ** 2 / (X[:, 0] @ X[:, 0])), 1
     U, s, _ = np.linalg.svd(X, full_matrices=False)
     keep = s > max(np.max(floor[list(columns)]) * 0.3, s[0] * 1e-7)
     return float(np.sum((U[:, keep].T @ P[:, -1]) ** 2)), int(np.sum(keep))

@@ -202,12 +202,12 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def field_of(f: Fitted, available: Sequence[str]) -> Field:
-    """The candidates among ``available`` effects, on the triangle of everything."""
+def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Field:
+    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    return Field(f.whole, f.n_base, kept, f.calibration.rows, freedom=freedom)
+    return Field(f.whole if T is None else T, f.n_base, kept, f.calibration.rows, freedom=freedom)
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -17,7 +17,8 @@ from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.passes import Piece, whitened_columns
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS, ROWS
-from ragg_runtime.fit.square_root import join, triangle, with_prior
+from ragg_runtime.fit.square_root import below, fold, join, triangle
+from ragg_runtime.fit.square_root import prior as prior_rows
 
 Array = NDArray[np.float64]
 
@@ -44,23 +45,23 @@ def best_step(
     ``columns`` are those of the effect acting all the time (positions after the base); ``given`` those of
     effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
     """
-    fixed = [*range(n_base), *(n_base + n for n in given)]
-    moving = [n_base + n for n, _ in columns]
-    k, m = len(fixed), len(moving)
-    picked = [t[:, [*fixed, *moving, t.shape[1] - 1]] for t in triangles]
+    k, m = n_base + len(given), len(columns)
+    others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
+    picked = [below(t, n_base, others) for t in triangles]
     # The stretches after an edge count with the step's columns, those before it without.
-    after: list[Array] = [np.zeros((0, k + m + 1))]
+    after: list[Array] = [np.zeros((k + m + 1, k + m + 1))]
     for t in reversed(picked[1:]):
-        after.append(join([after[-1], t]))
-    before = np.zeros((0, k + m + 1))
+        after.append(fold([after[-1], t]))
+    before = np.zeros((k + m + 1, k + m + 1))
+    sheet = prior_rows(range(n_base), k + m + 1, prior)
     best: Step | None = None
     own = [(n, c) for n, (_, c) in enumerate(columns)]
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
     for n, edge in enumerate(edges):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
-        before = join([before, off])
-        T = with_prior(np.vstack([before, after[len(edges) - n]]), range(n_base), prior)
+        before = fold([before, off])
+        T = fold([before, after[len(edges) - n], sheet])
         test = likelihood_ratio.test(likelihood_ratio.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
         if best is None or test.log_p < best.test.log_p:
             best = Step(edge, test, 2 * BLOCKS)

@@ -246,7 +246,6 @@ def fit(
     The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
     ``unweighted``: all samples weigh the same in it.
     """
-    model = model.for_fits(sum(len(o.record.time) for o in observations))
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     widening = 1.0
     for _ in range(WIDENED):

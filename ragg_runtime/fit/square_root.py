@@ -68,6 +68,17 @@ def fold(trapezoids: Sequence[Array]) -> Array:
     return np.asarray(np.triu(R))
 
 
+def below(T: Array, first: int, picked: Sequence[int]) -> Array:
+    """The triangle of the first columns of T (n, n), which are triangular in it already, and of others ``picked``."""
+    k = first + len(picked)
+    R = np.zeros((k, k))
+    R[:first, :first] = T[:first, :first]
+    R[:first, first:] = T[:first, picked]
+    rest = np.linalg.qr(T[first:, picked], mode="r")
+    R[first : first + len(rest), first:] = rest
+    return R
+
+
 def of_some(root: Array, own: Sequence[int]) -> Array:
     """(n, n): what a root (all, all) of an information knows of some parameters, whatever the others are."""
     others = [k for k in range(len(root)) if k not in set(own)]

@@ -86,7 +86,7 @@ class Effect:
 
 
 MANY = 200_000
-"""Samples from which a model that was derived for a flight is worth half a second of compiling."""
+"""Samples from which the voltages of a model are worth half a second of compiling."""
 
 
 @dataclass(frozen=True)
@@ -111,8 +111,6 @@ class Model:
         Whose accelerometers the chain is.
     fitting
         The C of chain and signatures: of what fits evaluate.
-    in_machine_code
-        Whether fits run in machine code (see :meth:`for_fits`).
     """
 
     effects: tuple[Effect, ...]
@@ -124,11 +122,6 @@ class Model:
     folded: ModuleType | None = field(default=None, repr=False, compare=False)
     layout: Layout = PAPER
     fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
-    in_machine_code: bool = field(default=False, compare=False)
-
-    def for_fits(self, samples: int) -> Model:
-        """The model for fits to so many samples: in machine code if they outweigh the wait for the compiler."""
-        return self if self.in_machine_code or samples < MANY else replace(self, in_machine_code=True)
 
     @cached_property
     def evaluators(self) -> Mapping[str, Evaluator]:
@@ -136,7 +129,8 @@ class Model:
         from ragg_runtime.model.native import for_fits
 
         modules = {"chain": self.chain, "signatures": self.signatures}
-        return for_fits(modules, self.fitting if self.in_machine_code else {}, self.layout)
+        # the packaged model, which alone is folded, is compiled once for all flights
+        return for_fits(modules, self.fitting, self.layout, quick=self.folded is None)
 
     def compiled(self, backend: Literal["auto", "c", "numpy"] = "auto") -> Evaluator:
         """The model as machine code, compiled on first use; in NumPy, with a note, where that cannot be."""
@@ -170,8 +164,7 @@ def _packaged(kinematics: str) -> Model:
     c = {name: root.joinpath("c", name).read_text("utf-8") for name in names}
     model = _model(manifest, chain, signatures, c)
     sources = {name: c[name] for name in c if not name.startswith("signatures")}
-    # compiled once for all flights
-    return replace(model, sources=sources, folded=folded, in_machine_code=True)
+    return replace(model, sources=sources, folded=folded)
 
 
 def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout = PAPER) -> Model:
@@ -188,7 +181,7 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
         sys.modules[module.__name__] = module
         exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
         modules[name] = module
-    c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
+    c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith(("c/", "fits/"))}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
     return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")}, layout=layout)
 

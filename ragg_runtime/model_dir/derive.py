@@ -247,7 +247,8 @@ def with_effects(
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
     """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
-    return _derived(instrument) if _has_files(instrument) else {}
+    files = _derived(instrument) if _has_files(instrument) else {}
+    return {name: text for name, text in files.items() if not name.startswith("fits/")}
 
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:

@@ -147,7 +147,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     n = len(p.flight)
     names = p.columns
     left = np.empty((len(names), n))
-    evaluator = model.compiled("auto" if model.in_machine_code and n >= MANY else "numpy")
+    evaluator = model.compiled("auto" if n >= MANY else "numpy")
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)

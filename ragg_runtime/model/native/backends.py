@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Literal, Protocol
@@ -263,19 +263,46 @@ def evaluator(
 
 
 def for_fits(
-    modules: Mapping[str, Module], sources: Mapping[str, str], layout: Layout = PAPER
-) -> dict[str, Evaluator]:
-    """Evaluators of generated modules (name -> module) for their derivatives.
+    modules: Mapping[str, Module],
+    sources: Mapping[str, str],
+    layout: Layout = PAPER,
+    *,
+    quick: bool = False,
+) -> Mapping[str, Evaluator]:
+    """Evaluators of generated modules (name -> module) for their derivatives, each made when it is asked for.
 
-    In machine code where ``sources`` (the C of all of them, or none) can be compiled; else in NumPy, without a note:
-    a fit is a little slower then, and the same but for rounding.
+    In machine code where ``sources`` holds a module's C and it can be compiled (``quick``: in a third of the time, to code
+    that is as fast where memory is what it waits for); else in NumPy, without a note: a fit is a little slower then, and
+    the same but for rounding.
     """
-    if sources:
-        try:
-            library = Library(build(sources).library)
-            return {
-                name: Compiled(module, layout, library, False, name=name) for name, module in modules.items()
-            }
-        except BuildError:
-            pass
-    return {name: Interpreted(module, layout, None) for name, module in modules.items()}
+    return _ForFits(modules, sources, layout, quick)
+
+
+class _ForFits(Mapping[str, Evaluator]):
+    def __init__(
+        self, modules: Mapping[str, Module], sources: Mapping[str, str], layout: Layout, quick: bool
+    ) -> None:
+        self._modules, self._sources, self._layout, self._quick = modules, sources, layout, quick
+        self._made: dict[str, Evaluator] = {}
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._modules)
+
+    def __len__(self) -> int:
+        return len(self._modules)
+
+    def __getitem__(self, name: str) -> Evaluator:
+        if name not in self._made:
+            self._made[name] = self._evaluator(name)
+        return self._made[name]
+
+    def _evaluator(self, name: str) -> Evaluator:
+        module = self._modules[name]
+        own = {n: text for n, text in self._sources.items() if n.partition(".")[0] == name}
+        if own:
+            try:
+                library = Library(build(own, quick=self._quick).library)
+                return Compiled(module, self._layout, library, False, name=name)
+            except BuildError:
+                pass
+        return Interpreted(module, self._layout, None)
