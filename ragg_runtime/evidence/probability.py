@@ -81,17 +81,17 @@ def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
     if not effects:
         return Probabilities(of={}, credible=((),), sets={(): 1.0})
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
-    found: dict[tuple[str, ...], list[float]] = {(): [0.0]}
-    alone = _evidence([(b,) for b in blocks])
+    alone = _evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
+    ways: dict[tuple[str, ...], list[float]] = {(): [0.0]}
     for b, value in zip(blocks, alone, strict=True):
-        found.setdefault((b.effect,), []).append(float(value) + odds)
-    best = _best(blocks, alone)
+        ways.setdefault((b.effect,), []).append(float(value) + odds)
+    logs = {s: float(logsumexp(v)) for s, v in ways.items()}
+    best = sorted(_best(blocks, alone), key=lambda b: b.effect)
     for size in range(2, LARGEST + 1):
-        sets = list(combinations(best, size))
-        for s, value in zip(sets, _evidence(sets), strict=True):
-            found[tuple(sorted(b.effect for b in s))] = [float(value) + size * odds]
-    # most sets have one way: what is called ten thousand times is spared the general function
-    return summed({s: v[0] if len(v) == 1 else float(logsumexp(v)) for s, v in found.items()}, effects)
+        sets = np.array(list(combinations(range(len(best)), size)), dtype=np.intp).reshape(-1, size)
+        values = _evidence(best, sets) + size * odds
+        logs.update(zip(combinations((b.effect for b in best), size), values.tolist(), strict=True))
+    return summed(logs, effects)
 
 
 def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:
@@ -118,26 +118,24 @@ def _best(blocks: Sequence[_Block], alone: Array) -> list[_Block]:
     return [b for _, b in chosen.values()]
 
 
-def _evidence(sets: Sequence[tuple[_Block, ...]]) -> Array:
-    """log B (n,) of sets of blocks against the empty set, g averaged and the blocks' weights in."""
-    if not sets:
+def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
+    """log B (n,) of sets (n, size) of blocks against the empty set, g averaged and the blocks' weights in."""
+    if not len(sets):
         return np.empty(0)
-    blocks = {id(b): b for s in sets for b in s}
-    ends = dict(zip(blocks, np.cumsum([len(b.along) for b in blocks.values()]), strict=True))
-    Q = np.concatenate([b.Q for b in blocks.values()], axis=1)
-    y = np.concatenate([b.along for b in blocks.values()])
+    Q = np.concatenate([b.Q for b in blocks], axis=1)
+    y = np.concatenate([b.along for b in blocks])
     inner = Q.T @ Q
-    chi2, freedom = np.empty(len(sets)), np.empty(len(sets))
-    shapes: dict[tuple[int, ...], list[int]] = {}
-    for n, s in enumerate(sets):
-        shapes.setdefault(tuple(len(b.along) for b in s), []).append(n)
-    for shape, members in shapes.items():
-        first = np.array([[ends[id(b)] - len(b.along) for b in sets[n]] for n in members])
+    length = np.array([len(b.along) for b in blocks])
+    start = np.cumsum(length) - length
+    chi2, freedom = np.empty(len(sets)), np.sum(length[sets], axis=1)
+    shapes, which = np.unique(length[sets], axis=0, return_inverse=True)
+    for n, shape in enumerate(shapes):
+        members = np.flatnonzero(which.ravel() == n)
+        first = start[sets[members]]
         at = np.concatenate([first[:, [m]] + np.arange(k) for m, k in enumerate(shape)], axis=1)
         G = inner[at[:, :, None], at[:, None, :]] + RIDGE * np.eye(at.shape[1])
         chi2[members] = np.sum(y[at] * np.linalg.solve(G, y[at][:, :, None])[:, :, 0], axis=1)
-        freedom[members] = at.shape[1]
-    weight = np.array([sum(b.weight for b in s) for s in sets])
+    weight = np.sum(np.array([b.weight for b in blocks])[sets], axis=1)
     shrink = STRENGTHS / (1.0 + STRENGTHS)
     each = 0.5 * chi2[:, None] * shrink - 0.5 * freedom[:, None] * np.log1p(STRENGTHS)
     averaged: Array = np.asarray(logsumexp(each, axis=1)) - np.log(len(STRENGTHS)) + weight
