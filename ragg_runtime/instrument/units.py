@@ -10,15 +10,18 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, TypeVar
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-import pint
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.unit_spelling import spellings
+from ragg_runtime.instrument.usual_units import BASE, FACTORS, FACTORS_OF_G, G0
+
+if TYPE_CHECKING:
+    import pint
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -59,13 +62,19 @@ class Units:
         if not (math.isfinite(g0) and g0 > 0):
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
+        self._usual = {**FACTORS, **FACTORS_OF_G} if self.g0 == G0 else FACTORS
+        self._parsed: dict[str, Any] = {}
+        self._stems: dict[str, str | None] = {}
+
+    @cached_property
+    def _registry(self) -> pint.UnitRegistry[Any]:
+        import pint  # slow to import, and only units that are not usual need it
+
         registry: pint.UnitRegistry[Any] = pint.UnitRegistry(on_redefinition="ignore")
         registry.define(f"standard_g = {self.g0!r} * meter / second ** 2 = g")
         registry.define("kilogram_mass = 1000 * gram = kg")
         registry.define("eotvos = 1e-9 / second ** 2 = Eo = Eotvos")
-        self._registry = registry
-        self._parsed: dict[str, Any] = {}
-        self._stems: dict[str, str | None] = {}
+        return registry
 
     def parse(self, unit: str, where: str | None = None) -> Any:
         """The pint unit written as ``unit``; UserError if it is none."""
@@ -75,6 +84,8 @@ class Units:
         return self._parsed[text]
 
     def _parse(self, text: str, where: str | None) -> Any:
+        import pint
+
         if text in DIMENSIONLESS:
             return self._registry.dimensionless
         remedy: str | None = None
@@ -97,6 +108,10 @@ class Units:
         Turns and angles are told apart where they would be confused: a frequency in rpm or rad/s becomes
         turns a second, and an angular rate in Hz is refused.
         """
+        usual = self._usual.get((unit, si_unit))
+        if usual is not None:
+            with np.errstate(over="ignore"):
+                return value if usual == 1.0 else value * usual
         source, target = self.parse(unit, where), self.parse(si_unit)
         self._same_dimension(source, unit, target, si_unit, where)
         factor = 1.0
@@ -128,6 +143,8 @@ class Units:
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
         """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
+        if unit in BASE:
+            return BASE[unit]
         base = self._registry.get_base_units(self.parse(unit, where))[1]
         return f"{base:~C}" or "1"
 
@@ -149,7 +166,8 @@ class Units:
         conversion. Raises UserError for anything else, NaN and infinity included.
         """
         quantity = read_quantity(raw, where, count=count)
-        self.parse(quantity.unit, where)
+        if quantity.unit not in BASE:
+            self.parse(quantity.unit, where)
         return quantity
 
     def _same_dimension(self, source: Any, unit: str, target: Any, si_unit: str, where: str | None) -> None:

@@ -150,10 +150,7 @@ def packaged(kinematics: str = "platform") -> Model:
 
 @cache
 def _packaged(kinematics: str) -> Model:
-    import generated
-    import generated.full
-
-    package = generated if kinematics == "platform" else generated.full
+    package = importlib.import_module("generated" if kinematics == "platform" else "generated.full")
     root = resources.files(package)
     manifest = json.loads(root.joinpath("manifest.json").read_text("utf-8"))
 

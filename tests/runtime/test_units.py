@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.instrument.units import RawQuantity, Units, units
+from ragg_runtime.instrument.usual_units import BASE, FACTORS, FACTORS_OF_G
 
 G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)
@@ -226,3 +227,19 @@ def test_did_you_mean() -> None:
     assert did_you_mean("raduis", ["radius", "g0"]) == "did you mean 'radius'?"
     assert did_you_mean("K_0", ["K1", "K0"]) == "did you mean 'K0'?"
     assert did_you_mean("zzz", ["radius"]) is None
+
+
+def test_usual_units_are_what_pint_makes_of_them() -> None:
+    quick, pint_alone = Units(9.8), Units(9.8)
+    pint_alone._usual = {}
+    values = np.random.default_rng(3).normal(size=50) * 1e3
+    for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
+        assert np.array_equal(quick.to_si(values, unit, si_unit), pint_alone.to_si(values, unit, si_unit)), (
+            unit
+        )
+        assert quick.to_si(0.3, unit, si_unit) == pint_alone.to_si(0.3, unit, si_unit), unit
+        assert pint_alone.uses_g(unit) == ((unit, si_unit) in FACTORS_OF_G), unit
+    for unit, base in BASE.items():
+        found = pint_alone._registry.get_base_units(pint_alone.parse(unit))[1]
+        assert (f"{found:~C}" or "1") == base, unit
+    assert Units(9.81).to_si(1.0, "ug", "m/s^2") == pytest.approx(9.81e-6)
