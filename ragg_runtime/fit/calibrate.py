@@ -24,7 +24,7 @@ from ragg_runtime.fit.trust_region import Linear, Minimum, minimise
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
+from ragg_runtime.signals.noise_spectrum import Noise, white_noise
 
 Array = NDArray[np.float64]
 
@@ -198,7 +198,7 @@ class _Unweighted:
         if key not in self._tried:
             while len(self._tried) > 1:
                 self._tried.pop(next(iter(self._tried)))
-            unit = [_white(o, 1.0) for o in self.task.observations]
+            unit = [white_noise(o.record.rate, len(o.series)) for o in self.task.observations]
             self._tried[key] = self.task.at(x, unit, self.most)
         return self._tried[key]
 
@@ -295,11 +295,3 @@ def _linear(T: Array, to_nominal: Array) -> Linear:
     """The fit of a triangle [base (n) | residual], the prior in it: its centre is ``to_nominal`` away, its width one scale."""
     R = with_prior(T, range(len(to_nominal)), to_nominal)
     return Linear(R[:-1, :-1], R[:-1, -1], float(R[-1, -1] ** 2))
-
-
-def _white(o: Observation, size: float) -> Noise:
-    """White noise of this size, V, in every output."""
-    flat = NoiseModel(o.record.rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
-    taps = np.array([1.0 / size])
-    m = len(o.series)
-    return Noise((flat,) * m, (taps,) * m)

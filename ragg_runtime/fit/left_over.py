@@ -66,15 +66,25 @@ def left_over(
         seen = disturbances(placed(left.rest, valid), valid, rate, band)
         lines = [d for d in seen if d.kind == "line"]
         jump = None if lines else _jump(left, valid, rate)
-        if jump is not None:  # to the sample; those that a mean shows are of no use beside it
-            without = beside([*left.found, jump])
-            if _told(left, without, valid, rate, band):
-                left = without
-                continue
+        with_it = None if jump is None else _and(left, jump.columns(time)[0], valid)
+        if jump is not None and with_it is not None and _told(left, with_it, valid, rate, band):
+            left = beside(
+                [*left.found, jump]
+            )  # to the sample; those that a mean shows are of no use beside it
+            continue
         if not seen:
             break
         left = beside([*left.found, *(lines or seen)])
     return replace(left, columns=np.empty(0), directions=np.empty(0))
+
+
+def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:
+    """What is left once one more column (rows,) is fitted: what is new in it takes its share of residual and noise."""
+    new = column - (left.directions @ (left.directions.T @ (left.columns @ column))) @ left.columns
+    new /= np.linalg.norm(new)
+    nothing = _kept(new[None], np.zeros((1, 1)), valid)
+    kept = np.maximum(left.kept + _kept(new[None], np.ones((1, 1)), valid) - nothing, 0.0)
+    return replace(left, rest=left.rest - new * float(new @ left.rest), kept=kept)
 
 
 def placed(rest: Array, valid: NDArray[np.bool_]) -> Array:

@@ -23,7 +23,7 @@ from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
-from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel
+from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, white_noise
 
 Array = NDArray[np.float64]
 
@@ -100,7 +100,7 @@ def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
 
 def _parts(at: Point, o: Observation) -> list[_Part]:
     """What is left of segments that are spread over the flight."""
-    unwhitened = Noise((), (np.ones(1),) * len(o.series))
+    unwhitened = white_noise(o.record.rate, len(o.series))
     band = unknown_gradient.band(o)
     rate = o.record.rate if o.kind != "channels" else None
     n_base = len(design.base_columns(at.model, at.instrument))

@@ -59,23 +59,25 @@ class PreparedFlight:
         """What yields residuals for coefficients v (k, size) at least cost: without candidates if none is used."""
         if self._kept or np.any(v[:, n_base:]):
             return self, v
-        return replace(self, at=replace(self.at, with_candidates=False)), v[:, :n_base]
+        return replace(self, at=replace(self.at, with_candidates=False), _kept=[]), v[:, :n_base]
 
     def with_steps(
         self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
     ) -> PreparedFlight:
-        """The same with steps (effect -> instant, s; effect -> places of its columns), kept columns included."""
+        """The same with steps (effect -> instant, s; effect -> places of its columns).
+
+        Kept columns go over to it, which saves a copy of them all: should this flight be asked again, it computes them anew.
+        """
         moved = [k for e in instants for k in places[e]]
-        kept = []
-        for piece in self._kept:  # a flight that is kept is one segment: the filter starts from rest
-            columns, white = piece.columns.copy(), piece.white.copy()
+        kept = list(self._kept)
+        self._kept.clear()
+        for piece in kept:  # a flight that is kept is one segment: the filter starts from rest
             record = piece.observation.record
             for e, instant in instants.items():
-                columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
-            part = whitened_columns(columns[moved], self.noise, None, record)
+                piece.columns[places[e], :, : int(np.searchsorted(record.time, instant))] = 0.0
+            part = whitened_columns(piece.columns[moved], self.noise, None, record)
             unknown_gradient.project(part, piece.windows)
-            white[moved] = part
-            kept.append(replace(piece, columns=columns, white=white))
+            piece.white[moved] = part
         return replace(self, at=replace(self.at, instants=instants), _kept=kept)
 
     def released(self) -> PreparedFlight:

@@ -61,6 +61,12 @@ class Window:
     white: Array
 
     @cached_property
+    def rows(self) -> slice | NDArray[np.intp]:
+        """The same as a slice, which is no copy, where they follow one another."""
+        first, last = int(self.places[0]), int(self.places[-1]) + 1
+        return slice(first, last) if last - first == len(self.places) else self.places
+
+    @cached_property
     def raw(self) -> Array:
         """(m valid, k): orthonormal basis before whitening."""
         return orthonormal(self.plain)
@@ -108,7 +114,7 @@ def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         if known is noise:
             return found
     found = _windows(o, rows, noise)
-    o.memo[:] = [*o.memo[-1:], (noise, found)]
+    o.memo[:] = [*o.memo[-2:], (noise, found)]
     return found
 
 
@@ -159,9 +165,9 @@ def _shares(o: Observation, X: Array) -> list[Array]:
 def project(columns: Floats, found: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
     for w in found:
-        Q = w.white.astype(columns.dtype)
-        part = columns[:, w.places]
-        columns[:, w.places] = np.subtract(part, np.matmul(np.matmul(part, Q), Q.T))
+        Q = w.white.astype(columns.dtype, copy=False)
+        part = columns[:, w.rows]
+        columns[:, w.rows] = np.subtract(part, np.matmul(np.matmul(part, Q), Q.T))
 
 
 def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:

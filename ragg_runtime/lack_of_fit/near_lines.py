@@ -32,6 +32,9 @@ STEP = 0.25
 
 FINER = 8
 
+TOGETHER = 11
+"""Frequencies whose waves are made at a time: they stay in the cache."""
+
 DISTINCT = 1e-6
 """Share of a wave that must be left by what is fitted for it to have a direction of its own."""
 
@@ -108,11 +111,17 @@ def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> t
     along = np.zeros((2 * n, len(projector.along)))
 
     def sums(piece: Piece) -> tuple[Array, Array, Array]:
-        X = _waves(x, piece, frequencies)
         Q = projector.basis(piece)
-        partner = np.concatenate([X[n:], X[:n]])
-        inner = np.stack([np.einsum("ij,ij->i", X, X), np.einsum("ij,ij->i", X, partner)], axis=1)
-        return X @ projector.left(piece, Q), inner, X @ Q
+        right = np.column_stack([projector.left(piece, Q), Q])
+        products, inner = np.empty((2 * n, right.shape[1])), np.empty((2 * n, 2))
+        for k in range(0, n, TOGETHER):
+            X = _waves(x, piece, frequencies[k : k + TOGETHER])
+            m = len(X) // 2
+            for half, partner, first in ((X[:m], X[m:], k), (X[m:], X[:m], n + k)):
+                products[first : first + m] = half @ right
+                inner[first : first + m, 0] = np.einsum("ij,ij->i", half, half)
+                inner[first : first + m, 1] = np.einsum("ij,ij->i", half, partner)
+        return products[:, 0], inner, products[:, 1:]
 
     for d, g, a in x.each(sums):
         dot += d

@@ -34,13 +34,28 @@ STRETCH = 2048
 """Samples that are summed in single precision."""
 
 
-def products(X: Singles, right: Array) -> Array:
-    """X (terms, N) times right (N, k): single precision within a stretch, double from stretch to stretch."""
-    singles = right.astype(np.float32)
+def products(X: Singles, right: Array | Singles, starts: Sequence[int] | None = None) -> Array:
+    """X (terms, N) times right (N, k): single precision within a stretch, double from stretch to stretch.
+
+    ``starts``: of the stretches that count (all).
+    """
+    singles = right.astype(np.float32, copy=False)
     total = np.zeros((len(X), right.shape[1]))
-    for start in range(0, X.shape[1], STRETCH):
+    for start in range(0, X.shape[1], STRETCH) if starts is None else starts:
         total += X[:, start : start + STRETCH] @ singles[start : start + STRETCH]
     return total
+
+
+SILENT = 1e-9
+"""Share of the square of what an unknown gradient spans in a window below which a stretch of time, far from it, is left out:
+less than single precision tells."""
+
+
+def _heard(Z: Array) -> tuple[Singles, list[int]]:
+    """Columns Z (N, k) in single precision, and where the stretches begin in which they are not silent."""
+    energy = np.add.reduceat(np.sum(Z**2, axis=1), np.arange(0, len(Z), STRETCH))
+    heard = [int(n) * STRETCH for n in np.flatnonzero(energy > SILENT * np.sum(energy))]
+    return Z.astype(np.float32), heard
 
 
 def squares(X: Singles) -> Array:
@@ -119,8 +134,8 @@ class Directions:
 
         ``right`` must hold nothing that an unknown gradient spans.
         """
-        back = self._back(right)
-        lost = [self._back(w.white, w.places) for w in self.piece.windows]
+        back = self._back(right).astype(np.float32)
+        lost = [_heard(self._back(w.white, w.places)) for w in self.piece.windows]
         # Parseval: the squared norm over all outputs is a weighted sum over the spectrum
         power = np.sum([np.abs(g) ** 2 for g in self.gains], axis=0) / self.size
         power[1 : len(power) - (self.size % 2 == 0)] *= 2.0
@@ -131,8 +146,8 @@ class Directions:
             at, x = chunks[k]
             spectrum = fft.rfft(x, axis=1, workers=count()) * weight
             norm2 = squares(spectrum.view(np.float32))
-            for Z in lost:
-                norm2 -= np.sum(products(x, Z) ** 2, axis=1)
+            for Z, starts in lost:
+                norm2 -= np.sum(products(x, Z, starts) ** 2, axis=1)
             return at, x, products(x, back), norm2
 
         yield from mapped(scored, range(len(chunks)))
