@@ -46,7 +46,7 @@ def products(X: Singles, right: Array | Singles, starts: Sequence[int] | None = 
     return total
 
 
-SILENT = 1e-9
+SILENT = 1e-7
 """Share of the square of what an unknown gradient spans in a window below which a stretch of time, far from it, is left out:
 less than single precision tells."""
 
