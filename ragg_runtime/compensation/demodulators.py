@@ -8,11 +8,12 @@ from functools import cache, cached_property
 from types import MappingProxyType
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 
@@ -72,14 +73,13 @@ class Demodulator:
 
     def response(self, frequency: Array) -> NDArray[np.complex128]:
         """Complex gain at frequencies, Hz; its phase is against the sample's own instant."""
-        _, h = signal.freqz(self.taps, worN=frequency, fs=self.rate)
-        return np.asarray(h * np.exp(2j * np.pi * frequency * self.ahead / self.rate))
+        back = np.exp(-2j * np.pi * frequency / self.rate)
+        return np.asarray(polyval(back, self.taps) * back ** (-float(self.ahead)))
 
     def low_passed(self, x: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
-        taps = self.taps.reshape((1,) * (x.ndim - 1) + (-1,))
-        whole = signal.oaconvolve(x, taps, mode="full", axes=-1)
-        return np.asarray(whole[..., self.ahead : self.ahead + x.shape[-1]])
+        ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
+        return convolved(np.pad(x, ends), self.taps)
 
 
 def _fir(rate: float) -> Demodulator:
@@ -96,6 +96,8 @@ def _fir(rate: float) -> Demodulator:
 
 def _impulse(rate: float) -> Array:
     """Impulse response of the Butterworth low-pass until it is forgotten."""
+    from scipy import signal  # slow to import, and only these demodulators need it
+
     if rate / 2 <= CUTOFF:
         raise UserError(
             "the low-pass does not fit the sampling rate",
@@ -112,7 +114,7 @@ def _impulse(rate: float) -> Array:
 
 def _butterworth(rate: float) -> Demodulator:
     h = _impulse(rate)
-    both = signal.oaconvolve(h, h[::-1])
+    both = convolved(h, h[::-1], "full")
     return Demodulator(
         name="butterworth",
         description="Butterworth of order 6 at 0.18 Hz, forward and backward",

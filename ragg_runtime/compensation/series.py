@@ -219,17 +219,20 @@ class Segment:
     def directions(self) -> int:
         return len(self.parts[0][1].directions)
 
-    def by_parameters(self, k: int) -> Complex:
-        """How the gradient changes, to first order, a standard deviation along direction k of the parameters, Eo.
+    def by_parameters(self) -> Complex:
+        """(directions, N / few): how the gradient changes, to first order, a standard deviation along each direction of the
+        parameters, Eo.
 
         Of every so many samples the mean enters (:data:`FINE`), for the centres of these; how sure a value is, is no
         matter of its last digits.
         """
         few, d = self.fewer
         count = len(self.k) // few
-        change = (self.output(k, STEP) - self.reference)[: count * few].reshape(count, few)
-        mixed = np.einsum("nf,cnf->cn", change, self.averaging)
-        return d.low_passed(mixed[0] + 1j * mixed[1])
+        mixed = np.empty((self.directions(), count), dtype=np.complex128)
+        for k in range(len(mixed)):
+            change = (self.output(k, STEP) - self.reference)[: count * few].reshape(count, few)
+            mixed[k].real, mixed[k].imag = np.einsum("nf,cnf->cn", change, self.averaging)
+        return d.low_passed(mixed)
 
     @cached_property
     def averaging(self) -> Array:
@@ -249,10 +252,8 @@ class Segment:
     def variance(self) -> Array:
         """(2, N) Eo^2: of inline and cross, by the parameters."""
         few, _ = self.fewer
-        total = np.zeros((2, len(self.k) // few))
-        for k in range(self.directions()):
-            d = self.by_parameters(k)
-            total += np.stack([d.real**2, d.imag**2])
+        changes = self.by_parameters()
+        total = np.stack([np.sum(changes.real**2, axis=0), np.sum(changes.imag**2, axis=0)])
         at = np.arange(len(self.k))
         centres = (np.arange(total.shape[1]) + 0.5) * few - 0.5
         return np.stack([np.interp(at, centres, v) for v in total])
@@ -330,7 +331,7 @@ def basis(s: Setting, samples: Sequence[slice], neglected: float) -> Array:
         few, coarse = segment.fewer
         step = max(1, int(coarse.rate))  # the channels do not change within a second
         inside = slice(-(-segment.own.start // few), segment.own.stop // few, step)
-        found = np.stack([segment.by_parameters(k)[inside] for k in range(segment.directions())])
+        found = segment.by_parameters()[:, inside]
         rows.append(np.concatenate([found.real / s.noise[0], found.imag / s.noise[1]], axis=1))
     D = np.concatenate(rows, axis=1)
     U, _, _ = np.linalg.svd(D, full_matrices=False)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.fit.observation import Observation, output_weights
 from ragg_runtime.fit.unknown_gradient import spin_frequency
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.noise_spectrum import Noise
+from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,9 @@ class Density:
                 continue
             count = len(x) // n
             parts = np.stack([x.real, x.imag])[:, : count * n].reshape(2 * count, n)
-            f, density = signal.periodogram(signal.detrend(parts), self.rate, window="hann", detrend=False)
+            slope = np.linspace(-1.0, 1.0, n)
+            even = parts - np.outer((parts @ slope) / (slope @ slope), slope)  # what is left of a drift
+            f, density = periodogram(even, self.rate)
             p = np.mean(density.reshape(2, count, -1), axis=1)
             inside = (f >= BAND[0]) & (f <= BAND[1])
             self.total += count * np.mean(p[:, inside], axis=1)

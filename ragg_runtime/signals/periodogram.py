@@ -15,10 +15,10 @@ def hann(n: int) -> Array:
 
 
 def periodogram(x: Array, rate: float) -> tuple[Array, Array]:
-    """Frequencies, Hz, and one-sided density of x (N,) less its mean, seen through a Hann window."""
-    n = len(x)
+    """Frequencies, Hz, and one-sided density of x (..., N) less its mean, seen through a Hann window."""
+    n = x.shape[-1]
     window = hann(n)
-    wave = fft.rfft((x - np.mean(x)) * window)
+    wave = fft.rfft((x - np.mean(x, axis=-1, keepdims=True)) * window)
     power = (wave.real**2 + wave.imag**2) * (1.0 / (rate * np.sum(window**2)))
-    power[1 : len(power) - (n % 2 == 0)] *= 2.0
+    power[..., 1 : n // 2 + 1 - (n % 2 == 0)] *= 2.0
     return fft.rfftfreq(n, 1.0 / rate), power
