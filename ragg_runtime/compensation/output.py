@@ -80,8 +80,15 @@ def _type(name: str) -> pa.DataType:
 
 
 def _table(rows: Rows, schema: pa.Schema) -> pa.Table:
-    arrays = [pa.array(np.ascontiguousarray(rows[f.name]), type=f.type, from_pandas=True) for f in schema]
-    return pa.Table.from_arrays(arrays, schema=schema)
+    return pa.Table.from_arrays([_array(rows[f.name], f.type) for f in schema], schema=schema)
+
+
+def _array(values: NDArray[Any], kind: pa.DataType) -> pa.Array:
+    """A column without a copy; NaN is missing. (``pa.array`` would import pandas to look whether it is a series.)"""
+    x = np.ascontiguousarray(values, dtype=kind.to_pandas_dtype())
+    missing = np.isnan(x)
+    there = pa.py_buffer(np.packbits(~missing, bitorder="little")) if missing.any() else None
+    return pa.Array.from_buffers(kind, len(x), [there, pa.py_buffer(x)])
 
 
 @contextlib.contextmanager

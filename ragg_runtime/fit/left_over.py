@@ -166,18 +166,20 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     is a windowed wave. Without it the noise would look quietest where the columns are: on a record of a minute by three
     times. ``directions`` (n, k): columns times it are Q.
     """
-    window = hann(len(valid))
-    bins = len(valid) // 2 + 1
+    n = len(valid)
+    window = hann(n)
+    size = fft.next_fast_len(n, real=True)  # a little finer than the periodogram's own frequencies
+    bins = size // 2 + 1
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
     for k in range(0, len(columns), GROUP):
         part = columns[k : k + GROUP]
-        x = np.zeros((len(part), len(valid)))
+        x = np.zeros((len(part), n))
         x[:, valid] = part * window[valid]
-        waves[k : k + GROUP] = fft.rfft(x, axis=1)[:, some]
+        waves[k : k + GROUP] = fft.rfft(x, size, axis=1)[:, some]
     taken = np.sum(np.abs(directions.T @ waves) ** 2, axis=0)
     left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
-    return np.asarray(np.interp(np.arange(bins), some, np.maximum(left, 0.0)))
+    return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, np.maximum(left, 0.0)))
 
 
 ABSENT = 1e-11
