@@ -79,7 +79,8 @@ class Demodulator:
     def low_passed(self, x: NDArray[np.complex128]) -> NDArray[np.complex128]:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
         ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
-        return convolved(np.pad(x, ends), self.taps)
+        padded: NDArray[np.complex128] = np.pad(x, ends)
+        return convolved(padded, self.taps)
 
 
 def _fir(rate: float) -> Demodulator:

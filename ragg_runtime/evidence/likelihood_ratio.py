@@ -95,7 +95,7 @@ def test(
     """
     every = [n for n, _ in columns]
     # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
-    small = np.linalg.qr(P[:, [*every, -1]], mode="r")
+    small = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r"))
     place, low = {n: k for k, n in enumerate(every)}, floor[every]
     best = Test(0.0, 0, 0.0, ())
     for block, count in sub_blocks(columns):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeVar
+from collections.abc import Callable
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +48,10 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     return result
 
 
-def convolved(x: Array, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Array:
+Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex128])
+
+
+def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:
     """Series x (..., N), real or complex, convolved with taps (k,) along the last axis, by overlap and save.
 
     ``valid``: N - k + 1 samples, where the filter has seen nothing but the series; ``same`` and ``full`` as NumPy's
@@ -62,10 +66,11 @@ def convolved(x: Array, taps: Array, mode: Literal["valid", "same", "full"] = "v
     if n < 1:
         return np.empty((*x.shape[:-1], 0), dtype=x.dtype)
     real = not np.iscomplexobj(x)
-    forward, backward = (fft.rfft, fft.irfft) if real else (fft.fft, fft.ifft)
+    forward: Callable[..., Any] = fft.rfft if real else fft.fft
+    backward: Callable[..., Any] = fft.irfft if real else fft.ifft
     size = fft.next_fast_len(min(x.shape[-1], max(PERIOD * k, 4096)), real=real)
     gain = forward(taps, size)
-    found = np.empty((*x.shape[:-1], n), dtype=np.float64 if real else np.complex128)
+    found = np.empty((*x.shape[:-1], n), dtype=x.dtype)
     step = size - k + 1
     for start in range(0, n, step):
         y = backward(forward(x[..., start : start + size], size) * gain, size)
