@@ -99,11 +99,11 @@ def _root(
     places: Mapping[str, Sequence[int]],
 ) -> Array:
     """Triangle of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
-    moved = [k for e in samples for k in places[e]]
-    n, m = f.size + 1, len(moved)
+    n, m = f.size + 1, sum(len(places[e]) for e in samples)
     blocks = []
     for T, start in zip(f.triangles[0], edges[:-1], strict=True):
-        blocks.append(np.hstack([T, _stepped(T, int(start), samples, places)[:, moved]]))
+        begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
+        blocks.append(np.hstack([T, *begun]))
     blocks[0] = np.vstack([blocks[0], np.zeros((m, n + m))])
     sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
     return fold([*blocks, sheet])
