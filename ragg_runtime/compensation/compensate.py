@@ -245,7 +245,7 @@ def _long_enough(flight: Flight, d: Demodulator) -> None:
 
 def _recorded(flight: Flight, o: Observation, factor: float) -> NDArray[np.complex128] | None:
     """inline + i cross, Eo, of a flight that its recorder demodulated: put right for the calibrated scale factor."""
-    if o.kind != "channels":
+    if not o.recorded.demodulated:
         return None
     g = flight.outputs["inline"] + 1j * flight.outputs["cross"]
     return np.asarray(g * (factor / EOTVOS))

@@ -17,12 +17,13 @@ from scipy import linalg
 
 from ragg_runtime.fit.columns import Column, base_columns, own_columns
 from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import Observation, as_output, carried
+from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.square_root import of_some
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.model.recorded import carried
 
 Array = NDArray[np.float64]
 

@@ -155,7 +155,7 @@ def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.Evidence | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
-    if target.observations[0].kind == "channels":
+    if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     followed = sequential.evidence(target)
     for effect, instant in instants:

@@ -246,7 +246,7 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
 
 
 def _line(s: Scores) -> tuple[float, Found] | None:
-    if s.prepared.observation.kind == "channels":
+    if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
     line = s.sums.spectrum.best()
     if line is None:

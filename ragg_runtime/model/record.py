@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Layout, Vector3, gain
+from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.model.model import Chain
 from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
 
@@ -187,20 +187,6 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     f_low, t_low = spin_frequency - f_high, time - t_high
     error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
-
-
-Kind = Literal["voltages", "G_out", "channels"]
-"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
-
-
-def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
-    """What of an output was recorded, the most telling; ``None``: nothing."""
-    o = layout.outputs[place]
-    if layout.voltages(o, flight.outputs) is not None:
-        return "voltages"
-    if o.name in flight.outputs:
-        return "G_out"
-    return "channels" if len(layout.outputs) == 1 else None
 
 
 STANDING = 1e-3

@@ -16,7 +16,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.model.record import recorded
+from ragg_runtime.model.recorded import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.identify import LikelyMistake, derived_rates, likely_mistake
@@ -101,7 +101,7 @@ def _saturated(p: Picker) -> list[str]:
         return []
     G = p.flight.outputs[p.output.name]
     clipped = int(np.sum(p.flight.valid & np.isfinite(G) & ~p.usable))
-    if not clipped or p.kind == "voltages":
+    if not clipped or p.recorded.separate:
         return []
     top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))
     return [
@@ -140,7 +140,7 @@ def _without_motion_spikes(flight: Flight) -> Flight:
 def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mask, list[str]]:
     """Valid samples without the output's spikes, found in what the fitted model leaves."""
     valid = p.flight.valid.copy()
-    if p.kind == "channels":
+    if p.recorded.demodulated:
         return valid, []  # a demodulator has smeared them
     fitted = explain(model, instrument, p.pick(p.rows())).p
     eotvos = scale_factor(model, fitted, p.place)

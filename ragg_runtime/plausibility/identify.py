@@ -96,7 +96,7 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
         _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
     ]
     found = _chosen(before, tried)
-    if p.kind != "channels" or (found is not None and found.factor > BETTER):
+    if not p.recorded.demodulated or (found is not None and found.factor > BETTER):
         return found
     made = other_demodulator.best(model, instrument, p)  # takes a while: if nothing else would do
     return found if made is None else _chosen(before, [*tried, _otherwise(made)])

@@ -27,13 +27,6 @@ FLIGHTS = 4
 DRAWN = CUTOFF + WIDTH / 2
 """Highest frequency that a demodulated channel holds, Hz."""
 
-OUTPUTS = {
-    "G_out": "G_out",
-    "voltages": "V_1 … V_4, each by itself",
-    "channels": "inline and cross, put back on their carriers",
-}
-"""What of a flight was fitted, by the kind of observation."""
-
 ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
 
 
@@ -208,7 +201,6 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
     samples = sum(len(r.time) for r in records)
     valid = sum(int(np.sum(r.valid)) for r in records)
     duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
-    kind = OUTPUTS.get(f.observations[0].kind, f.observations[0].kind)
     used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
         used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
@@ -217,7 +209,7 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
         ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),
         ("duration", numbers.seconds(duration)),
         ("samples", used),
-        ("output", kind),
+        ("output", f.observations[0].recorded.words),
         ("effects in the model", effects),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
         ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),

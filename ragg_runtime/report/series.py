@@ -11,7 +11,6 @@ from scipy import signal
 
 from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import noise_gain, output_weights
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.lack_of_fit.dictionary import harmonics
@@ -56,7 +55,7 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
 def measured(w: PreparedFlight) -> Array:
     """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
     o = w.observation
-    pairs = zip(output_weights(o), o.series, strict=True)
+    pairs = zip(o.signs, o.series, strict=True)
     return np.asarray(sum(k * np.where(o.record.valid, x, 0.0) for k, x in pairs))
 
 
@@ -104,7 +103,7 @@ def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Arr
 def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
     psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
-    if w.observation.kind != "channels":
+    if not w.observation.recorded.demodulated:
         return np.asarray(psd)
     rate = w.observation.record.rate
     _, H = signal.freqz(low_pass(rate), worN=np.minimum(np.abs(f - 2 * spin), rate / 2), fs=rate)
@@ -113,7 +112,7 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
 
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
-    share = noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
+    share = w.observation.recorded.noise_share(w.observation.record.rate)
     return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 

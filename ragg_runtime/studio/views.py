@@ -149,7 +149,7 @@ def _banner(s: State) -> Json | None:
         "converged": converged if isinstance(converged, bool) else None,
         "adequate": c.adequate,
         "k_ggi": c.fitted.k_ggi,
-        "kind": c.fitted.observations[0].kind,
+        "kind": c.fitted.observations[0].recorded.kind,
         "table": [
             panels.error_row("nominal", c.nominal),
             panels.error_row("calibrated", c.calibrated),

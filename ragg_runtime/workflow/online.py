@@ -118,7 +118,7 @@ def _flight(
     told = []
     observed = observations_of([x], m.instrument)
     for o in (observed[k] for k in seeing(m.instrument, observed)):
-        if o.kind == "channels":
+        if o.recorded.demodulated:
             raise UserError(
                 "the filter works on the output before demodulation",
                 where=x.path or x.name,
