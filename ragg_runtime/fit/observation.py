@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from generated.output_effects.saturation import clipped
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
@@ -52,9 +52,8 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    clipped = saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
-    if clipped is not None:
-        valid &= ~clipped[1]
+    if o.name in flight.outputs:
+        valid &= ~clipped(flight.outputs[o.name], valid)
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part

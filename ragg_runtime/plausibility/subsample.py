@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from generated.output_effects.saturation import clipped
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
@@ -252,9 +252,7 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
         usable &= np.isfinite(flight.outputs[name])
     own = instrument.layout.outputs[place].name
     if own in flight.outputs and usable.any():
-        clipped = saturation(flight.outputs[own], usable)
-        if clipped is not None:
-            usable &= ~clipped[1]
+        usable &= ~clipped(flight.outputs[own], usable)
     derived = {}
     for name in inputs:
         if name in SPIN:
