@@ -29,8 +29,6 @@ RATES = frozenset(
 )
 """Time derivatives of the motion: models form them from it, whatever columns of these names hold."""
 
-OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
-
 AUXILIARY: Mapping[str, str] = MappingProxyType(
     {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "pressure": "Pa"}
     | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
@@ -49,6 +47,11 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
     | dict.fromkeys(DEMODULATED, "s^-2")
 )
 """SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
+
+
+def is_demodulated(name: str) -> bool:
+    """Whether a column is a demodulated channel by its name: ``inline``, ``cross_A``, ``inline_1`` ..."""
+    return name.partition("_")[0] in DEMODULATED
 
 
 @dataclass(frozen=True, eq=False)
