@@ -28,7 +28,8 @@ from ragg_runtime.fit.segments import ROWS, Segment
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
-from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 

@@ -24,6 +24,7 @@ from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS, Record
 from ragg_runtime.model.recorded import carried
+from ragg_runtime.signals.demodulate import CUTOFF
 
 Array = NDArray[np.float64]
 
@@ -59,6 +60,11 @@ class Tuning:
     noise: float
     walk: float = 0.0
     forget: float = float("inf")
+
+
+def following(density: float) -> float:
+    """Walk, Eo/sqrt(s), with which channels of a noise of so much, Eo/sqrt(Hz), are followed as the demodulators' low-pass would."""
+    return float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF)
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.model.model import Effect
-from ragg_runtime.model.record import missing_channels
 
 
 @dataclass(frozen=True)
@@ -166,7 +165,7 @@ def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
 def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
-        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record.wide)})
+        missing = sorted({c for o in f.observations for c in e.missing(o.record.wide)})
         if missing:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):

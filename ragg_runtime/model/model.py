@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from importlib import resources
@@ -90,6 +90,26 @@ class Effect:
     kind: str
     parameters: tuple[EffectParameter, ...]
     either: bool = False
+
+    def missing(self, recorded: Container[str]) -> tuple[str, ...]:
+        """The channels that it needs and a flight, which has those recorded, does not have."""
+        return missing_channels(self, recorded)
+
+
+class Needs(Protocol):
+    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
+
+    @property
+    def channels(self) -> tuple[str, ...]: ...
+
+    @property
+    def either(self) -> bool: ...
+
+
+def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
+    """As :meth:`Effect.missing`, of an effect whoever describes it."""
+    missing = tuple(c for c in e.channels if c not in recorded)
+    return () if e.either and len(missing) < len(e.channels) else missing
 
 
 MANY = 200_000

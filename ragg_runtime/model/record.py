@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -235,19 +234,3 @@ def _from_gap(valid: NDArray[np.bool_]) -> Array:
     before = at - np.maximum.accumulate(np.where(valid, -n, at))
     after = np.minimum.accumulate(np.where(valid, 2 * n, at)[::-1])[::-1] - at
     return np.minimum(np.minimum(before, after), n).astype(np.float64)
-
-
-class Needs(Protocol):
-    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
-
-    @property
-    def channels(self) -> tuple[str, ...]: ...
-
-    @property
-    def either(self) -> bool: ...
-
-
-def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
-    """The channels that an effect needs and a flight, which has those recorded, does not have."""
-    missing = tuple(c for c in e.channels if c not in recorded)
-    return () if e.either and len(missing) < len(e.channels) else missing

@@ -12,7 +12,6 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import missing_channels
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -36,7 +35,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
     """UserError if the flight cannot be held against this model at all."""
     where = flight.path or flight.name
     for e in model.effects:
-        missing = missing_channels(e, flight.channels)
+        missing = e.missing(flight.channels)
         if missing:
             raise UserError(
                 f"the effect {e.id} of the model needs a channel that the flight lacks",

@@ -16,7 +16,7 @@ from ragg_runtime.flight.record import SI_UNITS, Array, is_demodulated
 from ragg_runtime.flight.sampling import uniform
 from ragg_runtime.flight.source import Column, Source
 from ragg_runtime.flight.sources import open_sources
-from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.instrument.units import EOTVOS, Units, units
 
 STANDARD_G = 9.80665
 """m/s^2, for units made with g: quality control has no model that says another (the metre convention's value)."""
@@ -24,7 +24,6 @@ STANDARD_G = 9.80665
 SHORTEST = 30
 """Samples below which a line has no statistics."""
 
-EOTVOS = 1e-9  # s^-2
 _NAMED = ("easting", "northing", "altitude", "clearance")
 _OWN: Mapping[str, str] = {
     **dict.fromkeys(_NAMED, "m"),

@@ -141,7 +141,7 @@ def measured_section(f: Fitted, residual: Residuals) -> dict[str, Any]:
 def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
-    noise = series.harmonic_noise(f) if rows else {}
+    noise = series.harmonic_noise(f, rows)
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,6 @@ from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.lack_of_fit.dictionary import harmonics
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import stretches
 
@@ -144,11 +143,11 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     return float(inline), float(cross)
 
 
-def harmonic_noise(f: Fitted) -> dict[str, float]:
-    """The same at every harmonic of :func:`ragg_runtime.diagnosis.comparison.harmonic_errors`, Eo."""
+def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
+    """The same at harmonics of the spin (const, cos 1 ...), Eo."""
     works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _long(w)]
     found = {}
-    for h in harmonics():
+    for h in harmonics:
         k = series_name.harmonic(h).multiple
         squares = [
             demodulated_noise(w, s, abs(w.observation.record.spin_frequency), k, 2.0 if k else 1.0) ** 2

@@ -100,7 +100,7 @@ def _code(d: ModelDir) -> Any:
 
 def saved_calibration(m: Loaded) -> Saved:
     """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
-    return _frozen.in_force(m.directory, m.model)
+    return _frozen.in_force(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
 
 
 def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
@@ -257,4 +257,4 @@ def read_for_compensation(
 
 def calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the calibration that is kept."""
-    return _frozen.notes(saved_calibration(m), m.model, m.directory)
+    return _frozen.notes(saved_calibration(m), m.model, m.instrument)
