@@ -40,9 +40,9 @@ def test_every_package_has_the_hashes_of_its_files(lock: str, at_least: int) -> 
     for name, hashes in packages.items():
         assert len(hashes) == len(set(hashes)) > 0, name
     # Compiled packages have wheels for each Python and each processor.
-    for name in ("numpy", "scipy", "h5py", "pyarrow", "pandas"):
-        (hashes,) = [h for (n, _), h in packages.items() if n == name]
-        assert len(hashes) > 10, name
+    for compiled in ("numpy", "scipy", "h5py", "pyarrow", "pandas"):
+        (hashes,) = [h for (n, _), h in packages.items() if n == compiled]
+        assert len(hashes) > 10, compiled
 
 
 def test_what_the_project_asks_for_is_in_the_lock() -> None:
@@ -58,7 +58,9 @@ def test_what_the_project_asks_for_is_in_the_lock() -> None:
 def test_the_oldest_lock_holds_the_lower_bounds() -> None:
     """With setuptools, which builds the project there too: nothing is fetched beside the lock."""
     text = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
-    bounds = dict(x.split(">=") for x in [*text["project"]["dependencies"], *text["build-system"]["requires"]])
+    bounds = dict(
+        x.split(">=") for x in [*text["project"]["dependencies"], *text["build-system"]["requires"]]
+    )
     held = dict(locked("requirements-oldest.lock"))
     for name, bound in bounds.items():
         (version,) = [v for n, v in held if n == name]
