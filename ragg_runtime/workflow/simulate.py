@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+MOST_SAMPLES = 1e8
+"""Eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample."""
+
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     """A flight of a model directory's instrument; ``effects`` and ``options`` are those of :func:`simulated`."""
@@ -67,6 +70,13 @@ def simulated(
     ------
     UserError
     """
+    if duration * rate > MOST_SAMPLES:
+        raise UserError(
+            "the flight is too long to be simulated",
+            found=f"{duration:g} s at {rate:g} Hz",
+            expected=f"at most {MOST_SAMPLES:.0e} samples",
+            remedy="simulate several shorter flights",
+        )
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
