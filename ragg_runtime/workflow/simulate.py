@@ -70,13 +70,7 @@ def simulated(
     ------
     UserError
     """
-    if duration * rate > MOST_SAMPLES:
-        raise UserError(
-            "the flight is too long to be simulated",
-            found=f"{duration:g} s at {rate:g} Hz",
-            expected=f"at most {MOST_SAMPLES:.0e} samples",
-            remedy="simulate several shorter flights",
-        )
+    _held_in_memory(duration, rate)
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
@@ -111,6 +105,16 @@ def _recorded(
     x = read_flight(file, instrument.g0, need_output=False, mapping=mapping)
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
     return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
+
+
+def _held_in_memory(duration: float, rate: float) -> None:
+    if duration * rate > MOST_SAMPLES:
+        raise UserError(
+            "the flight is too long to be simulated",
+            found=f"{duration:g} s at {rate:g} Hz",
+            expected=f"at most {MOST_SAMPLES:.0e} samples",
+            remedy="simulate several shorter flights",
+        )
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
