@@ -70,7 +70,6 @@ def simulated(
     ------
     UserError
     """
-    _held_in_memory(duration, rate)
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
@@ -78,7 +77,7 @@ def simulated(
     first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
     if motion is None:
-        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+        flown = _drawn(seed, duration, rate, shape)
     else:
         flown, duration, rate = _recorded(motion, instrument, mapping)
     s = reference.simulate(
@@ -107,7 +106,7 @@ def _recorded(
     return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
 
 
-def _held_in_memory(duration: float, rate: float) -> None:
+def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:
     if duration * rate > MOST_SAMPLES:
         raise UserError(
             "the flight is too long to be simulated",
@@ -115,6 +114,7 @@ def _held_in_memory(duration: float, rate: float) -> None:
             expected=f"at most {MOST_SAMPLES:.0e} samples",
             remedy="simulate several shorter flights",
         )
+    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
