@@ -36,7 +36,6 @@ BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
 channels are often sampled more slowly than the motion, with blanks between."""
 
-_MANY = 1 << 24  # values of a slow channel that are kept at most
 _ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)

@@ -15,8 +15,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.record import Array
 from ragg_runtime.quality.lines import SurveyLine
 
-ARRANGEMENTS = ("single", "complements", "orthogonal")
-
 
 @dataclass(frozen=True)
 class Discs:

@@ -377,7 +377,3 @@ def commands(s: State) -> list[str]:
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
     cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
     return [*cut, *found]
-
-
-def model_path(s: State) -> Path:
-    return s.model.directory.path

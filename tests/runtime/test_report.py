@@ -513,7 +513,7 @@ def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.Mo
     monkeypatch.setattr(panels, "FLIGHTS", 1)
     text = report.compare_html(c, **ORIGIN)
     assert "The 1 worst of 3 flights are drawn" in text
-    assert series.worst(c.fitted, c.residual_nominal, 3) == [0, 1, 2]
+    assert series.worst(c.fitted, c.residual, 3) == [0, 1, 2]
 
 
 def test_four_voltages_see_every_accelerometer() -> None:
