@@ -19,6 +19,7 @@ from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
 from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.flight.record import is_disc_angle
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
@@ -176,7 +177,7 @@ def rows_of(
     channels = {
         name: np.full(n, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         for name, x in first.channels.items()
-        if not name.startswith("spin_angle")
+        if not is_disc_angle(name)
     }
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))

@@ -24,6 +24,7 @@ from ragg_runtime.flight.record import (
     Array,
     Flight,
     Mask,
+    is_disc_angle,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
@@ -336,7 +337,7 @@ def _filled(values: Array, name: str) -> Array:
     if not len(places):  # only in a part of a longer record
         return np.zeros_like(values)
     there = values[places]
-    if name.startswith("spin_angle"):
+    if is_disc_angle(name):
         there = np.unwrap(there)
     result[missing] = np.interp(np.flatnonzero(missing), places, there)
     return result

@@ -12,6 +12,7 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.glance import Glance
+from ragg_runtime.flight.record import left_out
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.model import Effect
@@ -375,5 +376,5 @@ def commands(s: State) -> list[str]:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
-    cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
+    cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*cut, *found]
