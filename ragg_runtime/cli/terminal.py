@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -139,7 +140,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
 
 
 def _ranked(r: Ranked) -> str:
-    p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
+    p = notebook.p_value(r.log_p / math.log(10.0), r.p_value)
     errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
     return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
 
