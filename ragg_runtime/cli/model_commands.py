@@ -84,8 +84,8 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 @json_option
 def effects(identifier: str | None, json_file: str | None) -> None:
     """The catalogue of physical effects; with ID one of them in full."""
-    from ragg_runtime.model.catalogue import effects as catalogue
-    from ragg_runtime.model.catalogue import in_words
+    from ragg_runtime.workflow.catalogue import effects as catalogue
+    from ragg_runtime.workflow.catalogue import in_words
 
     found = catalogue()
     if identifier is None:
