@@ -8,7 +8,10 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-WIDTH, FLOOR, GAP = 920, 64, 12
+WIDTH, FLOOR, GAP = 920, 96, 12
+
+LINES = 4
+"""Of a room's sentence, at most: what has no place on a floor of four rooms."""
 
 
 def floors(root: Path) -> list[list[tuple[str, str]]]:
@@ -46,7 +49,7 @@ def _row(rooms: Sequence[tuple[str, str]], y: int) -> list[str]:
             f'<rect x="{x}" y="{y}" width="{width}" height="{FLOOR}" rx="6" fill="#dbe7f3" stroke="#4b6b88"/>'
             f'<text x="{x + 12}" y="{y + 24}" font-size="17" font-weight="600" fill="#12283a">{name}</text>'
         )
-        for n, line in enumerate(_lines(says, (width - 24) // 7)[:2]):
+        for n, line in enumerate(_lines(says, (width - 24) // 7)[:LINES]):
             found.append(
                 f'<text x="{x + 12}" y="{y + 42 + 15 * n}" font-size="12.5" fill="#2c4257">'
                 f"{html.escape(line)}</text>"

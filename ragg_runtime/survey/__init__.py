@@ -2,5 +2,8 @@
 
 ``run.survey`` does it; ``task`` is what is done with one flight, ``local`` and ``cluster`` where, ``journal``
 the file that an interrupted survey continues from, ``summary`` what the flights say together. ``quality`` needs no model:
-it imports nothing above ``flight``. May import ``diagnosis``, ``plausibility``, ``model_dir`` and what is below.
+it imports nothing above ``flight``.
+
+Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model``, ``model_dir``, ``plausibility`` and
+``wording``.
 """
