@@ -1,4 +1,4 @@
-"""Statistical evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
+"""Evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
 
 Imports ``base`` and ``fit``.
 """
