@@ -166,7 +166,7 @@ BAD = {
     "omegadot_z [rad/s^2]": ("my_z [rad/s^2]", "omegadot_z: the column is missing"),
     "time [s]": ("time [ms]", "time: the column is not in SI units"),
     "a_y [m/s^2]": ("a_y", "a_y: the column has no unit"),
-    "omega_x [rad/s]": ("a_x [m/s^2]", "a_x: the column stands there twice"),
+    "omega_x [rad/s]": ("a_x [m/s^2]", "a_x: the column appears twice"),
 }
 
 
@@ -282,4 +282,4 @@ def test_a_calibration_of_another_model_is_not_exported(
     text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
     (copy / "calibration.json").write_text(text)
     told = run("export", copy, tmp_path / "c", "--c")
-    assert "values of model.toml: the saved calibration is of another model" in told
+    assert "values of model.toml: the saved calibration belongs to another model" in told
