@@ -84,8 +84,8 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
         d,
         d.text,
         generated=_code(d),
-        history=(*d.history, step),
-        calibration=with_another(d.calibration, new, str(d.path / CALIBRATION)),
+        step=step,
+        calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
