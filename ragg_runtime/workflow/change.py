@@ -18,8 +18,7 @@ from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import missing_channels
+from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import replace_model_dir
 from ragg_runtime.model_dir.history import Step
