@@ -106,7 +106,7 @@ class Model:
     sources
         The model in C: file name -> text, as derived.
     folded
-        The generated module of the folded form, which only the paper's model has.
+        The generated module of the folded form, which models without further effects have.
     layout
         Whose accelerometers the chain is.
     fitting
@@ -181,7 +181,7 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
     byte for byte, the same.
     """
     modules = {}
-    for name in ("chain", "signatures"):
+    for name in ("chain", "signatures", "folded"):
         if f"{name}.py" not in files:
             continue
         module = ModuleType(f"ragg_{label}_{name}")
@@ -190,7 +190,8 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
         modules[name] = module
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")}, layout=layout)
+    sources = {name: c[name] for name in c if not name.startswith("signatures")}
+    return replace(model, sources=sources, folded=modules.get("folded"), layout=layout)
 
 
 def _model(
