@@ -60,6 +60,9 @@ SPIN_CHANNELS = tuple(auxiliary_channel(n) for n in sorted((SPIN_RATE.name, SPIN
 """Rate and acceleration of the disc angle, which full kinematics need, in the order in which a chain has them."""
 
 
+_EMPTY = Program((), ())
+
+
 @dataclass(frozen=True)
 class Part:
     """What one accelerometer adds to a coefficient: sign times an expression in its parameters."""
@@ -96,7 +99,7 @@ class Folded:
     value: sp.Expr
     inputs: tuple[Channel, ...] = MOTION
     parameters: tuple[Parameter, ...] = INSTRUMENT
-    own: Program = Program((), ())
+    own: Program = _EMPTY
     layout: Layout = FOUR
 
     @property
