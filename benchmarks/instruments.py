@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from benchmarks import RATIO, Row
@@ -30,8 +31,7 @@ def rows(t: Any, x: Any, p: Any) -> list[Row]:
     for label, n, rounds, inner in (("streaming", STREAMING, 15, 1), ("in cache", IN_CACHE, 15, 20)):
         s, y, out = aligned(t[:n]), aligned(wide[:, :n]), aligned(np.zeros(n))
         calls: Mapping[str, Callable[[], object]] = {
-            name: lambda e=e, q=q: e.output(s, y[: len(e.inputs)], q, threads=1, out=out)  # type: ignore[misc]
-            for name, e, q, _ in models
+            name: partial(e.output, s, y[: len(e.inputs)], q, threads=1, out=out) for name, e, q, _ in models
         }
         times = interleaved(calls, rounds, inner, clock=time.process_time, prime=inner > 1)
         for name, _, _, limit in models[1:]:
