@@ -74,13 +74,11 @@ def simulated(
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     first_order = (form.mounting, form.misalignment) == (1, 1)
-    white = eotvos_noise(noise * 1e-9, instrument.radius)
-    record = (
-        None if motion is None else read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
-    )
-    if record is None:
+    record = None
+    if motion is None:
         flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
     else:
+        record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
         flown, duration, rate = _recorded(record)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
@@ -89,7 +87,7 @@ def simulated(
         rate,
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
         record_gradient=not no_gradient,
-        noise=Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if noise else None,
+        noise=_noise(noise, instrument.radius),
         rotations="first-order" if first_order else "exact",
         kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
@@ -98,6 +96,12 @@ def simulated(
         turning=turning_of(spin, instrument.layout, record),
     )
     return s.flight("simulated", voltages=voltages)
+
+
+def _noise(density: float, radius: float) -> Noise | None:
+    """Of each accelerometer, for so much (Eo/sqrt(Hz)) of the cross channel, red below 0.05 Hz."""
+    white = eotvos_noise(density * 1e-9, radius)
+    return Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if density else None
 
 
 def _recorded(x: Flight) -> tuple[reference.Motion, float, float]:
