@@ -64,10 +64,6 @@ def simulated(
         some; else one is drawn. ``mapping`` says what its columns are, where it has names of its own.
     spin
         How discs turn (``spin.FORM``), where not steadily as the sheet says; their encoders are recorded then.
-
-    Raises
-    ------
-    UserError
     """
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
