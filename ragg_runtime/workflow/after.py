@@ -214,6 +214,8 @@ def contents(m: Loaded) -> Contents:
         except UserError as error:
             origin = f"values of model.toml: {error.what}"
     folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
+        folded = {}
     return Contents(
         name=m.name,
         model=m.model,
