@@ -97,7 +97,7 @@ def _derive(
     below: Sequence[str] = (),
 ) -> Files:
     candidates = offered(candidates, form)
-    forms = [_folded(form)] if packaged else []
+    forms = [] if _active(effects) else [_folded(form)]
     chains = _chains(form, effects, candidates)
     equations = (starred(), ideal(collect())) if harmonics else None
     parts: list[Files] = []
@@ -115,11 +115,16 @@ def _derive(
 def _folded(form: Form) -> Folded:
     title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
     title += ")." if form.kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
-    return folded("folded", title, form.order, form.kinematics)
+    return folded("folded", title, form.order, form.kinematics, form.layout)
+
+
+def _active(effects: Sequence[Effect]) -> list[Effect]:
+    """Those that change the voltages."""
+    return [e for e in effects if e.kind in ("deterministic", "step")]
 
 
 def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.Chain]:
-    active = [e for e in effects if e.kind in ("deterministic", "step")]
+    active = _active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
     known = {e.id for e in effects}

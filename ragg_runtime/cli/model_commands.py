@@ -228,6 +228,13 @@ def history(model_dir: Path, json_file: str | None) -> None:
     "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
 )
 @mapping_option
+@click.option(
+    "--spin",
+    multiple=True,
+    metavar="[DISC:]HZ[,RAD@HZ[@RAD]]...",
+    help="How a disc turns (all, if none is named): a rate, negative backwards, 0 none, and swings of so many rad at so "
+    "many Hz, from a phase on. Its encoder is recorded. An encoder in --motion is flown, too.",
+)
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(

@@ -133,7 +133,7 @@ class Model:
     sources
         The model in C: file name -> text, as derived.
     folded
-        The generated module of the folded form, which only the paper's model has.
+        The generated module of the folded form, which models without further effects have.
     layout
         Whose accelerometers the chain is.
     fitting
@@ -219,10 +219,11 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
     byte for byte, the same.
     """
     modules = {}
-    for name in files:
-        stem, _, ending = name.rpartition(".")
-        if ending != "py" or not (stem in ("chain", "signatures") or stem.startswith("output_effects/")):
+    output_effects = sorted(n for n in files if n.startswith("output_effects/") and n.endswith(".py"))
+    for name in ("chain.py", "signatures.py", "folded.py", *output_effects):
+        if name not in files:
             continue
+        stem = name.removesuffix(".py")
         module = ModuleType(f"ragg_{label}_{stem.replace('/', '_')}")
         sys.modules[module.__name__] = module
         exec(compile(files[name], f"<{label}/{name}>", "exec"), module.__dict__)
@@ -234,8 +235,9 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
     }
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    sources = {name: c[name] for name in ("chain.c", "chain.h")}
-    return replace(model, sources=sources, layout=layout, own_recognisers=own)
+    sources = {name: c[name] for name in c if not name.startswith("signatures")}
+    folded = modules.get("folded")
+    return replace(model, sources=sources, folded=folded, layout=layout, own_recognisers=own)
 
 
 def _model(

@@ -84,8 +84,8 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
         d,
         d.text,
         generated=_code(d),
-        history=(*d.history, step),
-        calibration=with_another(d.calibration, new, str(d.path / CALIBRATION)),
+        step=step,
+        calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
@@ -214,6 +214,8 @@ def contents(m: Loaded) -> Contents:
         except UserError as error:
             origin = f"values of model.toml: {error.what}"
     folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
+        folded = {}
     return Contents(
         name=m.name,
         model=m.model,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -215,7 +215,9 @@ class Contents:
         for name, rate in zip(ANGULAR_ACCELERATION, ANGULAR_RATE, strict=True):
             if name not in wide and rate in wide:
                 wide[name] = Derivative().of(wide[rate], RATE)[0]
-        evaluator, found = self.model.compiled("numpy"), {}
+        # by the form that is exported
+        model = self.model if "folded.c" in self.sources else replace(self.model, folded=None)
+        evaluator, found = model.compiled("numpy"), {}
         for k, o in enumerate(self.outputs()):
             record = Record(
                 time=t,

@@ -76,7 +76,7 @@ class Evaluator(Protocol):
 
 @dataclass(frozen=True)
 class Compiled(Base):
-    """A model in machine code; ``folded``: the library also holds the folded form of the base model.
+    """A model in machine code; ``folded``: the library also holds the folded form, for outputs.
 
     ``name`` is the generated module's.
     """
@@ -153,7 +153,7 @@ class Compiled(Base):
 
 @dataclass(frozen=True)
 class Interpreted(Base):
-    """A model in NumPy, in blocks that stay in cache; ``folded``: the folded form of the base model."""
+    """A model in NumPy, in blocks that stay in cache; ``folded``: its folded form, if it has one."""
 
     folded: ModuleType | None
     backend: str = "numpy"
@@ -176,9 +176,10 @@ class Interpreted(Base):
             return G
         c = self._case(t, inputs, p, angle)
         G = into(out, len(c.t))
+        of_several = {"which": which} if self.several else {}
         for first, last in cut(len(G), len(G)):
             b = c.part(first, last)
-            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle)
+            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle, **of_several)
         return G
 
     def voltages(
