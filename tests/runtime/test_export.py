@@ -270,7 +270,7 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
     with pytest.raises(UserError, match="not empty"):
         after.export(loop.load(base[0]), tmp_path, "c")
     assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
-    with pytest.raises(UserError, match="no such form"):
+    with pytest.raises(UserError, match="unknown form"):
         after.export(loop.load(base[0]), tmp_path / "x", "fortran")
 
 
