@@ -125,6 +125,8 @@ def drawn(
     is of what is left beside them.
     """
     kind = next(e.kind for e in bench.fitted.model.candidates if e.id == effect)
+    if effect == "imu-saturation":  # its samples are left out: it has no strength
+        return None
     if kind == "output":
         return _quantised(bench, strength) if effect == "quantisation" else _saturated(bench, strength)
     if kind == "random":
@@ -175,7 +177,11 @@ def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> 
     if len(at) > 1 and rng.random() < 0.5:
         at = [at[int(rng.integers(len(at)))]]
     drawn = rng.standard_normal(len(at))
-    if effect in ("lag", "output-filter"):  # what is no filter at all with the other sign
+    if effect in (
+        "lag",
+        "output-filter",
+        "second-order-loop",
+    ):  # what is no filter at all with the other sign
         drawn = np.abs(drawn)
     weights[at] = drawn / np.linalg.norm(drawn)
     return weights

@@ -35,7 +35,7 @@ from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects import recognised
+from ragg_runtime.flight.output_effects import recognised, recognised_in_motion
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -210,11 +210,12 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Effects of the recorder, recognised in the values of each recorded output."""
+    """Effects of the recorder, recognised in the values of each recorded output, and of the motion."""
     known = {e.id for e in f.model.candidates if e.kind == "output"}
     found = []
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
+        found += recognised_in_motion(x.channels, x.valid, known)
         for name, series in x.outputs.items():
             if name not in f.instrument.layout.columns:
                 continue

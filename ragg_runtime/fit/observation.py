@@ -14,6 +14,7 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.output_effects import imu_saturation
 from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
@@ -60,6 +61,10 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     clipped = saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
     if clipped is not None:
         valid &= ~clipped[1]
+    for name in imu_saturation.CHANNELS:
+        beyond = imu_saturation.clipped(flight.channels[name], valid) if name in flight.channels else None
+        if beyond is not None:
+            valid &= ~beyond
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
