@@ -143,7 +143,7 @@ def drawn(
         signature = weights @ block
         norm = float(np.linalg.norm(signature if beside is None else _beside(signature, beside)))
         # a signature that is all but absorbed is rounding: its amplitude would be meaningless
-        if norm < 1e-5 * np.linalg.norm(weights @ whole):
+        if norm <= 1e-5 * np.linalg.norm(weights @ whole):
             continue
         amplitude = strength / norm
         size = float(np.max(np.abs(amplitude * weights))) * design.EFFECT_PRIOR
