@@ -1,8 +1,9 @@
-"""Effects of the recorder: whether an output (N,), V, shows them; do not edit, see derive/effects/."""
+"""Effects of the recorder, by their ids: whether a series shows them; do not edit, see derive/effects/."""
 
-from . import quantisation, saturation
+from . import imu_saturation, quantisation, saturation
 
 RECOGNISERS = {
-    "quantisation": quantisation.present,
-    "saturation": saturation.present,
+    "imu-saturation": imu_saturation,
+    "quantisation": quantisation,
+    "saturation": saturation,
 }

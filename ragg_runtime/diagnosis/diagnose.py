@@ -209,15 +209,14 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Effects of the recorder, recognised in the values of each recorded output."""
-    recognisers = f.model.recognisers
-    found = []
+    """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
+    found = set()
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
-        for name, series in x.outputs.items():
-            if name not in f.instrument.layout.columns:
-                continue
-            valid = np.isfinite(series) & x.valid
-            noise = w.noise.models[0].rms
-            found += [effect for effect, present in recognisers.items() if present(series, valid, noise)]
-    return sorted(set(found))
+        columns, noise = {**x.channels, **x.outputs}, w.noise.models[0].rms
+        outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
+        for effect, r in f.model.recognisers.items():
+            looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
+            if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
+                found.add(effect)
+    return sorted(found)

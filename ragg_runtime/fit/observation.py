@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from generated.output_effects.saturation import clipped
+from generated.output_effects import imu_saturation, saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
@@ -53,7 +53,11 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     for x in series:
         valid &= np.isfinite(x)
     if o.name in flight.outputs:
-        valid &= ~clipped(flight.outputs[o.name], valid)
+        valid &= ~saturation.clipped(flight.outputs[o.name], valid)
+    for name in imu_saturation.CHANNELS:
+        if name in flight.channels:
+            valid &= ~imu_saturation.clipped(flight.channels[name], valid)
+            let_go(flight.channels[name])
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part

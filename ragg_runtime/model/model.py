@@ -43,10 +43,13 @@ class Chain(Protocol):
 
 
 class Recogniser(Protocol):
-    """Recognises an effect of the output channel. No chance is allowed for: what it says is certain."""
+    """A module that recognises an effect of the recorder. No chance is allowed for: what it says is certain.
 
-    def __call__(self, values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
-        """Whether an output (N,), V, shows it; ``valid`` (N,) are usable samples, ``noise`` its standard deviation, V."""
+    It is asked of the outputs, or of the columns that it names as ``CHANNELS``.
+    """
+
+    def present(self, values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+        """Whether a series (N,), SI, shows it; ``valid`` (N,) are usable samples, ``noise`` the output's standard deviation, V."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +164,7 @@ class Model:
         """Effect id -> what recognises it, of the candidates that act on the output channel, in the order of their ids."""
         from generated.output_effects import RECOGNISERS
 
-        every = {**RECOGNISERS, **self.own_recognisers}
+        every = {**cast(Mapping[str, Recogniser], RECOGNISERS), **self.own_recognisers}
         return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
     def for_fits(self, samples: int) -> Model:
@@ -229,7 +232,7 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
         exec(compile(files[name], f"<{label}/{name}>", "exec"), module.__dict__)
         modules[stem] = module
     own = {
-        stem.partition("/")[2].replace("_", "-"): module.present
+        stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)
         for stem, module in modules.items()
         if "/" in stem
     }

@@ -17,7 +17,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.auxiliaries import plausible
+from ragg_runtime.reference.auxiliaries import further, plausible
+from ragg_runtime.reference.chain import Auxiliary
+from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.workflow.spin import turning_of
@@ -91,10 +93,18 @@ def simulated(
         kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
         seed=seed,
-        auxiliaries=plausible(np.random.default_rng([seed, 12])),
+        auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
         turning=turning_of(spin, instrument.layout, record),
     )
     return s.flight("simulated", voltages=voltages)
+
+
+def _auxiliaries(seed: int, effects: EffectValues, count: int) -> dict[str, Auxiliary]:
+    """What every carrier records, and what the effects ask for beyond that."""
+    asked = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
+    rare = further(np.random.default_rng([seed, 14]))
+    usual = plausible(np.random.default_rng([seed, 12]))
+    return {**usual, **{name: rare[name] for name in rare if name in asked}}
 
 
 def _noise(density: float, radius: float) -> Noise | None:

@@ -109,6 +109,8 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "adc-nonlinearity": _each("m/s^2", "h"),
     "second-order-loop": _each("s^2", "b"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
+    "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
+    | _shared("rad/s", "omega_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
 }
 """Every effect and its parameters."""
