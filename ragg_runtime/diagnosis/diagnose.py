@@ -35,7 +35,6 @@ from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects import recognised
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -155,7 +154,7 @@ def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.Evidence | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
-    if target.observations[0].kind == "channels":
+    if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     followed = sequential.evidence(target)
     for effect, instant in instants:
@@ -210,14 +209,14 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Effects of the recorder, recognised in the values of each recorded output."""
-    known = {e.id for e in f.model.candidates if e.kind == "output"}
-    found = []
+    """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
+    found = set()
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
-        for name, series in x.outputs.items():
-            if name not in f.instrument.layout.columns:
-                continue
-            valid = np.isfinite(series) & x.valid
-            found += recognised(series, valid, w.noise.models[0].rms, known)
-    return sorted(set(found))
+        columns, noise = {**x.channels, **x.outputs}, w.noise.models[0].rms
+        outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
+        for effect, r in f.model.recognisers.items():
+            looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
+            if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
+                found.add(effect)
+    return sorted(found)

@@ -70,7 +70,7 @@ def names() -> tuple[str, ...]:
         p.read_text("utf-8") for p in sorted(Path(derive.__file__).parent.glob("emit/templates/*.[pcf]*"))
     ]
     own = from_expression("mine", "transducer", "K*f_i*foo", {"K": {"unit": "ug"}})
-    texts += derive_model((*catalogue()[:12], own), (*catalogue(), own)).values()
+    texts += derive_model((*catalogue()[:15], own), (*catalogue(), own)).values()
     found = {w for text in texts for w in re.findall(r"[A-Za-z]\w*", text)}
     few = [
         e for e in catalogue() if e.id in CHOSEN
