@@ -8,6 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 FACTORS: Mapping[tuple[str, str], float] = {
+    ("deg/s", "rad/s"): 0.017453292519943295,
+    ("V", "kg*m**2/A/s**3"): 1.0,
+    ("Eo/kg", "1/kg/s**2"): 1e-09,
     ("1", "1"): 1.0,
     ("1/(K/min)", "s/K"): 60.0,
     ("1/K", "1/K"): 1.0,
@@ -57,6 +60,7 @@ G0 = 9.8
 """m/s^2: the specific force that is called g unless a sheet says otherwise."""
 
 FACTORS_OF_G: Mapping[tuple[str, str], float] = {
+    ("g", "m/s**2"): 9.8,
     ("deg/h/g", "rad*s/m"): 4.947078378668734e-07,
     ("g", "m/s^2"): 9.8,
     ("g^2", "m**2/s**4"): 96.04000000000002,
@@ -81,6 +85,10 @@ FACTORS_OF_G: Mapping[tuple[str, str], float] = {
 """The same of units that are made with g."""
 
 BASE: Mapping[str, str] = {
+    "g": "m/s**2",
+    "deg/s": "rad/s",
+    "V": "kg*m**2/A/s**3",
+    "Eo/kg": "1/kg/s**2",
     "1": "1",
     "1/(K/min)": "s/K",
     "1/K": "1/K",

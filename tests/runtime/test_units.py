@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from ragg_runtime.base.errors import UserError, did_you_mean
 from ragg_runtime.instrument.units import RawQuantity, Units, units
 from ragg_runtime.instrument.usual_units import BASE, FACTORS, FACTORS_OF_G
+from ragg_runtime.model.model import packaged
 
 G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)
@@ -243,3 +244,9 @@ def test_usual_units_are_what_pint_makes_of_them() -> None:
         found = pint_alone._registry.get_base_units(pint_alone.parse(unit))[1]
         assert (f"{found:~C}" or "1") == base, unit
     assert Units(9.81).to_si(1.0, "ug", "m/s^2") == pytest.approx(9.81e-6)
+
+
+def test_units_of_all_effects_are_usual_ones() -> None:
+    """Else every command waits for pint."""
+    effects = packaged().candidates
+    assert {q.unit for e in effects if e.kind != "output" for q in e.parameters} <= set(BASE)
