@@ -35,7 +35,6 @@ from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects import recognised, recognised_in_motion
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -155,7 +154,7 @@ def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.Evidence | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
-    if target.observations[0].kind == "channels":
+    if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     followed = sequential.evidence(target)
     for effect, instant in instants:
@@ -210,15 +209,20 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Effects of the recorder, recognised in the values of each recorded output, and of the motion."""
-    known = {e.id for e in f.model.candidates if e.kind == "output"}
+    """Effects of the recorder, recognised in the values of each recorded output, or of the columns that they name."""
+    columns = {e.id: e.channels for e in f.model.candidates}
+    recognisers = {i: r for i, r in f.model.recognisers.items() if not columns[i]}
+    of_columns = {i: r for i, r in f.model.recognisers.items() if columns[i]}
     found = []
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
-        found += recognised_in_motion(x.channels, x.valid, known)
+        for effect, present in of_columns.items():
+            series_of = (x.channels[c] for c in columns[effect] if c in x.channels)
+            found += [effect for series in series_of if present(series, x.valid & np.isfinite(series), 0.0)]
         for name, series in x.outputs.items():
             if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
-            found += recognised(series, valid, w.noise.models[0].rms, known)
+            noise = w.noise.models[0].rms
+            found += [effect for effect, present in recognisers.items() if present(series, valid, noise)]
     return sorted(set(found))

@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
@@ -301,6 +301,6 @@ def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
-        share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
+        share = x.observation.recorded.noise_share(x.observation.record.rate)
         variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

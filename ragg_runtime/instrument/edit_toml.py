@@ -12,7 +12,6 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.base.files import write_text
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
@@ -141,11 +140,6 @@ def _form(form: Form) -> Any:
     order.update(form.order)
     table.add("order", form.preset or order)
     return table
-
-
-def write_instrument(instrument: Instrument, path: Path) -> None:
-    """Write :func:`model_text` to a file, whole or not at all."""
-    write_text(path, model_text(instrument))
 
 
 def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, ...]:

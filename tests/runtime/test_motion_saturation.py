@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from generated.output_effects import imu_saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import diagnose
 from ragg_runtime.fit.observation import observe
-from ragg_runtime.flight.output_effects import imu_saturation, recognised_in_motion
 from ragg_runtime.model.model import packaged
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import scenario
@@ -20,14 +20,9 @@ ALL = np.ones(N, dtype=bool)
 
 
 def test_the_end_of_a_range_is_recognised() -> None:
-    found = imu_saturation.clipped(np.clip(MOVING, -0.9, 0.9), ALL)
-    assert found is not None
-    assert np.array_equal(found, np.abs(MOVING) >= 0.9)
-    assert recognised_in_motion({"a_x": np.clip(MOVING, -0.9, 0.9)}, ALL, ["imu-saturation"]) == [
-        "imu-saturation"
-    ]
-    assert recognised_in_motion({"a_x": np.clip(MOVING, -0.9, 0.9)}, ALL, ["saturation"]) == []
-    assert recognised_in_motion({"temperature": np.clip(MOVING, -0.9, 0.9)}, ALL, ["imu-saturation"]) == []
+    x = np.clip(MOVING, -0.9, 0.9)
+    assert np.array_equal(imu_saturation.clipped(x, ALL), np.abs(MOVING) >= 0.9)
+    assert imu_saturation.present(x, ALL, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -43,7 +38,7 @@ def test_the_end_of_a_range_is_recognised() -> None:
     ids=["noise", "zero", "at rest", "coarse", "dwells", "periodic"],
 )
 def test_what_is_no_end_of_a_range(x: np.ndarray) -> None:
-    assert imu_saturation.clipped(x, ALL) is None
+    assert not imu_saturation.present(x, ALL, 0.0)
 
 
 def test_a_flight_with_saturated_gyroscopes_is_diagnosed() -> None:

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.native.arguments import Base, Case, Module, Series, cut, in_parts, into
+from ragg_runtime.model.model import Chain
+from ragg_runtime.model.native.arguments import Base, Case, Series, cut, in_parts, into
 from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 from ragg_runtime.model.native.library import Library
 
@@ -233,7 +234,7 @@ _said: list[str] = []
 
 
 def evaluator(
-    chain: Module,
+    chain: Chain,
     sources: Mapping[str, str],
     folded: ModuleType | None,
     backend: Backend = "auto",
@@ -264,7 +265,7 @@ def evaluator(
 
 
 def for_fits(
-    modules: Mapping[str, Module], sources: Mapping[str, str], layout: Layout = PAPER
+    modules: Mapping[str, Chain], sources: Mapping[str, str], layout: Layout = PAPER
 ) -> dict[str, Evaluator]:
     """Evaluators of generated modules (name -> module) for their derivatives.
 

@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.flight.files import file_digest, flight_name
+from ragg_runtime.base.files import file_digest
+from ragg_runtime.flight.files import flight_name
 from ragg_runtime.flight.mapping import Mapped
-from ragg_runtime.flight.record import SI_UNITS, Array
+from ragg_runtime.flight.record import SI_UNITS, Array, is_demodulated
 from ragg_runtime.flight.sampling import uniform
 from ragg_runtime.flight.source import Column, Source
 from ragg_runtime.flight.sources import open_sources
-from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.instrument.units import EOTVOS, Units, units
 
 STANDARD_G = 9.80665
 """m/s^2, for units made with g: quality control has no model that says another (the metre convention's value)."""
@@ -24,7 +25,6 @@ STANDARD_G = 9.80665
 SHORTEST = 30
 """Samples below which a line has no statistics."""
 
-EOTVOS = 1e-9  # s^-2
 _NAMED = ("easting", "northing", "altitude", "clearance")
 _OWN: Mapping[str, str] = {
     **dict.fromkeys(_NAMED, "m"),
@@ -88,7 +88,7 @@ class Read:
 
 def is_gradient(name: str) -> bool:
     """Whether a channel is a gradient, by its name: ``inline``, ``cross_A``, ``Gamma_xx`` ..."""
-    return name.split("_")[0] in ("inline", "cross", "Gamma")
+    return is_demodulated(name) or name.partition("_")[0] == "Gamma"
 
 
 def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:
@@ -132,7 +132,7 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
     known = units(STANDARD_G)
     wanted = {c.name: _unit(c, known) for c in source.columns}
     columns = [c for c in source.columns if wanted[c.name]]
-    if not any(c.name.split("_")[0] in ("inline", "cross") for c in columns):
+    if not any(is_demodulated(c.name) for c in columns):
         raise UserError(
             "no gradient that a disc measured is among the columns",
             where=source.path,

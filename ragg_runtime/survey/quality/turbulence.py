@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.spectra import band_pass, filled
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.spectra import band_pass, filled
 
 BAND = (0.3, 10.0)
 """Hz: vertical acceleration in it is what the industry calls turbulence (Boggs and Dransfield, 2004)."""

@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import correlate
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.spectra import causal_band, rolling_std
+from ragg_runtime.survey.quality.spectra import causal_band, rolling_std
 
 WINDOW = 50
 """Samples of the rolling standard deviation of ``checkHighFreq``."""

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.by_line import LineFigures, mean
-from ragg_runtime.quality.discs import Discs, combinations
-from ragg_runtime.quality.spectra import filled
+from ragg_runtime.survey.quality.by_line import LineFigures, mean
+from ragg_runtime.survey.quality.discs import Discs, combinations
+from ragg_runtime.survey.quality.spectra import filled
 
 SPARE = 3
 """Lines beyond the number of coefficients that a fit needs before it is shown."""

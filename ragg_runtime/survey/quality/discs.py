@@ -13,9 +13,7 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.lines import SurveyLine
-
-ARRANGEMENTS = ("single", "complements", "orthogonal")
+from ragg_runtime.survey.quality.lines import SurveyLine
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from importlib import resources
 
-from ragg_runtime.export.contents import Contents
-from ragg_runtime.export.document import json_files
-from ragg_runtime.export.program import example_files
+from ragg_runtime.compensation.export.contents import Contents
+from ragg_runtime.compensation.export.document import json_files
+from ragg_runtime.compensation.export.program import example_files
 from ragg_runtime.flight.angular_acceleration import wide_weights
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
 from ragg_runtime.signals.derivative import DEGREE, WINDOW, weights
@@ -21,7 +21,11 @@ def numpy_files(c: Contents) -> dict[str, str]:
         "long": [float(x) for x in wide_weights()],
         "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degree": DEGREE},
     }
-    program = resources.files("ragg_runtime.export").joinpath("python", "ragg_model.py").read_text("utf-8")
+    program = (
+        resources.files("ragg_runtime.compensation.export")
+        .joinpath("python", "ragg_model.py")
+        .read_text("utf-8")
+    )
     return {
         **json_files(c),
         "chain.py": c.module,

@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from ragg_runtime.base.form_version import Form
-from ragg_runtime.export.contents import Contents, unit_of
+from ragg_runtime.compensation.export.contents import Contents, unit_of
 
 FORM = Form("the exported model")
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.export.contents import Contents, Out
-from ragg_runtime.export.values import comment, text
+from ragg_runtime.compensation.export.contents import Contents, Out
+from ragg_runtime.compensation.export.values import comment, text
 from ragg_runtime.fit.columns import base_columns, own_columns
 from ragg_runtime.fit.square_root import of_some
 from ragg_runtime.model.evaluate import vector

@@ -1,9 +1,10 @@
-"""A coarsely quantised output: all its values on a lattice that matters beside the noise."""
+"""Recogniser of quantisation."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
 
 Array = NDArray[np.float64]
 

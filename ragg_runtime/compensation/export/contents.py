@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight.angular_acceleration import Derivative
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS, is_disc_angle
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
@@ -246,7 +246,7 @@ _SIZES: Mapping[str, tuple[float, float]] = {
 
 def unit_of(column: str) -> str:
     """SI unit of a column, for one of no fixed meaning ``1``."""
-    return SI_UNITS.get(column, "rad" if column == DISC or column.startswith("spin_angle") else "1")
+    return SI_UNITS.get(column, "rad" if column == DISC or is_disc_angle(column) else "1")
 
 
 def is_gradient(column: str) -> bool:

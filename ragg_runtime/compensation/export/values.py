@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from ragg_runtime.export.contents import DISC, Contents, is_gradient, unit_of
+from ragg_runtime.compensation.export.contents import DISC, Contents, is_gradient, unit_of
 from ragg_runtime.flight.angular_acceleration import REACH, wide_weights
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.model.record import HALO, SPIN_WINDOW

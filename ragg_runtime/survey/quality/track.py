@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.lines import SurveyLine
 
 EARTH = 6371e3
 """m: the mean radius, for positions given as latitude and longitude (a map needs no better)."""

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality import galileo
-from ragg_runtime.quality.discs import Discs, channel, combinations, ne, uv
-from ragg_runtime.quality.limits import Limit
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.spectra import BRIDGED, filled, in_band
-from ragg_runtime.quality.track import Track
-from ragg_runtime.quality.turbulence import Turbulence, turbulence
+from ragg_runtime.survey.quality import galileo
+from ragg_runtime.survey.quality.discs import Discs, channel, combinations, ne, uv
+from ragg_runtime.survey.quality.limits import Limit
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.spectra import BRIDGED, filled, in_band
+from ragg_runtime.survey.quality.track import Track
+from ragg_runtime.survey.quality.turbulence import Turbulence, turbulence
 
 IN_BAND = (0.03, 0.1)
 """Hz: where densities are averaged. At 50 m/s it is 0.5 to 1.7 km, the wavelengths a survey is flown for; the in-line

@@ -5,9 +5,9 @@ from __future__ import annotations
 import textwrap
 from importlib import resources
 
-from ragg_runtime.export.contents import Contents, is_gradient, unit_of
-from ragg_runtime.export.online import online_values, table
-from ragg_runtime.export.values import values_header
+from ragg_runtime.compensation.export.contents import Contents, is_gradient, unit_of
+from ragg_runtime.compensation.export.online import online_values, table
+from ragg_runtime.compensation.export.values import values_header
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION
 
 TOLERANCE_EO = 1e-6
@@ -47,7 +47,7 @@ def example_files(c: Contents) -> dict[str, str]:
 
 
 def _packaged(name: str) -> str:
-    return resources.files("ragg_runtime.export").joinpath("c", name).read_text("utf-8")
+    return resources.files("ragg_runtime.compensation.export").joinpath("c", name).read_text("utf-8")
 
 
 def _readme(c: Contents, online: bool) -> str:

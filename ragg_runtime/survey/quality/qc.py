@@ -12,14 +12,14 @@ import numpy as np
 
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.by_line import LineFigures, figures_of
-from ragg_runtime.quality.crossovers import Crossing, Misfits, Repeat, crossings, misfits, repeats
-from ragg_runtime.quality.discs import Discs, discs_of
-from ragg_runtime.quality.galileo_lines import as_galileo
-from ragg_runtime.quality.limits import Limit, limits_with
-from ragg_runtime.quality.lines import Read, read_lines
-from ragg_runtime.quality.track import tracks
-from ragg_runtime.quality.trends import Day, Dependence, days, dependences, rectification
+from ragg_runtime.survey.quality.by_line import LineFigures, figures_of
+from ragg_runtime.survey.quality.crossovers import Crossing, Misfits, Repeat, crossings, misfits, repeats
+from ragg_runtime.survey.quality.discs import Discs, discs_of
+from ragg_runtime.survey.quality.galileo_lines import as_galileo
+from ragg_runtime.survey.quality.limits import Limit, limits_with
+from ragg_runtime.survey.quality.lines import Read, read_lines
+from ragg_runtime.survey.quality.track import tracks
+from ragg_runtime.survey.quality.trends import Day, Dependence, days, dependences, rectification
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,9 +106,9 @@ def qc(
     mapping
         What their columns are.
     arrangement
-        ``single``, ``complements`` or ``orthogonal``: see :class:`~ragg_runtime.quality.discs.Discs`.
+        ``single``, ``complements`` or ``orthogonal``: see :class:`~ragg_runtime.survey.quality.discs.Discs`.
     limits
-        Texts ``NAME=NUMBER`` in the place of :data:`~ragg_runtime.quality.limits.LIMITS`.
+        Texts ``NAME=NUMBER`` in the place of :data:`~ragg_runtime.survey.quality.limits.LIMITS`.
     """
     known = limits_with(limits)
     read = read_lines(paths, mapping)

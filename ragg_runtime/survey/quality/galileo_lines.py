@@ -1,7 +1,7 @@
 """Figures of several lines as the package galileoQC (1.0.16) defines them, written anew: gaps, crossovers, repeats.
 
 Which lines are held against each other galileoQC is told by lists; here every line is a traverse whose controls are all
-lines that it meets, and repeats are the groups that :mod:`ragg_runtime.quality.crossovers` finds.
+lines that it meets, and repeats are the groups that :mod:`ragg_runtime.survey.quality.crossovers` finds.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.crossovers import Repeat
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.track import Track
+from ragg_runtime.survey.quality.crossovers import Repeat
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.track import Track
 
 SHORTEST = 10
 """Samples below which a line is not compared with others (``checkRepeatLines``)."""

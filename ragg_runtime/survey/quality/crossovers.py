@@ -12,8 +12,8 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import lsqr
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.track import Track
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.track import Track
 
 STEEPEST = np.radians(20.0)
 """Angle between two lines from which on they cross: parallel lines that wander over each other do not."""
