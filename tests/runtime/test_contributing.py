@@ -182,7 +182,7 @@ def test_an_effect_of_the_recorder_is_one_file() -> None:
     files = pipeline.derive_model((), (*offered, effect))
     assert "output_effects/stuck_output.py" in json.loads(files["manifest.json"])["files"]
     model = from_files(files)
-    assert list(model.recognisers) == ["quantisation", "saturation", "stuck-output"]
+    assert list(model.recognisers) == ["imu-saturation", "quantisation", "saturation", "stuck-output"]
 
     def recognised(values: np.ndarray, noise: float) -> list[str]:
         valid = np.ones(len(values), dtype=bool)
