@@ -12,6 +12,7 @@ from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
+from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
@@ -239,7 +240,8 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    quiet = complaint is None and output_explained.complaint is None and not loud(f, calibrated, noise)
+    doubt = doubts(f, output_explained)
+    quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
@@ -251,7 +253,7 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         remainder=rem,
         nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
-        remark=remark(output_explained, f),
+        remark=doubt or disturbed(f),
         explained=output_explained,
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
@@ -265,11 +267,6 @@ def loud(f: Fitted, scored: Scored, noise: float) -> bool:
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
     return scored.whole.rms_Eo > LOUD * noise * swell(f) * known
-
-
-def remark(e: Explained, f: Fitted) -> str | None:
-    """What is wrong with the record, in words: that nothing in it follows the motion, or how it is disturbed."""
-    return e.complaint or disturbed(f)
 
 
 def disturbed(f: Fitted) -> str | None:

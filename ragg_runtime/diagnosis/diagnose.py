@@ -22,6 +22,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import explained
 from ragg_runtime.diagnosis.line_rival import line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
@@ -106,10 +107,11 @@ def diagnose_fitted(
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     output_explained = explained(target, after)
+    doubt = doubts(target, output_explained)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
     loud = comparison.loud(target, after, noise) and not random_found
-    if complaint is not None or output_explained.complaint is not None or remains or loud:
+    if complaint is not None or doubt is not None or remains or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
@@ -142,7 +144,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=output_explained.complaint or (line and line.words) or comparison.disturbed(target),
+        remark=doubt or (line and line.words) or comparison.disturbed(target),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),

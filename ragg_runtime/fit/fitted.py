@@ -301,6 +301,6 @@ def noise_floor(f: Fitted) -> float:
     """rms of the estimated noise of G_out before demodulation, Eo."""
     variances = []
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
-        share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
+        share = noise_gain(x.observation.record) if x.observation.kind == "channels" else 1.0
         variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

@@ -130,7 +130,7 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
     """Within the demodulator's band the noise of G_out is taken as white; its size is estimated."""
-    gain = noise_gain(o.record.rate)
+    gain = noise_gain(o.record)
     squares = free = 0.0
     for p in parts:
         (x,) = p.outputs

@@ -19,7 +19,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record, recorded
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -50,9 +50,8 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         a = instrument.accelerometers
         k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
         series = (carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
-        edge = len(low_pass(r.rate)) // 2  # there our demodulator has not seen enough
-        inside = np.zeros(len(r.time), dtype=bool)
-        inside[edge : len(r.time) - edge] = True
+        inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
+        inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
         r = replace(r, valid=r.valid & inside)
     valid = np.array(r.valid)
     for x in series:
@@ -121,18 +120,18 @@ def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
 
 
-def narrow(G: Array, r: Record) -> Array:
-    """G_out (..., N) as the demodulator lets it through: demodulated and put back on the carriers."""
-    taps = low_pass(r.rate).reshape((1,) * (G.ndim - 1) + (-1,))
+def narrow(G: Array, r: Record, through: Demodulator | None = None) -> Array:
+    """G_out (..., N) as the demodulator, the record's own or another, lets it through: demodulated and put back on the carriers."""
+    taps = (through or r.low_pass).centred.reshape((1,) * (G.ndim - 1) + (-1,))
     cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
     in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
     quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
     return np.asarray(in_phase * sine + quadrature * cosine)
 
 
-def noise_gain(rate: float) -> float:
+def noise_gain(r: Record) -> float:
     """Variance of white noise of unit variance after :func:`narrow`."""
-    return float(2 * np.sum(low_pass(rate) ** 2))
+    return float(2 * np.sum(r.low_pass.taps**2))
 
 
 def as_output(o: Observation, e: Array) -> Array:

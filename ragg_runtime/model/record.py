@@ -13,9 +13,12 @@ from numpy.typing import NDArray
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout, Vector3, gain
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
 
 Array = NDArray[np.float64]
@@ -60,6 +63,8 @@ class Record:
         Whether the disc turns at all.
     axes
         First two axes of the disc at rest in the measurement frame; ``None``: x and y.
+    demodulation
+        How inline and cross were made, where they are what was recorded.
     """
 
     time: Array
@@ -72,6 +77,12 @@ class Record:
     phase: float = 0.0
     turning: bool = True
     axes: tuple[Vector3, Vector3] | None = None
+    demodulation: Demodulation = OURS
+
+    @cached_property
+    def low_pass(self) -> Demodulator:
+        """What inline and cross have passed."""
+        return kernel(self.demodulation, self.rate)
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -234,6 +245,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
         turning=turning,
         axes=None if disc.level else disc.across,
+        demodulation=flight.demodulation or instrument.demodulation or OURS,
     )
 
 

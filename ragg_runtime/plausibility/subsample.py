@@ -14,11 +14,12 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
 from ragg_runtime.model.record import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
-from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -281,5 +282,6 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             for _ in range(order):
                 series = differentiate(series, flight.rate)
             derived[name] = series
-    taps = low_pass(flight.rate) if kind == "channels" else np.zeros(0)
+    how = flight.demodulation or instrument.demodulation or OURS
+    taps = kernel(how, flight.rate).centred if kind == "channels" else np.zeros(0)
     return Picker(flight, instrument, kind, usable, derived, taps, place)
