@@ -49,6 +49,8 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     else:
         a = instrument.accelerometers
         k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
+        there = np.isfinite(flight.outputs["inline"]) & np.isfinite(flight.outputs["cross"]) & r.valid
+        r = replace(r, every=_spacing(there))
         series = (carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
@@ -109,24 +111,49 @@ class Observation:
 
 
 def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
-    """Demodulated channels put back on their carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
+    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
 
     ``k_ggi`` in V per unit of the channels.
     """
-    cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
-    if r.phase != 0.0:
-        c, s = float(np.cos(r.phase)), float(np.sin(r.phase))
-        cosine, sine = c * cosine - s * sine, c * sine + s * cosine
+    cosine, sine = r.carriers
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
 
 
 def narrow(G: Array, r: Record, through: Demodulator | None = None) -> Array:
     """G_out (..., N) as the demodulator, the record's own or another, lets it through: demodulated and put back on the carriers."""
     taps = (through or r.low_pass).centred.reshape((1,) * (G.ndim - 1) + (-1,))
-    cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+    cosine, sine = r.quadratures
     in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
     quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
+    cosine, sine = r.carriers
     return np.asarray(in_phase * sine + quadrature * cosine)
+
+
+def _spacing(there: NDArray[np.bool_]) -> int:
+    """Samples from one of channels to the next."""
+    at = np.flatnonzero(there)
+    return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
+
+
+def telling(r: Record) -> float:
+    """How many times more a sample of the channels tells than one of a record of all of them: samples of noise in so narrow a
+    band are much alike, and those that are left out would have told little.
+    """
+    taps, n = r.low_pass.taps, len(r.time)
+    reach = min(len(taps), n)
+    lags = np.arange(1, reach)
+    alike = signal.correlate(taps, taps)[len(taps) :][: reach - 1] / float(np.sum(taps**2))
+
+    def squares(turn: float) -> Array:
+        return np.asarray(np.square(alike * np.cos(turn * lags)))
+
+    x = r.valid.astype(np.float64)
+    count = float(np.sum(x))
+    beside = np.rint(signal.correlate(x, x, method="fft"))[n:][: reach - 1]
+    whole = count + 2 * float(np.maximum(count - lags, 0.0) @ squares(4 * np.pi * r.spin_frequency / r.rate))
+    turn = np.pi / (2 * r.every) if r.every > 1 else 4 * np.pi * r.spin_frequency / r.rate
+    own = count + 2 * float(beside @ squares(turn))
+    return max(1.0, whole / own) if count else 1.0
 
 
 def noise_gain(r: Record) -> float:

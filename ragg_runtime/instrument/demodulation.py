@@ -69,14 +69,19 @@ class Demodulation:
         text += f", delayed by {self.delay:.3g} s" if self.delay else ""
         return text + (f", made at {self.rate:.6g} Hz" if self.rate is not None else "")
 
-    def toml(self) -> str:
-        """As it stands in a file, on one line."""
-        found = [f'kind = "{self.kind}"']
+    def entries(self, digits: str = "") -> dict[str, str | int]:
+        """Keys and values as they stand in a file; numbers with so many ``digits`` (a format), or all."""
+        found: dict[str, str | int] = {"kind": self.kind}
         for key in _KEYS[1:]:
             value = getattr(self, key)
             if value is not None and value != 0.0:
-                found.append(f"{key} = {value}" if key == "order" else f'{key} = "{value:.4g} {_UNITS[key]}"')
-        return ", ".join(found)
+                found[key] = value if key == "order" else f"{value:{digits}} {_UNITS[key]}"
+        return found
+
+    def toml(self) -> str:
+        """The same on one line, rounded."""
+        text = {k: f'"{v}"' if isinstance(v, str) else v for k, v in self.entries(".4g").items()}
+        return ", ".join(f"{k} = {v}" for k, v in text.items())
 
 
 OURS = Demodulation()
