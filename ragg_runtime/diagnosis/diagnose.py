@@ -24,7 +24,7 @@ from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import explained
-from ragg_runtime.diagnosis.line_rival import line_rival
+from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
@@ -92,7 +92,7 @@ def diagnose_fitted(
     rem = c.remainder
     simpler = None if rem.significant else _simpler(f, field, choice)
     rem = rem if simpler is None else simpler
-    line = line_rival(steps, replace(last, field=field, choice=choice))
+    line, steady = line_rival(steps, replace(last, field=field, choice=choice))
     if line is not None and not line.better(rem, alone=simpler is not None):
         line = None
     rem = rem if line is None else line.within(rem)
@@ -144,13 +144,25 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=doubt or (line and line.words) or comparison.disturbed(target),
+        remark=_remark(doubt, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),
         off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )
+
+
+def _remark(
+    doubt: str | None, line: LineRival | None, steady: Sequence[Steady], disturbed: str | None
+) -> str | None:
+    """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
+    if doubt is not None:
+        return doubt
+    if line is not None:
+        return line.words
+    said = [*(s.words for s in steady), *([] if disturbed is None else [disturbed])]
+    return "; ".join(said) or None
 
 
 def _followed(
