@@ -17,7 +17,7 @@ from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import bursts, columns, convergence
+from ragg_runtime.fit import bursts, columns, convergence, fitted
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -30,7 +30,7 @@ from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.wording import notebook
+from ragg_runtime.wording import notebook, numbers
 
 Array = NDArray[np.float64]
 
@@ -279,7 +279,22 @@ def disturbed(f: Fitted) -> str | None:
         for x, text in zip(f.prepared, found, strict=True)
         if text is not None
     ]
-    return "; ".join(said) or None
+    return "; ".join([*said, *_digits(f)]) or None
+
+
+def _digits(f: Fitted) -> list[str]:
+    """That the noise is mostly the digits that were written, in words."""
+    found = []
+    for x, r, k_ggi in zip(f.prepared, f.rounding, f.scales, strict=True):
+        o = x.observation
+        if r.worst is None or not r.prevails(fitted.estimated(x)):
+            continue
+        which = "" if len(f.prepared) == 1 else f"{o.name}: "
+        found.append(
+            f"{which}the digits of the file make {numbers.number(r.rms / k_ggi)} Eo of what is taken for noise, most of it"
+            f" {o.digits.columns[r.worst].words(r.worst)}"
+        )
+    return found
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

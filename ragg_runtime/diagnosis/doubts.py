@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.diagnosis.explained import Explained
-from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.fitted import Fitted, estimated
 from ragg_runtime.fit.observation import Observation, narrow, noise_gain
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.evaluate import output
@@ -50,7 +50,9 @@ def too_loud(f: Fitted) -> str | None:
     """Noise of which a hundredth would be much for accelerometers like the sheet's."""
     k = f.instrument.accelerometers
     slope, bias = k["k_VI"] * k["K1"], f.instrument.sigma("K0")
-    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
+    for x, k_ggi, digits in zip(f.prepared, f.scales, f.rounding, strict=True):
+        if digits.prevails(estimated(x)):
+            continue  # that is said
         members = list(x.observation.output.members)
         most = LOUDEST * float(np.linalg.norm((slope * bias)[members]))
         density = _density(x.observation, x.noise.models)
@@ -81,7 +83,7 @@ def thinned(f: Fitted) -> str | None:
         o = x.observation
         if o.kind != "channels" or o.record.demodulation.rate is not None or not o.record.turning:
             continue
-        left = float(np.sqrt(sum(m.rms**2 for m in x.noise.models) * noise_gain(o.record)))
+        left = float(np.sqrt(estimated(x)))
         spoiled = _spoiled(f, o)
         if left < spoiled < AS_LARGE * left:
             rate = o.record.rate

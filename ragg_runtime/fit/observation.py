@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -14,6 +14,7 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.digits import Digits, digits_of
 from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
@@ -42,8 +43,10 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     kind = recorded(flight, layout, place)
     if kind is None:
         raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
+    columns: dict[str, float] = {o.name: 1.0}  # and their squares' weights in G_out
     if kind == "voltages":
-        series = tuple(flight.outputs[v] for v in layout.voltages(o, flight.outputs) or ())
+        columns = dict.fromkeys(layout.voltages(o, flight.outputs) or (), 1.0)
+        series = tuple(flight.outputs[v] for v in columns)
     elif kind == "G_out":
         series = (flight.outputs[o.name],)
     else:
@@ -52,6 +55,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         there = np.isfinite(flight.outputs["inline"]) & np.isfinite(flight.outputs["cross"]) & r.valid
         r = replace(r, every=_spacing(there))
         series = (carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
+        columns = {"inline": k_ggi**2 / 8, "cross": k_ggi**2 / 2}
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
         r = replace(r, valid=r.valid & inside)
@@ -66,7 +70,21 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
-    return Observation(kind, replace(r, valid=valid, wide=wide), series, name, o, place)
+    digits = digits_of(flight, instrument.units)
+    return Observation(
+        kind=kind,
+        record=replace(r, valid=valid, wide=wide),
+        series=series,
+        name=name,
+        output=o,
+        place=place,
+        digits=digits,
+        rounded={
+            n: w * digits.columns[n].mean_square(flight.outputs[n][valid])
+            for n, w in columns.items()
+            if n in digits.columns
+        },
+    )
 
 
 @dataclass(frozen=True)
@@ -78,7 +96,7 @@ class Observation:
     carriers (m = 1, see :func:`narrow`), and every column passes through the same demodulator. All in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them.
+    ``place`` counts them. ``digits`` says how the columns were written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
     kind: str
@@ -87,6 +105,8 @@ class Observation:
     name: str
     output: Output = PAPER.outputs[0]
     place: int = 0
+    digits: Digits = field(default_factory=Digits)
+    rounded: Mapping[str, float] = field(default_factory=dict)
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some noise."""
 
