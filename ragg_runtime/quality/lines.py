@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.flight.files import file_digest, flight_name
+from ragg_runtime.base.files import file_digest
+from ragg_runtime.flight.files import flight_name
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array
 from ragg_runtime.flight.sampling import uniform

@@ -21,6 +21,7 @@ from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.studio import apply, maths
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
+from ragg_runtime.studio.surveys import shown_survey
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow.loop import errors_of
 
@@ -43,6 +44,7 @@ def overview(s: State, version: str) -> Json:
         "history": None if s.loaded is None else _history(s.loaded.directory.history),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
         "quality": None if s.quality is None else quality_page.shown(s.quality),
+        "survey": None if s.survey is None or s.loaded is None else shown_survey(s.survey, s.loaded),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -375,6 +377,8 @@ def commands(s: State) -> list[str]:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
+    if s.survey is not None:
+        found.append(f"ragg survey {model} {shlex.quote(str(s.survey.folder))}/*")
     cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
     return [*cut, *found]
 

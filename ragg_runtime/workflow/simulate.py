@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+MOST_SAMPLES = 1e8
+"""Eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample."""
+
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
     """A flight of a model directory's instrument; ``effects`` and ``options`` are those of :func:`simulated`."""
@@ -74,7 +77,7 @@ def simulated(
     first_order = (form.mounting, form.misalignment) == (1, 1)
     white = eotvos_noise(noise * 1e-9, instrument.radius)
     if motion is None:
-        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+        flown = _drawn(seed, duration, rate, shape)
     else:
         flown, duration, rate = _recorded(motion, instrument, mapping)
     s = reference.simulate(
@@ -101,6 +104,17 @@ def _recorded(
     x = read_flight(file, instrument.g0, need_output=False, mapping=mapping)
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
     return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
+
+
+def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:
+    if duration * rate > MOST_SAMPLES:
+        raise UserError(
+            "the flight is too long to be simulated",
+            found=f"{duration:g} s at {rate:g} Hz",
+            expected=f"at most {MOST_SAMPLES:.0e} samples",
+            remedy="simulate several shorter flights",
+        )
+    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:
