@@ -50,6 +50,9 @@ class Made:
 def _families() -> Iterator[Family]:
     for n in ORDERS:
         yield lambda f, n=n: Demodulation(kind="causal", order=n, cutoff=f)  # type: ignore[misc]
+        yield lambda f, n=n: Demodulation(  # type: ignore[misc]
+            kind="causal", order=n, cutoff=f, delay=-1.0 / (2 * np.pi * f * np.sin(np.pi / (2 * n)))
+        )  # what it delays slow things by, taken back
     for n in BOTH_WAYS:
         yield lambda f, n=n: Demodulation(kind="butterworth", order=n, cutoff=f)  # type: ignore[misc]
     yield lambda f: Demodulation(kind="average", length=FLAT / f)
@@ -73,13 +76,16 @@ def best(model: Model, instrument: Instrument, p: Picker) -> Made | None:
         found.append(_refined(family, left, corners[[max(k - 1, 0), min(k + 1, len(corners) - 1)]]))
     if not found:
         return None
-    family, made = min(found, key=lambda m: m[1].left.share)
-    for (
-        every
-    ) in THINNED:  # the corner is then another one by a little, for a digital low-pass bends its frequencies
-        corner = made.how.cutoff if made.how.cutoff is not None else FLAT / (made.how.length or 1.0)
+    found.sort(key=lambda m: m[1].left.share)
+    family, made = found[0]
+    for near, there in found[:LATE_TRIED]:
+        late = _late(near, left, there)
+        if late[1].left.share * PLAINLY < made.left.share:
+            family, made = late
+    # where they were thinned out the corner is another one by a little: a digital low-pass bends its frequencies
+    for every in THINNED:
         faster = _faster(family, every * rate)
-        other = _refined(faster, left, corner * np.array([1 / NEAR, NEAR]))[1]
+        other = _refined(faster, left, _corner(made.how) * np.array([1 / NEAR, NEAR]))[1]
         if other.left.share * CLEARLY < made.left.share:
             made = other
     return made
@@ -88,8 +94,45 @@ def best(model: Model, instrument: Instrument, p: Picker) -> Made | None:
 NEAR = 1.05
 """Factor about a corner within which it is searched for once more."""
 
+LATE_TRIED = 3
+"""Low-passes of which it is asked whether they fit better with a delay: the best without one."""
+
+NO_DELAY = 1e-3
+"""s: less is none, but what else the low-pass is not quite."""
+
+PLAINLY = 2.0
+"""Factor by which less must be left for a delay to be said: it is one more number that is fitted."""
+
 CLEARLY = 1.1
 """Factor by which less must be left for channels to be taken for thinned out."""
+
+
+def _late(family: Family, left: Callable[[Demodulation], Explained], made: Made) -> tuple[Family, Made]:
+    """The same low-pass with a delay, s, or without some of its own: corner and delay at which least is left."""
+
+    def at(x: Array) -> Demodulation:
+        return replace(family(float(np.exp(x[0]))), delay=float(x[1]))
+
+    def cost(x: Array) -> float:
+        return float(np.log(max(left(at(x)).share, 1e-300)))
+
+    begin = np.log(_corner(made.how))
+    x = optimize.fmin(
+        cost,
+        np.array([begin, made.how.delay]),
+        initial_simplex=np.array([begin, made.how.delay]) + np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.3]]),
+        xtol=FINE,
+        maxfun=120,
+        disp=False,
+    )
+    how = at(x)
+    if abs(how.delay) < NO_DELAY:
+        how = replace(how, delay=0.0)
+    return lambda f: replace(family(f), delay=how.delay), Made(how, left(how))
+
+
+def _corner(how: Demodulation) -> float:
+    return how.cutoff if how.cutoff is not None else FLAT / (how.length or 1.0)
 
 
 def _faster(family: Family, rate: float) -> Family:
