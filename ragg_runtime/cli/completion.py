@@ -11,7 +11,7 @@ from click.shell_completion import CompletionItem
 
 def catalogued(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Effects of the catalogue, each with its title where the shell shows it."""
-    from ragg_runtime.model.catalogue import effects
+    from ragg_runtime.workflow.catalogue import effects
 
     found = [(str(e["id"]), str(e["title"])) for e in effects()]
     return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,11 +17,10 @@ from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit import off_sheet
 from ragg_runtime.fit.off_sheet import OffSheet
-from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.score import Error, least
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.form import Form
 from ragg_runtime.model_dir.history import calibrated_rms
-from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loop import Added
 from ragg_runtime.workflow.origin import notes as notes
@@ -52,7 +52,7 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
     """Why some demodulated channels have no value, if any lack one."""
     if all(np.isfinite((e.inline_Eo, e.cross_Eo)).all() for e in errors) or not flights:
         return []
-    longest = max(len(low_pass(x.rate)) / x.rate for x in flights)
+    longest = max(least(x.rate) for x in flights)
     return [
         f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
         "there is no such stretch"
@@ -140,7 +140,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
 
 
 def _ranked(r: Ranked) -> str:
-    p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
+    p = notebook.p_value(r.log_p / math.log(10.0), r.p_value)
     errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
     return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
 

@@ -27,7 +27,8 @@ from ragg_runtime.fit.segments import ROWS, Segment
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
-from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
@@ -245,7 +246,7 @@ def _long_enough(flight: Flight, d: Demodulator) -> None:
 
 def _recorded(flight: Flight, o: Observation, factor: float) -> NDArray[np.complex128] | None:
     """inline + i cross, Eo, of a flight that its recorder demodulated: put right for the calibrated scale factor."""
-    if o.kind != "channels":
+    if not o.recorded.demodulated:
         return None
     g = flight.outputs["inline"] + 1j * flight.outputs["cross"]
     return np.asarray(g * (factor / EOTVOS))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,15 +70,6 @@ class Comparison:
     def residual(self) -> list[Array]:
         """(N,) V of every flight, calibrated."""
         return self.fitted.residuals(np.zeros(self.fitted.n_base))
-
-    @cached_property
-    def residual_nominal(self) -> list[Array]:
-        """(N,) V of every flight, with the values as they were given."""
-        f = self.fitted
-        return [
-            np.concatenate([*lean.each(partial(nominal_residual, f, self.nominal_values), whitened=False)])
-            for lean, _ in (x.for_residuals(np.zeros((1, f.size)), f.n_base) for x in f.prepared)
-        ]
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""

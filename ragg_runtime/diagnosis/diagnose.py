@@ -36,7 +36,6 @@ from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects import recognised
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -169,7 +168,7 @@ def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.Evidence | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
-    if target.observations[0].kind == "channels":
+    if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     followed = sequential.evidence(target)
     for effect, instant in instants:
@@ -225,7 +224,7 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Effects of the recorder, recognised in the values of each recorded output."""
-    known = {e.id for e in f.model.candidates if e.kind == "output"}
+    recognisers = f.model.recognisers
     found = []
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
@@ -233,5 +232,6 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
             if name not in f.instrument.layout.columns:
                 continue
             valid = np.isfinite(series) & x.valid
-            found += recognised(series, valid, w.noise.models[0].rms, known)
+            noise = w.noise.models[0].rms
+            found += [effect for effect, present in recognisers.items() if present(series, valid, noise)]
     return sorted(set(found))

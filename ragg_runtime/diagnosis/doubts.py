@@ -10,7 +10,7 @@ from scipy import signal
 
 from ragg_runtime.diagnosis.explained import Explained
 from ragg_runtime.fit.fitted import Fitted, estimated
-from ragg_runtime.fit.observation import Observation, narrow, noise_gain
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.evaluate import output
 from ragg_runtime.signals.noise_spectrum import NoiseModel
@@ -81,7 +81,7 @@ def thinned(f: Fitted) -> str | None:
     """
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         o = x.observation
-        if o.kind != "channels" or o.record.demodulation.rate is not None or not o.record.turning:
+        if not o.recorded.demodulated or o.record.demodulation.rate is not None or not o.record.turning:
             continue
         left = float(np.sqrt(estimated(x)))
         spoiled = _spoiled(f, o)
@@ -99,6 +99,7 @@ def thinned(f: Fitted) -> str | None:
 def _spoiled(f: Fitted, o: Observation) -> float:
     """rms, V, within the channels, of what sampling may spoil if they were made at a higher rate."""
     r = o.record
+    through = o.recorded.through
     G = output(f.model.chain, r, f.calibration.p, o.output)
     G = np.where(np.isfinite(G), G, 0.0)
     inside = r.valid
@@ -106,11 +107,13 @@ def _spoiled(f: Fitted, o: Observation) -> float:
         return 0.0
     other = np.sqrt(
         np.mean(
-            np.square((narrow(G, r, built(r.demodulation, 2 * r.rate).thinned(2)) - narrow(G, r))[inside])
+            np.square((through(G, r, built(r.demodulation, 2 * r.rate).thinned(2)) - through(G, r))[inside])
         )
     )
     return float(
-        np.hypot(other, np.sqrt(_folded(G, r.rate, abs(r.spin_frequency)) * noise_gain(r) * r.rate / 2))
+        np.hypot(
+            other, np.sqrt(_folded(G, r.rate, abs(r.spin_frequency)) * o.recorded.noise_share(r) * r.rate / 2)
+        )
     )
 
 

@@ -14,7 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
@@ -305,7 +305,7 @@ def swell(f: Fitted) -> float:
 
 def estimated(x: PreparedFlight) -> float:
     """Variance of the estimated noise of what was observed as G_out, V^2."""
-    share = noise_gain(x.observation.record) if x.observation.kind == "channels" else 1.0
+    share = x.observation.recorded.noise_share(x.observation.record)
     return float(share * sum(m.rms**2 for m in x.noise.models))
 
 

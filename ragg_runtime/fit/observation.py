@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from generated.output_effects.saturation import clipped
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.digits import Digits, digits_of
-from ragg_runtime.flight.output_effects.saturation import saturation
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
-from ragg_runtime.model.record import Record, record, recorded
-from ragg_runtime.signals.demodulators import Demodulator
+from ragg_runtime.model.record import Record, record
+from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -30,8 +30,8 @@ def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[O
     """Every output of every flight: several where the layout has several, those that were recorded."""
     found = []
     for x in flights:
-        kinds = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
-        found += [observe(x, instrument, k) for k, kind in enumerate(kinds) if kind]
+        forms = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
+        found += [observe(x, instrument, k) for k, form in enumerate(forms) if form]
     return found
 
 
@@ -40,39 +40,34 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     layout = instrument.layout
     o = layout.outputs[place]
     r = record(flight, instrument, place)
-    kind = recorded(flight, layout, place)
-    if kind is None:
+    form = recorded(flight, layout, place)
+    if form is None:
         raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
-    columns: dict[str, float] = {o.name: 1.0}  # and their squares' weights in G_out
-    if kind == "voltages":
-        columns = dict.fromkeys(layout.voltages(o, flight.outputs) or (), 1.0)
-        series = tuple(flight.outputs[v] for v in columns)
-    elif kind == "G_out":
-        series = (flight.outputs[o.name],)
-    else:
-        a = instrument.accelerometers
-        k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
-        there = np.isfinite(flight.outputs["inline"]) & np.isfinite(flight.outputs["cross"]) & r.valid
+    a = instrument.accelerometers
+    k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
+    columns = form.columns(layout, o, flight.outputs) or ()
+    if form.demodulated:
+        there = np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid
         r = replace(r, every=_spacing(there))
-        series = (carried(flight.outputs["inline"], flight.outputs["cross"], r, k_ggi),)
-        columns = {"inline": k_ggi**2 / 8, "cross": k_ggi**2 / 2}
+    series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
+    if form.demodulated:
         inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
         inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
         r = replace(r, valid=r.valid & inside)
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    clipped = saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
-    if clipped is not None:
-        valid &= ~clipped[1]
+    if o.name in flight.outputs:
+        valid &= ~clipped(flight.outputs[o.name], valid)
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
     digits = digits_of(flight, instrument.units)
+    weights = (k_ggi**2 / 8, k_ggi**2 / 2) if form.demodulated else (1.0,) * len(columns)
     return Observation(
-        kind=kind,
+        recorded=form,
         record=replace(r, valid=valid, wide=wide),
         series=series,
         name=name,
@@ -81,7 +76,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         digits=digits,
         rounded={
             n: w * digits.columns[n].mean_square(flight.outputs[n][valid])
-            for n, w in columns.items()
+            for n, w in zip(columns, weights, strict=True)
             if n in digits.columns
         },
     )
@@ -91,15 +86,13 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
 class Observation:
     """What of a flight, or of a part of one, is fitted: m output series over N samples.
 
-    ``kind`` is ``G_out`` (m = 1), ``voltages`` (m = 4 in the paper's instrument, those of the output's accelerometers)
-    or ``channels``: inline and cross are all that was recorded; then the data are the channels put back on their
-    carriers (m = 1, see :func:`narrow`), and every column passes through the same demodulator. All in V.
+    ``recorded`` says which form of the output they are; all are in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
     ``place`` counts them. ``digits`` says how the columns were written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
-    kind: str
+    recorded: Recorded
     record: Record
     series: tuple[Array, ...]
     name: str
@@ -116,10 +109,14 @@ class Observation:
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
 
     @property
+    def signs(self) -> Array:
+        """(m,): how much each series counts in the output."""
+        return self.recorded.signs(self.output)
+
+    @property
     def weights(self) -> Array:
-        """(m,): how much of a common term of G_out each output sees (for voltages each is searched as one)."""
-        signs = np.array(self.output.signs, dtype=np.float64)
-        return signs / len(signs) if self.kind == "voltages" else np.ones(1)
+        """(m,): how much of a common term of G_out each series sees (for voltages each is searched as one)."""
+        return np.asarray(self.signs / len(self.signs))
 
     def part(self, rows: slice) -> Observation:
         """Some of the samples."""
@@ -127,26 +124,7 @@ class Observation:
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        return Observation(self.kind, self.record.part(rows), series, self.name, self.output, self.place)
-
-
-def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
-    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
-
-    ``k_ggi`` in V per unit of the channels.
-    """
-    cosine, sine = r.carriers
-    return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))
-
-
-def narrow(G: Array, r: Record, through: Demodulator | None = None) -> Array:
-    """G_out (..., N) as the demodulator, the record's own or another, lets it through: demodulated and put back on the carriers."""
-    taps = (through or r.low_pass).centred.reshape((1,) * (G.ndim - 1) + (-1,))
-    cosine, sine = r.quadratures
-    in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
-    quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
-    cosine, sine = r.carriers
-    return np.asarray(in_phase * sine + quadrature * cosine)
+        return Observation(self.recorded, self.record.part(rows), series, self.name, self.output, self.place)
 
 
 def _spacing(there: NDArray[np.bool_]) -> int:
@@ -176,16 +154,6 @@ def telling(r: Record) -> float:
     return max(1.0, whole / own) if count else 1.0
 
 
-def noise_gain(r: Record) -> float:
-    """Variance of white noise of unit variance after :func:`narrow`."""
-    return float(2 * np.sum(r.low_pass.taps**2))
-
-
 def as_output(o: Observation, e: Array) -> Array:
     """G_out (..., N) of what an observation holds (..., m, N): itself, or the sum of the voltages with their signs (Eq. 15)."""
-    return np.asarray(np.einsum("m,...mn->...n", output_weights(o), e))
-
-
-def output_weights(o: Observation) -> Array:
-    """(m,): how much each output of an observation counts in G_out."""
-    return len(o.weights) * o.weights if o.kind == "voltages" else o.weights
+    return np.asarray(np.einsum("m,...mn->...n", o.signs, e))

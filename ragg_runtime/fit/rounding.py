@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.fit.observation import Observation, narrow
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.model.evaluate import output
 from ragg_runtime.model.model import Model
@@ -64,7 +64,7 @@ def rounding(model: Model, p: Array, o: Observation) -> Rounding:
             continue
         off = how.steps(r.wide[name]) * (rng.random(len(r.wide[name])) - 0.5)
         e = output(model.chain, _moved(r, name, off, derived=o.digits.derived), p, o.output) - plain
-        e = narrow(e, r) if o.kind == "channels" else e
+        e = o.recorded.through(e, r)
         squares[name] = float(np.mean(e[r.valid] ** 2))
     return Rounding(squares)
 

@@ -143,7 +143,7 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
 def _shares(o: Observation, X: Array) -> list[Array]:
     """What each output of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each."""
     alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
-    if o.kind != "voltages" or (alike and len(set(o.output.radii)) == 1):
+    if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
         return [w * X for w in o.weights]
     sine, cosine = X[0::2], X[1::2]
     found = []

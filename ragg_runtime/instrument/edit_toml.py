@@ -12,7 +12,6 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.base.files import write_text
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -151,11 +150,6 @@ def _demodulator(d: Demodulation) -> Any:
     for key, value in d.entries().items():
         table.add(key, value)
     return table
-
-
-def write_instrument(instrument: Instrument, path: Path) -> None:
-    """Write :func:`model_text` to a file, whole or not at all."""
-    write_text(path, model_text(instrument))
 
 
 def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, ...]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,7 @@ from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Layout, Vector3, gain
+from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
 from ragg_runtime.signals.demodulators import Demodulator
@@ -224,20 +223,6 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
 
 
-Kind = Literal["voltages", "G_out", "channels"]
-"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
-
-
-def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
-    """What of an output was recorded, the most telling; ``None``: nothing."""
-    o = layout.outputs[place]
-    if layout.voltages(o, flight.outputs) is not None:
-        return "voltages"
-    if o.name in flight.outputs:
-        return "G_out"
-    return "channels" if len(layout.outputs) == 1 else None
-
-
 STANDING = 1e-3
 """Range of a recorded disc angle, rad, below which the disc stands still."""
 
@@ -285,19 +270,3 @@ def _from_gap(valid: NDArray[np.bool_]) -> Array:
     before = at - np.maximum.accumulate(np.where(valid, -n, at))
     after = np.minimum.accumulate(np.where(valid, 2 * n, at)[::-1])[::-1] - at
     return np.minimum(np.minimum(before, after), n).astype(np.float64)
-
-
-class Needs(Protocol):
-    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
-
-    @property
-    def channels(self) -> tuple[str, ...]: ...
-
-    @property
-    def either(self) -> bool: ...
-
-
-def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
-    """The channels that an effect needs and a flight, which has those recorded, does not have."""
-    missing = tuple(c for c in e.channels if c not in recorded)
-    return () if e.either and len(missing) < len(e.channels) else missing

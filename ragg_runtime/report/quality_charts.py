@@ -14,12 +14,12 @@ from matplotlib.path import Path
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
-from ragg_runtime.quality.by_line import LineFigures
-from ragg_runtime.quality.discs import Discs, combinations, ne, uv
-from ragg_runtime.quality.galileo import WINDOW
-from ragg_runtime.quality.qc import Quality
-from ragg_runtime.quality.spectra import density, filled, rolling_std
 from ragg_runtime.report import draw
+from ragg_runtime.survey.quality.by_line import LineFigures
+from ragg_runtime.survey.quality.discs import Discs, combinations, ne, uv
+from ragg_runtime.survey.quality.galileo import WINDOW
+from ragg_runtime.survey.quality.qc import Quality
+from ragg_runtime.survey.quality.spectra import density, filled, rolling_std
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ragg_runtime.quality.qc import Quality
+from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.wording.numbers import number
 
 _OF_A_LINE = {

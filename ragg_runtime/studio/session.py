@@ -23,13 +23,13 @@ from ragg_runtime.instrument.edit_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.quality.qc import Quality
 from ragg_runtime.studio import apply
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
+from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.workflow import loop, versions
 from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.loop import Added, Loaded

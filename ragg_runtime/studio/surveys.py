@@ -17,7 +17,7 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.flight.formats import ending_of
 from ragg_runtime.report.survey_page import shown, survey_html
 from ragg_runtime.studio.places import Places
-from ragg_runtime.survey import Survey
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Record, fingerprint
 from ragg_runtime.survey.tls import Tls
 from ragg_runtime.workflow import loop

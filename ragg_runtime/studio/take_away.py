@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.model_dir.provenance import versioned
+from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State

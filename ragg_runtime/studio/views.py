@@ -12,6 +12,7 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.glance import Glance
+from ragg_runtime.flight.record import left_out
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.model import Effect
@@ -151,7 +152,7 @@ def _banner(s: State) -> Json | None:
         "converged": converged if isinstance(converged, bool) else None,
         "adequate": c.adequate,
         "k_ggi": c.fitted.k_ggi,
-        "kind": c.fitted.observations[0].kind,
+        "kind": c.fitted.observations[0].recorded.kind,
         "table": [
             panels.error_row("nominal", c.nominal),
             panels.error_row("calibrated", c.calibrated),
@@ -379,9 +380,5 @@ def commands(s: State) -> list[str]:
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
     if s.survey is not None:
         found.append(f"ragg survey {model} {shlex.quote(str(s.survey.folder))}/*")
-    cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
+    cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*cut, *found]
-
-
-def model_path(s: State) -> Path:
-    return s.model.directory.path

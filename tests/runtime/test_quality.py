@@ -16,13 +16,13 @@ from ragg_runtime.cli.main import cli
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.flight.source import Column, Written
-from ragg_runtime.quality import galileo, galileo_lines
-from ragg_runtime.quality.crossovers import Repeat, crossings
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.qc import Quality, qc
-from ragg_runtime.quality.track import Track
 from ragg_runtime.report.quality_galileo import tables
 from ragg_runtime.report.quality_page import quality_html, quality_text
+from ragg_runtime.survey.quality import galileo, galileo_lines
+from ragg_runtime.survey.quality.crossovers import Repeat, crossings
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.qc import Quality, qc
+from ragg_runtime.survey.quality.track import Track
 from ragg_runtime.wording import numbers
 
 SIGMA = 6.0  # Eo: noise of a sample of UV and NE of every disc
