@@ -30,7 +30,7 @@ from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.wording import notebook, numbers
+from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
 
@@ -282,7 +282,7 @@ def _digits(f: Fitted) -> list[str]:
             continue
         which = "" if len(f.prepared) == 1 else f"{o.name}: "
         found.append(
-            f"{which}the digits of the file make {numbers.number(r.rms / k_ggi)} Eo of what is taken for noise, most of it"
+            f"{which}the digits of the file make {r.rms / k_ggi:.3g} Eo of what is taken for noise, most of it"
             f" {o.digits.columns[r.worst].words(r.worst)}"
         )
     return found

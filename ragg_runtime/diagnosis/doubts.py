@@ -14,7 +14,6 @@ from ragg_runtime.fit.observation import Observation
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.evaluate import output
 from ragg_runtime.signals.noise_spectrum import NoiseModel
-from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
@@ -58,8 +57,8 @@ def too_loud(f: Fitted) -> str | None:
         density = _density(x.observation, x.noise.models)
         if density > most:
             return (
-                f"what is taken for noise, {numbers.number(density / k_ggi)} Eo/sqrt(Hz) before demodulation, is more than"
-                f" accelerometers of this sheet can have, {numbers.number(most / k_ggi)} Eo/sqrt(Hz): the model does not explain"
+                f"what is taken for noise, {density / k_ggi:.3g} Eo/sqrt(Hz) before demodulation, is more than"
+                f" accelerometers of this sheet can have, {most / k_ggi:.3g} Eo/sqrt(Hz): the model does not explain"
                 " the output; if they are that noisy, say so by the sigma of their K0 in model.toml"
             )
     return None
@@ -89,8 +88,8 @@ def thinned(f: Fitted) -> str | None:
             rate = o.record.rate
             return (
                 f"inline and cross may have been made at a higher rate and thinned out to {rate:.6g} Hz: the motion goes on beyond"
-                f" half of it, and what sampling then spoils, up to {numbers.number(spoiled / k_ggi)} Eo, is as large as what the"
-                f" model leaves, {numbers.number(left / k_ggi)} Eo; give motion and channels at the rate at which they were made; if"
+                f" half of it, and what sampling then spoils, up to {spoiled / k_ggi:.3g} Eo, is as large as what the"
+                f" model leaves, {left / k_ggi:.3g} Eo; give motion and channels at the rate at which they were made; if"
                 f' it is this one, say so: [demodulator] rate = "{rate:.6g} Hz"'
             )
     return None
