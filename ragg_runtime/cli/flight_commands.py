@@ -130,7 +130,9 @@ def diagnose(
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
+@click.option(
+    "--jobs", type=click.IntRange(1), help="Processes on this machine (default: one per processor)."
+)
 @scheduler_options
 @click.option(
     "--resume",

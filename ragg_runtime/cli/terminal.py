@@ -82,7 +82,7 @@ def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Seque
 
 
 def ladder(c: Comparison) -> list[str]:
-    """What each simplification of the model is worth, a line a form, if that was asked for."""
+    """What each simplification of the model is worth, one line per form, if that was asked for."""
     if not c.ladder:
         return []
     names = [_in_short(r.form) for r in c.ladder]

@@ -53,7 +53,7 @@ def in_force(kept: str | None, where: Path, model: Model, instrument: Instrument
     here = (tuple(e.id for e in model.effects), instrument.form.words())
     if saved.layout != names or (saved.effects, saved.form) != here:
         raise UserError(
-            "the saved calibration is of another model",
+            "the saved calibration belongs to another model",
             where=where,
             found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
             expected=f"{here[1]}, effects {', '.join(here[0]) or 'none'}",

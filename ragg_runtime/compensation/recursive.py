@@ -1,7 +1,7 @@
 """Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
 
 A filter is of one output. The states are the fitted parameters of its accelerometers (steps from a point p, in their
-scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo a root second. What is
+scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo per root second. What is
 kept is the triangle R and the right-hand side z of R x = z, so that a sample is one more row, turned into them; nothing is ever
 inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The same
 steps, in the same order, are those of the exported C.

@@ -230,7 +230,7 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
         found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
     order = [k for k, _ in found]
     if len(set(order)) < 3:
-        raise UserError("an axis stands there twice", where=where, found=dict(raw))
+        raise UserError("an axis appears twice", where=where, found=dict(raw))
     parity = 1.0 if order in ([0, 1, 2], [1, 2, 0], [2, 0, 1]) else -1.0
     if parity * math.prod(s for _, s in found) < 0:
         raise UserError(

@@ -114,7 +114,7 @@ class Flight:
             for name, column in columns.items():
                 if column.shape != time.shape:
                     raise UserError(
-                        f"{name} has another length than time",
+                        f"{name} differs in length from time",
                         where=at(self.path, self.name),
                         found=column.shape,
                         expected=time.shape,

@@ -207,13 +207,11 @@ def is_unit(text: str) -> bool:
 
 
 def distinct(path: Path, headings: Sequence[Heading]) -> tuple[Heading, ...]:
-    """The headings; UserError if a name stands there twice."""
+    """The headings; UserError if a name appears twice."""
     seen: set[str] = set()
     for h in headings:
         if h.name in seen:
-            raise UserError(
-                f"the column {h.name!r} stands there twice", where=path, remedy="remove or rename one"
-            )
+            raise UserError(f"the column {h.name!r} appears twice", where=path, remedy="remove or rename one")
         seen.add(h.name)
     return tuple(headings)
 

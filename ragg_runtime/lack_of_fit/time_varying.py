@@ -23,7 +23,7 @@ from ragg_runtime.lack_of_fit.whitened_terms import products, squares
 Array = NDArray[np.float64]
 
 PARTS = 4
-"""Spells in a block of time."""
+"""Stretches in a block of time."""
 
 WINDOWS = (1, 2, 4, 8, 16)
 """Lengths of windows, in intervals; each is moved by half of it."""

@@ -79,7 +79,9 @@ def safe_name(name: str) -> str:
     ending = ending_of(plain)
     if ending is None or len(plain) == len(ending):
         raise UserError(
-            "this is no flight file", where=name[:200], expected="a name that ends in " + ", ".join(ENDINGS)
+            "this is not a flight file",
+            where=name[:200],
+            expected="a name that ends in " + ", ".join(ENDINGS),
         )
     if len(plain) > LONGEST_NAME:
         raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")

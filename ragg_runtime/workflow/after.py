@@ -240,7 +240,7 @@ def _chain(m: Loaded) -> str:
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
     """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
     if form not in FORMS:
-        raise UserError("there is no such form of an export", found=repr(form), expected=", ".join(FORMS))
+        raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 

@@ -138,7 +138,7 @@ def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
         raise UserError(
             f"{name} is no series of samples",
             found=f"shape {found.shape}",
-            expected="one number a sample" if length is None else f"shape ({length},)",
+            expected="one number per sample" if length is None else f"shape ({length},)",
         )
     return found
 

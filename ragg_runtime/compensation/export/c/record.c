@@ -137,7 +137,7 @@ static void places_of(char *fields[], size_t count, int outputs, int place[COLUM
                 continue;
             }
             if (place[k] >= 0) {
-                ragg_fail("the column stands there twice", fields[n], "each column once");
+                ragg_fail("the column appears twice", fields[n], "each column once");
             }
             if (!unit || !is_si(unit, COLUMN[k].units)) {
                 ragg_fail(unit ? "the column is not in SI units" : "the column has no unit", fields[n],

@@ -1,6 +1,6 @@
 """The outputs of a gradiometer from its motion, with NumPy alone: python ragg_model.py < MOTION.csv > OUT.csv
 
-MOTION.csv has a header, one `name [unit]` a column, in the SI units of model.json. Gradients that are not there are zero;
+MOTION.csv has a header, one `name [unit]` per column, in the SI units of model.json. Gradients that are not there are zero;
 omegadot, where it is not there, is derived from omega; without an encoder's column (spin_angle) the angle of a disc is
 2 pi spin_frequency t from the first row on.
 """
