@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.unknown_gradient import spin_frequency
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.noise_spectrum import Noise
 
