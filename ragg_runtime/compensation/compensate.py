@@ -15,7 +15,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
 from ragg_runtime.compensation.calibrated import information, inverse
-from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.schedule import Stretch
 from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
@@ -32,6 +31,7 @@ from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.signals.demodulators import Demodulator, demodulator
 
 Array = NDArray[np.float64]
 Kind = Literal["frozen", "self", "crossed"]

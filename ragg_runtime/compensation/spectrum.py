@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.unknown_gradient import spin_frequency
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.noise_spectrum import Noise
 from ragg_runtime.signals.periodogram import periodogram

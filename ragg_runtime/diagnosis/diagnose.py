@@ -22,8 +22,9 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import explained
-from ragg_runtime.diagnosis.line_rival import line_rival
+from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
@@ -90,7 +91,7 @@ def diagnose_fitted(
     rem = c.remainder
     simpler = None if rem.significant else _simpler(f, field, choice)
     rem = rem if simpler is None else simpler
-    line = line_rival(steps, replace(last, field=field, choice=choice))
+    line, steady = line_rival(steps, replace(last, field=field, choice=choice))
     if line is not None and not line.better(rem, alone=simpler is not None):
         line = None
     rem = rem if line is None else line.within(rem)
@@ -105,10 +106,11 @@ def diagnose_fitted(
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     output_explained = explained(target, after)
+    doubt = doubts(target, output_explained)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
     loud = comparison.loud(target, after, noise) and not random_found
-    if complaint is not None or output_explained.complaint is not None or remains or loud:
+    if complaint is not None or doubt is not None or remains or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
@@ -141,13 +143,25 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=output_explained.complaint or (line and line.words) or comparison.disturbed(target),
+        remark=_remark(doubt, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),
         off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
     )
+
+
+def _remark(
+    doubt: str | None, line: LineRival | None, steady: Sequence[Steady], disturbed: str | None
+) -> str | None:
+    """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
+    if doubt is not None:
+        return doubt
+    if line is not None:
+        return line.words
+    said = [*(s.words for s in steady), *([] if disturbed is None else [disturbed])]
+    return "; ".join(said) or None
 
 
 def _followed(

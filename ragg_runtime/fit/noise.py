@@ -15,7 +15,7 @@ from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, in_words
 from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.flight.record import SPECIFIC_FORCE
@@ -129,18 +129,22 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
-    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated."""
-    gain = o.recorded.noise_share(o.record.rate)
+    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
+
+    Of channels that were recorded more seldom than the motion a sample counts for more.
+    """
+    gain, more = o.recorded.noise_share(o.record), telling(o.record)
     squares = free = 0.0
     for p in parts:
         (x,) = p.outputs
         squares += float(np.sum(x.rest**2)) / gain
         # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
-        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * len(x.rest)))
+        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * more * len(x.rest)))
     sigma = float(np.sqrt(squares / free))
     density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
     model = NoiseModel(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
-    return Noise((model,), (np.array([1.0 / sigma]),))
+    freedom = max(1.0, gain * more * free)
+    return Noise(models=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
 def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -14,6 +14,7 @@ from generated.output_effects import imu_saturation, saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.digits import Digits, digits_of
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
@@ -43,11 +44,14 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         raise UserError(f"the flight does not hold the output {o.name}", where=flight.path or flight.name)
     a = instrument.accelerometers
     k_ggi = scale(o, a["k_VI"] * a["K1"], instrument.radii + a["dR"])
-    series = form.series([flight.outputs[c] for c in form.columns(layout, o, flight.outputs) or ()], r, k_ggi)
+    columns = form.columns(layout, o, flight.outputs) or ()
     if form.demodulated:
-        edge = len(form.taps(r.rate)) // 2  # there our demodulator has not seen enough
-        inside = np.zeros(len(r.time), dtype=bool)
-        inside[edge : len(r.time) - edge] = True
+        there = np.isfinite([flight.outputs[c] for c in columns]).all(axis=0) & r.valid
+        r = replace(r, every=_spacing(there))
+    series = form.series([flight.outputs[c] for c in columns], r, k_ggi)
+    if form.demodulated:
+        inside = np.zeros(len(r.time), dtype=bool)  # elsewhere the demodulator has not seen enough
+        inside[r.low_pass.before : len(r.time) - r.low_pass.ahead] = True
         r = replace(r, valid=r.valid & inside)
     valid = np.array(r.valid)
     for x in series:
@@ -63,7 +67,22 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
-    return Observation(form, replace(r, valid=valid, wide=wide), series, name, o, place)
+    digits = digits_of(flight, instrument.units)
+    weights = (k_ggi**2 / 8, k_ggi**2 / 2) if form.demodulated else (1.0,) * len(columns)
+    return Observation(
+        recorded=form,
+        record=replace(r, valid=valid, wide=wide),
+        series=series,
+        name=name,
+        output=o,
+        place=place,
+        digits=digits,
+        rounded={
+            n: w * digits.columns[n].mean_square(flight.outputs[n][valid])
+            for n, w in zip(columns, weights, strict=True)
+            if n in digits.columns
+        },
+    )
 
 
 @dataclass(frozen=True)
@@ -73,7 +92,7 @@ class Observation:
     ``recorded`` says which form of the output they are; all are in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them.
+    ``place`` counts them. ``digits`` says how the columns were written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
     recorded: Recorded
@@ -82,6 +101,8 @@ class Observation:
     name: str
     output: Output = PAPER.outputs[0]
     place: int = 0
+    digits: Digits = field(default_factory=Digits)
+    rounded: Mapping[str, float] = field(default_factory=dict)
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some noise."""
 
@@ -107,6 +128,35 @@ class Observation:
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
         return Observation(self.recorded, self.record.part(rows), series, self.name, self.output, self.place)
+
+
+def _spacing(there: NDArray[np.bool_]) -> int:
+    """Samples from one of channels to the next."""
+    at = np.flatnonzero(there)
+    return max(1, int(np.median(np.diff(at)))) if len(at) > 1 else 1
+
+
+def telling(r: Record) -> float:
+    """How many times more a sample of the channels tells than one of a record of all of them: samples of noise in so narrow a
+    band are much alike, and those that are left out would have told little.
+    """
+    from scipy import signal  # slow to import, and only records of channels need it
+
+    taps, n = r.low_pass.taps, len(r.time)
+    reach = min(len(taps), n)
+    lags = np.arange(1, reach)
+    alike = signal.correlate(taps, taps)[len(taps) :][: reach - 1] / float(np.sum(taps**2))
+
+    def squares(turn: float) -> Array:
+        return np.asarray(np.square(alike * np.cos(turn * lags)))
+
+    x = r.valid.astype(np.float64)
+    count = float(np.sum(x))
+    beside = np.rint(signal.correlate(x, x, method="fft"))[n:][: reach - 1]
+    whole = count + 2 * float(np.maximum(count - lags, 0.0) @ squares(4 * np.pi * r.spin_frequency / r.rate))
+    turn = np.pi / (2 * r.every) if r.every > 1 else 4 * np.pi * r.spin_frequency / r.rate
+    own = count + 2 * float(beside @ squares(turn))
+    return max(1.0, whole / own) if count else 1.0
 
 
 def as_output(o: Observation, e: Array) -> Array:

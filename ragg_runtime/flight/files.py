@@ -135,7 +135,8 @@ def _bounded(source: Source) -> Iterator[Batch]:
 
 
 def _noted(made: Flight, source: Source) -> Flight:
-    return replace(made, notes=(*source.notes, *made.notes)) if source.notes else made
+    notes = (*source.notes, *made.notes)
+    return replace(made, notes=notes, demodulation=source.demodulation)
 
 
 @contextlib.contextmanager

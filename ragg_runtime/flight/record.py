@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.instrument.demodulation import Demodulation
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -84,6 +85,8 @@ class Flight:
         Name -> unit that the file gives, of every column of the file; empty if the flight comes from none.
     notes
         What was derived, filled in or looks odd, in sentences.
+    demodulation
+        How ``inline`` and ``cross`` were made, if the mapping of the file says so.
     """
 
     time: Array
@@ -96,6 +99,7 @@ class Flight:
     valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
     units: Mapping[str, str] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
+    demodulation: Demodulation | None = None
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)

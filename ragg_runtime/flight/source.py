@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.flight.record import Array
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 
 Batch = Mapping[str, Array]
@@ -93,7 +94,8 @@ class Source:
     """A flight: columns of numbers under the names of the contract, each with a unit, and its rows.
 
     ``line`` is the flight line, where the file has several; ``origin`` the instant at which ``time`` is 0, if
-    it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file.
+    it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file,
+    ``demodulation`` how its channels were made, if that is known.
     """
 
     path: Path
@@ -102,6 +104,7 @@ class Source:
     line: str | None = None
     origin: datetime | None = None
     notes: tuple[str, ...] = ()
+    demodulation: Demodulation | None = None
 
 
 @dataclass(frozen=True)

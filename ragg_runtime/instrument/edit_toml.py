@@ -12,6 +12,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
@@ -100,6 +101,8 @@ def model_text(instrument: Instrument) -> str:
         document.add("g0", f"{instrument.g0!r} m/s^2")
     if instrument.form != PAPER:
         document.add("model", _form(instrument.form))
+    if instrument.demodulation is not None:
+        document.add("demodulator", _demodulator(instrument.demodulation))
     document.add("disc", disc if instrument.layout.of_paper else _discs(instrument.layout))
     document.add("accelerometers", accelerometers)
     text = tomlkit.dumps(document)
@@ -139,6 +142,13 @@ def _form(form: Form) -> Any:
     order = tomlkit.inline_table()
     order.update(form.order)
     table.add("order", form.preset or order)
+    return table
+
+
+def _demodulator(d: Demodulation) -> Any:
+    table = tomlkit.table()
+    for key, value in d.entries().items():
+        table.add(key, value)
     return table
 
 

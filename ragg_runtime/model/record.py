@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
 
 Array = NDArray[np.float64]
@@ -59,6 +62,10 @@ class Record:
         Whether the disc turns at all.
     axes
         First two axes of the disc at rest in the measurement frame; ``None``: x and y.
+    demodulation
+        How inline and cross were made, where they are what was recorded.
+    every
+        Samples from one at which they were recorded to the next.
     """
 
     time: Array
@@ -71,6 +78,13 @@ class Record:
     phase: float = 0.0
     turning: bool = True
     axes: tuple[Vector3, Vector3] | None = None
+    demodulation: Demodulation = OURS
+    every: int = 1
+
+    @cached_property
+    def low_pass(self) -> Demodulator:
+        """What inline and cross have passed."""
+        return kernel(self.demodulation, self.rate)
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -88,6 +102,24 @@ class Record:
     def demodulation_angle(self) -> Array:
         """(N,) rad: half the angle of the gradient's carriers."""
         return self.phi if self.phase == 0.0 else self.phi + self.phase / 2
+
+    @cached_property
+    def quadratures(self) -> tuple[Array, Array]:
+        """Cosine and sine, (N,), of the gradient's carriers: G_out holds T_1 sin + T_2 cos."""
+        double = 2 * self.demodulation_angle
+        return np.asarray(np.cos(double)), np.asarray(np.sin(double))
+
+    @cached_property
+    def carriers(self) -> tuple[Array, Array]:
+        """Those on which inline and cross are put to be one series: the gradient's, or ones that turn by a quarter from sample
+        to sample where they were recorded more seldom (of a disc that turns twice a second, say, recorded every second, one
+        of them would always be zero).
+        """
+        return self.quadratures if self.every == 1 else self._quarters(self.time)
+
+    def _quarters(self, time: Array) -> tuple[Array, Array]:
+        angle = np.pi / 2 * np.remainder(np.rint(time * self.rate), 4.0 * self.every) / self.every
+        return np.asarray(np.cos(angle)), np.asarray(np.sin(angle))
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -138,12 +170,15 @@ class Record:
         time = np.array(self.time[rows])
         return replace(self, time=time, wide=wide, valid=valid, halo=(a - first, last - b))
 
-    def angle(self, rows: slice) -> tuple[Array, Array]:
-        """Time, s, and disc angle, rad, of some samples alone."""
+    def carried(self, rows: slice) -> tuple[Array, Array, Array]:
+        """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
         time = np.array(self.time[rows])
+        if self.every > 1:
+            return time, *self._quarters(time)
+        phi = disc_angle(time, self.spin_frequency)
         if self.angle_column in self.wide:
-            return time, np.array(self.wide[self.angle_column][rows])
-        return time, disc_angle(time, self.spin_frequency)
+            phi = np.array(self.wide[self.angle_column][rows])
+        return time, np.asarray(np.cos(2 * phi)), np.asarray(np.sin(2 * phi))
 
     def _inner(self, x: Array) -> Array:
         return x[self.halo[0] : len(x) - self.halo[1]]
@@ -219,6 +254,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
         turning=turning,
         axes=None if disc.level else disc.across,
+        demodulation=flight.demodulation or instrument.demodulation or OURS,
     )
 
 

@@ -16,7 +16,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.instrument.layout import Layout, Output
 from ragg_runtime.model.record import Record
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
@@ -53,13 +53,10 @@ class Recorded(Protocol):
     def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
         """(m, N), V, before demodulation: of the members' voltages (members, N), or of one accelerometer's (N,)."""
 
-    def through(self, G: Array, r: Record) -> Array:
-        """What the recorder lets pass of the output (..., N) before demodulation."""
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
+        """What the recorder lets pass of the output (..., N) before demodulation, by its low-pass or another one."""
 
-    def taps(self, rate: float) -> Array:
-        """Low-pass of its demodulator; empty if there is none."""
-
-    def noise_share(self, rate: float) -> float:
+    def noise_share(self, r: Record) -> float:
         """Variance of white noise of unit variance after :meth:`through`."""
 
 
@@ -71,13 +68,10 @@ class _BeforeDemodulation:
     def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
         return tuple(columns)
 
-    def through(self, G: Array, r: Record) -> Array:
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
         return G
 
-    def taps(self, rate: float) -> Array:
-        return np.zeros(0)
-
-    def noise_share(self, rate: float) -> float:
+    def noise_share(self, r: Record) -> float:
         return 1.0
 
 
@@ -146,19 +140,17 @@ class Channels(_Sum):
         inline, cross = columns
         return (carried(inline, cross, r, k_ggi),)
 
-    def through(self, G: Array, r: Record) -> Array:
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
         """Demodulated and put back on the carriers."""
-        taps = low_pass(r.rate)
-        cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
+        taps = (low or r.low_pass).centred
+        cosine, sine = r.quadratures
         in_phase = convolved(2 * G * sine, taps, "same")
         quadrature = convolved(2 * G * cosine, taps, "same")
+        cosine, sine = r.carriers
         return np.asarray(in_phase * sine + quadrature * cosine)
 
-    def taps(self, rate: float) -> Array:
-        return low_pass(rate)
-
-    def noise_share(self, rate: float) -> float:
-        return float(2 * np.sum(low_pass(rate) ** 2))
+    def noise_share(self, r: Record) -> float:
+        return float(2 * np.sum(r.low_pass.taps**2))
 
 
 FORMS: tuple[Recorded, ...] = (Voltages(), Summed(), Channels())
@@ -172,12 +164,9 @@ def recorded(flight: Flight, layout: Layout, place: int) -> Recorded | None:
 
 
 def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
-    """Demodulated channels put back on their carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
+    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
 
     ``k_ggi`` in V per unit of the channels.
     """
-    cosine, sine = r.cos_phi**2 - r.sin_phi**2, 2 * r.sin_phi * r.cos_phi
-    if r.phase != 0.0:
-        c, s = float(np.cos(r.phase)), float(np.sin(r.phase))
-        cosine, sine = c * cosine - s * sine, c * sine + s * cosine
+    cosine, sine = r.carriers
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))

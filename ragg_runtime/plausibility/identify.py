@@ -16,7 +16,6 @@ from ragg_runtime.plausibility.mistakes import mistakes
 from ragg_runtime.plausibility.quick_fit import Explained, explain
 from ragg_runtime.plausibility.subsample import Picker
 from ragg_runtime.plausibility.timing import searches
-from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.signals.derivative import differentiate
 
 SUSPICIOUS = 30.0
@@ -114,10 +113,10 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
 
 def _otherwise(made: other_demodulator.Made) -> _Tried:
     return _Tried(
-        what=f"inline and cross were made by another demodulator, such as {made.what}",
+        what=f"inline and cross were made by another demodulator, such as {made.how.words()}",
         remedy=(
-            f"record G_out itself, or demodulate as here: a symmetric FIR low-pass, half amplitude at {CUTOFF:g} Hz,"
-            " channels not delayed"
+            f"if that is so, say it in model.toml or in a mapping: [demodulator] {made.how.toml()};"
+            " else record G_out itself"
         ),
         plainness=3,
         left=made.left,

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from generated.output_effects.saturation import clipped
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
 from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
 from ragg_runtime.model.recorded import Recorded, recorded
@@ -266,4 +268,6 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             for _ in range(order):
                 series = differentiate(series, flight.rate)
             derived[name] = series
-    return Picker(flight, instrument, form, usable, derived, form.taps(flight.rate), place)
+    how = flight.demodulation or instrument.demodulation or OURS
+    taps = kernel(how, flight.rate).centred if form.demodulated else np.zeros(0)
+    return Picker(flight, instrument, form, usable, derived, taps, place)

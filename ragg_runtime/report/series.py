@@ -104,14 +104,14 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
     if not w.observation.recorded.demodulated:
         return np.asarray(psd)
-    rate = w.observation.record.rate
-    _, H = signal.freqz(low_pass(rate), worN=np.minimum(np.abs(f - 2 * spin), rate / 2), fs=rate)
+    r = w.observation.record
+    H = r.low_pass.response(np.minimum(np.abs(f - 2 * spin), r.rate / 2))
     return np.asarray(psd * np.abs(H) ** 2)
 
 
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
-    share = w.observation.recorded.noise_share(w.observation.record.rate)
+    share = w.observation.recorded.noise_share(w.observation.record)
     return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 

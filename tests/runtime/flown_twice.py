@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.cli.main import main
-from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
+from ragg_runtime.signals.demodulators import Demodulator
 
 DURATION = 900.0
 
