@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis import comparison, next_motion, strong
+from ragg_runtime.diagnosis import comparison, motion_saturation, next_motion, strong
 from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.explained import explained
@@ -32,7 +32,7 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.fit.observation import MOTION_SATURATION, observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_effects import recognised
@@ -78,7 +78,9 @@ def diagnose_fitted(
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
-    output = _output_effects(f, flights)
+    as_recorded, clipped = f, motion_saturation.without(f, flights)
+    f = f if clipped is None else clipped
+    output = _output_effects(f, flights) + ([] if clipped is None else [MOTION_SATURATION])
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
     c = confirmed(last, extend)
@@ -121,6 +123,9 @@ def diagnose_fitted(
     if steps:
         later, _ = _ranking(f, field, choice, last.instants, ())
         ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
+    if clipped is not None:
+        (whole,) = as_recorded.score([np.zeros(as_recorded.size)])
+        ranking = [replace(r, before=whole.whole) if r.effect == MOTION_SATURATION else r for r in ranking]
     credence = weighed(last.field, steps)
     ranking = [with_probability(r, credence) for r in ranking]
     groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}

@@ -28,8 +28,9 @@ DIRECTIONS = 1e-7
 
 
 def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: Sequence[int]) -> float:
-    """How much more than they should the scores vary: mean over directions of the variance of a block's scores, relative to unit variance of the noise; at least 1.
+    """How much more the scores vary than they should: at least 1.
 
+    That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions.
     ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time; columns ``given`` are in the model, ``tested``
     beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
     """

@@ -15,6 +15,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.output_effects.saturation import saturation
+from ragg_runtime.flight.range_end import motion_at_the_end
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
@@ -23,6 +24,9 @@ from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
+
+MOTION_SATURATION = "motion-saturation"
+"""Effect with which a model leaves out the samples at which a motion sensor is at the end of its range."""
 
 
 def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
@@ -57,9 +61,14 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    clipped = saturation(flight.outputs[o.name], valid) if o.name in flight.outputs else None
-    if clipped is not None:
-        valid &= ~clipped[1]
+    recorded_too = (flight.outputs[o.name],) if o.name in flight.outputs else ()
+    for x in (*recorded_too, *(series if kind == "voltages" else ())):
+        clipped = saturation(x, valid)
+        if clipped is not None:
+            valid &= ~clipped[1]
+    if instrument.effect(MOTION_SATURATION) is not None:
+        for mask in motion_at_the_end(flight.channels, flight.valid).values():
+            valid &= ~mask
     let_go(*flight.outputs.values())
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part

@@ -7,7 +7,14 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
+from ragg_runtime.flight.range_end import motion_at_the_end
+from ragg_runtime.flight.record import (
+    ANGULAR_ACCELERATION,
+    ANGULAR_RATE,
+    DEMODULATED,
+    SI_UNITS,
+    SPECIFIC_FORCE,
+)
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
@@ -97,7 +104,18 @@ def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float)
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:
     """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
-    return [*_stuck(flight), *_rates(flight), *encoders]
+    return [*_stuck(flight), *_ends(instrument, flight), *_rates(flight), *encoders]
+
+
+def _ends(instrument: Instrument, flight: Flight) -> list[str]:
+    """Motion sensors that seem to have been at the end of their range."""
+    left_out = instrument.effect("motion-saturation") is not None
+    said = []
+    for name, mask in motion_at_the_end(flight.channels, flight.valid).items():
+        at = f"{int(np.sum(mask))} samples stand at the extreme values, {np.max(np.abs(flight.channels[name][mask])):.6g} {SI_UNITS[name]}"
+        done = "not used" if left_out else "ragg diagnose says whether they disturb (motion-saturation)"
+        said.append(f"{name}: {at}, as of a saturated sensor; {done}")
+    return said
 
 
 def _stuck(flight: Flight) -> list[str]:

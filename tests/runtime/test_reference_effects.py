@@ -95,7 +95,7 @@ SIZES = {
 }
 RECORD_ONLY = {
     "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
-    "gyro-bias",
+    "gyro-bias", "motion-saturation",
     "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
 }  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation"}

@@ -100,6 +100,8 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
         *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
     ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
+    "motion-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
+    | _shared("rad/s", "omega_max", neutral=np.inf),
     "saturation": _shared("V", "V_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
 }

@@ -49,6 +49,9 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
         a = (1 + _vector(scale, "s")) * a
     if offset := effects.get("imu-acceleration-bias"):
         a = a + _vector(offset, "b")
+    if ends := effects.get("motion-saturation"):
+        a = np.clip(a, -ends["a_max"], ends["a_max"])
+        omega = np.clip(omega, -ends["omega_max"], ends["omega_max"])
     return MotionState(a, omega, omegadot)
 
 
