@@ -52,7 +52,7 @@ def unmarked(folder: Path) -> Path:
 
 
 def synchronous(folder: Path, *, outputs: bool = True, wrong: int = 0) -> Path:
-    """The motion at one instant for all chips, ``outputs`` too; in any case with channels slip_1 ... slip_4.
+    """The motion at one instant for all chips, the ``outputs`` too; or else with channels slip_1 ... slip_4 beside them.
 
     ``slip_j``, m/s^2, is what the age of A_j's chip makes of the jerk that the back feels. ``wrong``: ages of so many samples
     before, as a counter-check.
@@ -65,7 +65,7 @@ def synchronous(folder: Path, *, outputs: bool = True, wrong: int = 0) -> Path:
     slips = -np.stack([age[:, 2 * corner] for corner, _ in PLACES]) * (tangents() @ jerk.T)
     made = {"a": a, "omega": omega, "omegadot": alpha}
     channels = {f"{n}_{k}": x[:, i] for n, x in made.items() for i, k in enumerate("xyz")}
-    channels |= {f"slip_{j + 1}": x for j, x in enumerate(slips)}
+    channels |= {} if outputs else {f"slip_{j + 1}": x for j, x in enumerate(slips)}
     for x in channels.values():
         x[saturated] = np.nan
     V = {n: v - outputs * x / G0 for (n, v), x in zip(plain.outputs.items(), slips, strict=True)}
