@@ -149,7 +149,7 @@ class Tally:
 
     def __init__(self, k: int, groups: int, rate: float, *, turning: bool = True) -> None:
         self._turning = turning  # of a disc that stands still there is nothing to demodulate
-        self._taps = low_pass(rate)
+        self._taps = low_pass(rate) if turning else np.ones(1)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
         self.demodulated = np.zeros(groups)

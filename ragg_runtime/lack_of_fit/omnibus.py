@@ -315,8 +315,8 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     taken: list[Found] = []
     chi2 = 0.0
     while len(taken) < most:
-        now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0) / sober
-        if _log_p(now, tried, freedom) >= np.log(FAMILY):
+        now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
+        if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
         k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))
