@@ -8,7 +8,8 @@ STAMP := $(VENV)/.complete
 .PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign promises package test-oldest lock sbom audit
 
 # The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
-PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
+NAMES := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p'
+PINS := $(NAMES) requirements.lock
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
@@ -90,8 +91,8 @@ package:  ## build wheel and sdist, install into an empty environment, run the d
 test-oldest: export OPENBLAS_NUM_THREADS := 1
 test-oldest:  ## run the tests of the runtime with the oldest dependencies
 	$(PYTHON) -m venv .venv-oldest
-	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-oldest.lock
-	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-oldest.lock
+	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	.venv-oldest/bin/python -m pytest -q -n 2 --dist loadfile -W default tests/runtime tests/fuzz tests/derive/test_expression.py
 
 # What works on the lock itself: an environment of its own, so that nothing of it is in the lock.
@@ -101,11 +102,11 @@ $(TOOLS): Makefile
 	.venv-tools/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9 cyclonedx-bom==7.5.0 pip-audit==2.10.1
 	@touch $@
 
-lock: $(TOOLS)  ## put the hashes of all files of each release into requirements.lock (after adding a line NAME==VERSION)
-	$(PINS) > .venv-tools/pins.in
-	.venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
-	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null
-	cp .venv-tools/pins.lock requirements.lock
+lock: $(TOOLS)  ## put the hashes of all files of each release into both locks (after adding a line NAME==VERSION)
+	for lock in requirements.lock requirements-oldest.lock; do $(NAMES) $$lock > .venv-tools/pins.in; \
+	  .venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
+	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null || exit 1; \
+	  cp .venv-tools/pins.lock $$lock; done
 
 sbom: $(STAMP) $(TOOLS)  ## write sbom.json (CycloneDX): the packages of the lock, what is vendored, their licences
 	$(PINS) | PYTHONWARNINGS=ignore .venv-tools/bin/cyclonedx-py requirements - --pyproject pyproject.toml \

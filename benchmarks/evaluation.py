@@ -120,10 +120,10 @@ def rows_of(
 
 
 def run() -> list[Row]:
-    """Accuracy, times streaming and in cache, ratios, bounds, threads."""
+    """Accuracy, times streaming and in cache, ratios, bounds, other instruments, threads."""
     import numpy as np
 
-    from benchmarks import bounds
+    from benchmarks import bounds, instruments
 
     cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
     if cores:
@@ -170,6 +170,7 @@ def run() -> list[Row]:
             Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high, better="lower")
         )
     rows += limits.rows(1e9 * times[OURS].median / IN_CACHE)
+    rows += instruments.rows(t, x, p)
     if len(cores) > 1:
         os.sched_setaffinity(0, cores)
         rows += threads(t, x, p, len(cores))

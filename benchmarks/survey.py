@@ -22,13 +22,13 @@ REPEATS = 2
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1"}
 
 
-def free_processors(spell: float = 2.0) -> float:
-    """Processors that nobody uses, by the system's own count over ``spell``, s (NaN where it has none)."""
+def free_processors(seconds: float = 2.0) -> float:
+    """Processors that nobody uses, by the system's own count over so many ``seconds`` (NaN where it has none)."""
     try:
-        first, second = _idle(), (time.sleep(spell), _idle())[1]
+        first, second = _idle(), (time.sleep(seconds), _idle())[1]
     except (OSError, ValueError):
         return float("nan")
-    return (second - first) / os.sysconf("SC_CLK_TCK") / spell
+    return (second - first) / os.sysconf("SC_CLK_TCK") / seconds
 
 
 def _idle() -> float:

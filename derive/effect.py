@@ -106,7 +106,7 @@ class Effect:
     kind
         ``deterministic``; ``step`` (starts at an unknown instant, parameter ``t_step``); ``random`` (the
         parameter is the size of a random process; the hook gives the sensitivity to it); ``output``
-        (acts on the recorded output channel; no hook, recognised by its own test).
+        (acts on the recorded output channel; no hook: its file says how it is recognised in the values).
     sensing
         (motion, p, c) -> motion at the disc centre from the recorded one.
     disc_angle
@@ -123,6 +123,8 @@ class Effect:
         (i, f, p, c) -> I_j/K_j1, m/s^2, from that of Eq. 1.
     moot
         (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
+    recogniser
+        Of ``output``: source of ``present(values, valid, noise)``, which its file defines (see :mod:`derive.recogniser`).
     """
 
     id: str
@@ -143,6 +145,7 @@ class Effect:
     second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
+    recogniser: str = ""
 
     def __post_init__(self) -> None:
         if not ID.fullmatch(self.id):

@@ -5,6 +5,9 @@ the axial direction, its output holds no disc angle at all (this is verified, no
 from the first by quarter turns, which only swap and change the signs of the numbers. So G_out is one
 polynomial in twelve numbers whose coefficients are sums over the accelerometers, and everything that the
 instrument's parameters contribute is folded into them beforehand.
+
+That holds for other places than quarter turns and for any order as well: an accelerometer's coefficients in the
+disc's own directions then come from a program (``standing.py``) that knows its place.
 """
 
 from __future__ import annotations
@@ -21,8 +24,11 @@ from derive import stages
 from derive.chain import accelerometer, auxiliary_channel, recorded_motion
 from derive.context import RECORDED_SPIN
 from derive.harmonics import Series, constant, rotating, series, split
+from derive.layout import AXES, Layout, instrument_parameters
+from derive.layout import PAPER as FOUR
 from derive.propagation import COEFFICIENT_PARAMETERS, COEFFICIENTS
 from derive.stages import PAPER, Kinematics, Order
+from derive.standing import standing
 from derive.symbols import (
     COS_J,
     COS_PHI,
@@ -54,6 +60,9 @@ SPIN_CHANNELS = tuple(auxiliary_channel(n) for n in sorted((SPIN_RATE.name, SPIN
 """Rate and acceleration of the disc angle, which full kinematics need, in the order in which a chain has them."""
 
 
+_EMPTY = Program((), ())
+
+
 @dataclass(frozen=True)
 class Part:
     """What one accelerometer adds to a coefficient: sign times an expression in its parameters."""
@@ -72,7 +81,9 @@ class Folded:
     expressions
         What coefficients are made of, in the parameters of one accelerometer (k1, R, ...).
     coefficients
-        c[0], c[1], ...: each a sum of parts.
+        c[0], c[1], ...: each a sum of parts; none where c[k] of an output is the sum of outputs k of ``own``.
+    own
+        Of one accelerometer the coefficients, where they depend on its place.
     numbers
         The motion numbers by the inputs and the cosine and sine of the disc angle.
     value
@@ -88,11 +99,45 @@ class Folded:
     value: sp.Expr
     inputs: tuple[Channel, ...] = MOTION
     parameters: tuple[Parameter, ...] = INSTRUMENT
+    own: Program = _EMPTY
+    layout: Layout = FOUR
+
+    @property
+    def size(self) -> int:
+        """Number of coefficients."""
+        return len(self.coefficients) or len(self.own.outputs)
 
 
-def folded(name: str, title: str, order: Order = PAPER, kinematics: Kinematics = "platform") -> Folded:
-    """Derive the folded form under an order counting (``order.rotation`` must be finite)."""
-    own = _standing(order)
+def folded(
+    name: str,
+    title: str,
+    order: Order = PAPER,
+    kinematics: Kinematics = "platform",
+    layout: Layout = FOUR,
+) -> Folded:
+    """Derive the folded form of an instrument's outputs."""
+    inputs = MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS)
+    if layout.is_paper and order == PAPER:
+        return _in_parts(name, title, kinematics, inputs)
+    found = standing(TURNED, order, layout)
+    used = tuple(any(m[n] for m in found.monomials) for n in range(len(TURNED)))
+    return Folded(
+        name=name,
+        title=title,
+        expressions=(),
+        coefficients=(),
+        numbers=_numbers(kinematics, layout, used),
+        value=_nested({m: symbol(f"c[{n}]") for n, m in enumerate(found.monomials)}, 0, _names(layout)),
+        inputs=inputs,
+        parameters=instrument_parameters(layout),
+        own=found.coefficients,
+        layout=layout.without_common(),
+    )
+
+
+def _in_parts(name: str, title: str, kinematics: Kinematics, inputs: tuple[Channel, ...]) -> Folded:
+    """That of the paper's instrument, whose quarter turns only swap numbers: coefficients as sums of few expressions."""
+    own = _standing(PAPER)
     expressions: dict[sp.Expr, int] = {}
     sums: dict[tuple[int, ...], list[Part]] = {}
     for nominal in (True, False):  # equal parts of the coefficients first: little is lost when they cancel
@@ -112,7 +157,7 @@ def folded(name: str, title: str, order: Order = PAPER, kinematics: Kinematics =
         coefficients=tuple(tuple(sums[m]) for m in keys),
         numbers=_numbers(kinematics),
         value=value,
-        inputs=MOTION if kinematics == "platform" else (*MOTION, *SPIN_CHANNELS),
+        inputs=inputs,
     )
 
 
@@ -175,7 +220,9 @@ def _readable(p: PolyElement) -> sp.Expr:
     return sp.Mul(common, p.ring.from_dict(divided).as_expr(), evaluate=len(divided) == 1)
 
 
-def _nested(terms: Mapping[tuple[int, ...], sp.Symbol], first: int) -> sp.Expr:
+def _nested(
+    terms: Mapping[tuple[int, ...], sp.Symbol], first: int, names: tuple[str, ...] = TURNED
+) -> sp.Expr:
     """A polynomial as c + v (... ) + w (...): every variable multiplies what holds it, from ``first`` on."""
     rest = dict(terms)
     total = rest.pop((0,) * len(TURNED), sp.Integer(0))
@@ -183,25 +230,37 @@ def _nested(terms: Mapping[tuple[int, ...], sp.Symbol], first: int) -> sp.Expr:
         having = {m: c for m, c in rest.items() if m[n]}
         if having:
             lower = {(*m[:n], m[n] - 1, *m[n + 1 :]): c for m, c in having.items()}
-            total += symbol(TURNED[n]) * _nested(lower, n)
+            total += symbol(names[n]) * _nested(lower, n, names)
             rest = {m: c for m, c in rest.items() if m not in having}
     return total
 
 
-def _numbers(kinematics: Kinematics) -> Program:
+def _names(layout: Layout) -> tuple[str, ...]:
+    """Of the turned numbers; where the disc's axis is not that of the measurement frame, its direction is called s."""
+    return tuple(n.replace("z", "s") for n in TURNED) if layout.has(AXES[0, 0]) else TURNED
+
+
+def _numbers(
+    kinematics: Kinematics, layout: Layout = FOUR, used: tuple[bool, ...] = (True,) * len(TURNED)
+) -> Program:
     """The turned numbers by the inputs and cos_phi, sin_phi, shared subexpressions apart."""
     tape = Tape()
     motion = recorded_motion()
     gradient = stages.gradient(motion)
     M = sp.Matrix(3, 3, lambda i, k: tape.let(f"M_{'xyz'[i]}{'xyz'[k]}", gradient[i, k]))
     spin = _spin()
+    if layout.has(AXES[0, 0]):
+        spin = (AXES * spin).xreplace(dict(layout.common))
+        spin = sp.Matrix(3, 3, lambda i, k: tape.let(f"e_{DIRECTIONS[k]}{'xyz'[i]}", spin[i, k]))
     half = M * spin  # along x, y, z of what a step along r, t, z changes
     label = "M" if kinematics == "platform" else "of_platform"  # M_zr is in full kinematics more than that
-    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"{label}_{'xyz'[i]}{DIRECTIONS[k]}", half[i, k]))
+    along = DIRECTIONS[:2] + _names(layout)[-1][-1]
+    half = sp.Matrix(3, 3, lambda i, k: tape.let(f"{label}_{'xyz'[i]}{along[k]}", half[i, k]))
     turned = spin.T * half
     if (
         kinematics == "full"
     ):  # what the spin adds looks from the disc as from the platform: its large part stays exact
         turned += stages.spin_gradient(motion._replace(omega=spin.T * motion.omega), RECORDED_SPIN)
-    outputs = zip(TURNED, (*(spin.T * motion.a), *turned), strict=True)
-    return simplify(tape.assignments, outputs, {})
+    outputs = zip(_names(layout), (*(spin.T * motion.a), *turned), strict=True)
+    wanted = [x for x, u in zip(outputs, used, strict=True) if u]
+    return simplify(tape.assignments, wanted, {})

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
@@ -18,7 +18,7 @@ from derive.chain import accelerometer, auxiliary_channel
 from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
-from derive.layout import Layout
+from derive.layout import Layout, instrument_parameters
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
@@ -152,13 +152,6 @@ def _readable(p: PolyElement) -> sp.Expr:
     return sp.Mul(common, divided.as_expr(), evaluate=len(divided) == 1)
 
 
-def instrument_parameters(layout: Layout) -> tuple[Parameter, ...]:
-    """Those of the paper's instrument; of another layout each accelerometer has its own radius and spin frequency."""
-    if layout.is_paper:
-        return INSTRUMENT
-    return tuple(replace(q, shared=False, count=layout.size) for q in INSTRUMENT)
-
-
 def effect_parameters(effects: Sequence[Effect], count: int = FOUR.size) -> tuple[Parameter, ...]:
     """The parameters that effects bring, under the names they have in a parameter vector."""
     return tuple(
@@ -236,6 +229,8 @@ def operations(m: Harmonic | Chain | Folded) -> Mapping[str, int]:
         return {name: _operations(e for _, e in (*p.assignments, *p.outputs)) for name, p in programs.items()}
     if isinstance(m, Folded):
         folding = 4 * _operations(m.expressions) + sum(len(parts) - 1 for parts in m.coefficients)
+        own = _operations(e for _, e in (*m.own.assignments, *m.own.outputs))
+        folding += m.layout.size * (own + len(m.own.outputs))
         numbers = _operations(e for _, e in (*m.numbers.assignments, *m.numbers.outputs))
         return {"coefficients": folding, "value": numbers + _operations([m.value])}
     terms = [t for _, row in m.amplitudes for t in row]

@@ -6,13 +6,14 @@ its angle on the disc, and, where a layout has them, its height, the turn of its
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 
 import sympy as sp
 
-from derive.symbols import QUARTER_TURNS, SIGNS, symbol
+from derive.symbols import INSTRUMENT, QUARTER_TURNS, SIGNS, Parameter, symbol
 
 HEIGHT = symbol("height_j")
 """Distance of the accelerometer along the spin axis from the disc's centre, m."""
@@ -51,11 +52,15 @@ class Layout:
         heights, directions or axes) -> one number for each accelerometer.
     outputs
         G_out ...
+    rest
+        What the exact cosines and sines of the angles have beyond ``constants``: of places that balance each other
+        the sum vanishes as it should, and a specific force of 1 g leaves nothing of their rounding.
     """
 
     names: tuple[str, ...]
     constants: Mapping[str, tuple[float, ...]] = field(hash=False)
     outputs: tuple[Output, ...]
+    rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
 
     @property
     def size(self) -> int:
@@ -88,6 +93,25 @@ class Layout:
         return constant.name in self.constants
 
 
+def rest_of_angles(
+    degrees: Sequence[Fraction | None], cosines: Sequence[float], sines: Sequence[float]
+) -> Mapping[str, tuple[float, ...]]:
+    """``Layout.rest`` of angles in degrees, where they are known exactly (``None``: nothing is added)."""
+    found: dict[str, tuple[float, ...]] = {}
+    for name, of, known in (("cos_j", sp.cos, cosines), ("sin_j", sp.sin, sines)):
+        rest = [
+            0.0 if d is None else _difference(of(sp.Rational(d.numerator, d.denominator) * sp.pi / 180), x)
+            for d, x in zip(degrees, known, strict=True)
+        ]
+        if any(rest):
+            found[name] = tuple(rest)
+    return found
+
+
+def _difference(exact: sp.Expr, x: float) -> float:
+    return float((exact - sp.Rational(x)).evalf(20, maxn=60))
+
+
 _COSINES, _SINES = (1.0, 0.0, -1.0, 0.0), (0.0, 1.0, 0.0, -1.0)
 
 PAPER = Layout(
@@ -99,3 +123,10 @@ PAPER = Layout(
     outputs=(Output("G_out", (0, 1, 2, 3), SIGNS),),
 )
 """Four quarter turns, G_out = V_1 + V_2 - V_3 - V_4 (Eq. 15)."""
+
+
+def instrument_parameters(layout: Layout) -> tuple[Parameter, ...]:
+    """Those of the paper's instrument; of another layout each accelerometer has its own radius and spin frequency."""
+    if layout.is_paper:
+        return INSTRUMENT
+    return tuple(replace(q, shared=False, count=layout.size) for q in INSTRUMENT)

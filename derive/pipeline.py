@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from derive import ir
+from derive import ir, recogniser
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import c as _c
@@ -52,7 +52,7 @@ def derive_base() -> Files:
     """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest.
 
     In the folder ``full`` the model that feels the disc's own turning, at the paper's order: chain, folded form,
-    signatures.
+    signatures. In ``output_effects`` what recognises the effects of the recorder.
     """
     from derive.simplify import simplified
 
@@ -62,13 +62,19 @@ def derive_base() -> Files:
     )
     full = _derive(Form(kinematics="full"), (), catalogue(), packaged=True)
     below = {f"{FULL}/{name}": text for name, text in full.items()}
+    below |= {**recogniser.files(catalogue()), **recogniser.package_file(catalogue())}
     own = _derive(PAPERS, (), catalogue(), analytical, simple, packaged=True, below=tuple(below))
     return dict(sorted({**own, **below}.items()))
 
 
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
-    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file)."""
-    return _derive(form, effects, candidates)
+    """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file).
+
+    Effects of the recorder bring their recogniser, those of the catalogue apart: theirs come with the program.
+    """
+    below = recogniser.files(e for e in candidates if e not in catalogue())
+    files = _derive(form, effects, candidates, below=tuple(below))
+    return dict(sorted({**files, **below}.items()))
 
 
 def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
@@ -91,7 +97,7 @@ def _derive(
     below: Sequence[str] = (),
 ) -> Files:
     candidates = offered(candidates, form)
-    forms = [_folded(form)] if packaged else []
+    forms = [] if _active(effects) else [_folded(form)]
     chains = _chains(form, effects, candidates)
     equations = (starred(), ideal(collect())) if harmonics else None
     parts: list[Files] = []
@@ -109,11 +115,16 @@ def _derive(
 def _folded(form: Form) -> Folded:
     title = "The analytical model of the RAGG, folded for evaluation (paper, Eq. 1-15"
     title += ")." if form.kinematics == "platform" else ", with the rate of the disc in Eq. 9)."
-    return folded("folded", title, form.order, form.kinematics)
+    return folded("folded", title, form.order, form.kinematics, form.layout)
+
+
+def _active(effects: Sequence[Effect]) -> list[Effect]:
+    """Those that change the voltages."""
+    return [e for e in effects if e.kind in ("deterministic", "step")]
 
 
 def _chains(form: Form, effects: Sequence[Effect], candidates: Sequence[Effect]) -> list[ir.Chain]:
-    active = [e for e in effects if e.kind in ("deterministic", "step")]
+    active = _active(effects)
     title = "The instrument as a chain of stages (paper, Eq. 1-15)."
     chains = [ir.chain(active, "chain", title, form.order, kinematics=form.kinematics, layout=form.layout)]
     known = {e.id for e in effects}

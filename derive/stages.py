@@ -180,12 +180,6 @@ def of_growing_arm(case: Motion, arm: Vector, growth: sp.Expr, acceleration: sp.
     return 2 * growth * case.omega.cross(arm) + acceleration * arm
 
 
-def specific_force(a: Vector, M: sp.Matrix, g: Geometry) -> Force:
-    """Eq. 11 and 12: f = a + M r, resolved along the triad."""
-    f = a + M * g.r
-    return Force(*(g.tau[k, :].dot(f) for k in range(3)))
-
-
 def misalignment_matrix(x: sp.Expr, y: sp.Expr, z: sp.Expr, order: int | None = 1) -> sp.Matrix:
     """C of Eq. 2 (order 1), or composed about x, then y, then z (frame rotations), to a total power."""
     if order == 1:

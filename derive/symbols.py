@@ -114,7 +114,10 @@ COS_PHI, SIN_PHI = symbol("cos_phi"), symbol("sin_phi")
 COS_J, SIN_J = symbol("cos_j"), symbol("sin_j")
 TIME = symbol("time")
 
-AUXILIARY: tuple[str, ...] = ("temperature", "pressure", "roll", "pitch", "B_x", "B_y", "B_z")
+AUXILIARY: tuple[str, ...] = (
+    "temperature", "pressure", "roll", "pitch", "yaw", "B_x", "B_y", "B_z",
+    "fuel_mass", "vibration_rms", "angular_vibration_rms",
+)  # fmt: skip
 """Channels beyond the motion that packaged effects need."""
 
 RATES: tuple[str, ...] = (

@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
-WIDTH, FLOOR, GAP = 920, 64, 12
+WIDTH, GAP, LINE, LETTER = 920, 12, 15, 6.4
 
 
 def floors(root: Path) -> list[list[tuple[str, str]]]:
@@ -29,29 +29,35 @@ def _sentence(root: Path, room: str) -> str:
 def drawn(root: Path) -> str:
     """The picture as SVG: every room may import what is on the floors below it."""
     rows = [*floors(root), [("derive", "The physics, symbolic"), ("generated", "What the derivation yields")]]
-    height = len(rows) * (FLOOR + GAP)
-    boxes = [box for k, row in enumerate(rows) for box in _row(row, k * (FLOOR + GAP))]
+    boxes, y = [], 0
+    for row in rows:
+        made, high = _row(row, y)
+        boxes += made
+        y += high + GAP
     return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" role="img"'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {y}" role="img"'
         ' font-family="sans-serif"><title>The rooms and their floors</title>' + "".join(boxes) + "</svg>\n"
     )
 
 
-def _row(rooms: Sequence[tuple[str, str]], y: int) -> list[str]:
+def _row(rooms: Sequence[tuple[str, str]], y: int) -> tuple[list[str], int]:
+    """The boxes of a floor, and its height."""
     width = (WIDTH - GAP * (len(rooms) - 1)) // len(rooms)
+    texts = [_lines(says, int((width - 24) / LETTER)) for _, says in rooms]
+    height = 38 + LINE * max(map(len, texts))
     found = []
-    for k, (name, says) in enumerate(rooms):
+    for k, ((name, _), lines) in enumerate(zip(rooms, texts, strict=True)):
         x = k * (width + GAP)
         found.append(
-            f'<rect x="{x}" y="{y}" width="{width}" height="{FLOOR}" rx="6" fill="#dbe7f3" stroke="#4b6b88"/>'
+            f'<rect x="{x}" y="{y}" width="{width}" height="{height}" rx="6" fill="#dbe7f3" stroke="#4b6b88"/>'
             f'<text x="{x + 12}" y="{y + 24}" font-size="17" font-weight="600" fill="#12283a">{name}</text>'
         )
-        for n, line in enumerate(_lines(says, (width - 24) // 7)[:2]):
+        for n, line in enumerate(lines):
             found.append(
-                f'<text x="{x + 12}" y="{y + 42 + 15 * n}" font-size="12.5" fill="#2c4257">'
+                f'<text x="{x + 12}" y="{y + 42 + LINE * n}" font-size="12.5" fill="#2c4257">'
                 f"{html.escape(line)}</text>"
             )
-    return found
+    return found, height
 
 
 def _lines(text: str, most: int) -> list[str]:

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ragg_runtime.base.errors import UserError as UserError
-    from ragg_runtime.model.catalogue import effects as effects
     from ragg_runtime.workflow.after import calibrate as calibrate
     from ragg_runtime.workflow.after import compensate as compensate
     from ragg_runtime.workflow.after import export as export
+    from ragg_runtime.workflow.catalogue import effects as effects
     from ragg_runtime.workflow.loop import add as add
     from ragg_runtime.workflow.loop import compare as compare
     from ragg_runtime.workflow.loop import diagnose as diagnose
@@ -40,7 +40,7 @@ _FROM = {
     "compare": "ragg_runtime.workflow.loop",
     "compensate": "ragg_runtime.workflow.after",
     "diagnose": "ragg_runtime.workflow.loop",
-    "effects": "ragg_runtime.model.catalogue",
+    "effects": "ragg_runtime.workflow.catalogue",
     "export": "ragg_runtime.workflow.after",
     "load": "ragg_runtime.workflow.loop",
     "new": "ragg_runtime.workflow.loop",

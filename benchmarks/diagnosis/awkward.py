@@ -77,7 +77,7 @@ def mains(x: Flight, sim: Simulation, rng: np.random.Generator) -> Flight:
 
 
 def bursts(x: Flight, sim: Simulation, rng: np.random.Generator) -> Flight:
-    """One to four spells of 2 to 8 s that are 3 to 20 times as noisy."""
+    """One to four stretches of 2 to 8 s that are 3 to 20 times as noisy."""
     factor = np.ones(len(x))
     for _ in range(int(rng.integers(1, 5))):
         a = rng.uniform(0.0, DURATION - 8.0)

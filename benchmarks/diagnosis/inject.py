@@ -125,6 +125,8 @@ def drawn(
     is of what is left beside them.
     """
     kind = next(e.kind for e in bench.fitted.model.candidates if e.id == effect)
+    if effect == "imu-saturation":  # its samples are left out: it has no strength
+        return None
     if kind == "output":
         return _quantised(bench, strength) if effect == "quantisation" else _saturated(bench, strength)
     if kind == "random":
@@ -141,7 +143,7 @@ def drawn(
         signature = weights @ block
         norm = float(np.linalg.norm(signature if beside is None else _beside(signature, beside)))
         # a signature that is all but absorbed is rounding: its amplitude would be meaningless
-        if norm < 1e-5 * np.linalg.norm(weights @ whole):
+        if norm <= 1e-5 * np.linalg.norm(weights @ whole):
             continue
         amplitude = strength / norm
         size = float(np.max(np.abs(amplitude * weights))) * design.EFFECT_PRIOR
@@ -175,7 +177,11 @@ def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> 
     if len(at) > 1 and rng.random() < 0.5:
         at = [at[int(rng.integers(len(at)))]]
     drawn = rng.standard_normal(len(at))
-    if effect in ("lag", "output-filter"):  # what is no filter at all with the other sign
+    if effect in (
+        "lag",
+        "output-filter",
+        "second-order-loop",
+    ):  # what is no filter at all with the other sign
         drawn = np.abs(drawn)
     weights[at] = drawn / np.linalg.norm(drawn)
     return weights

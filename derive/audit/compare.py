@@ -151,7 +151,6 @@ def _outer(ring: PolyRing, powers: Monomial) -> tuple[tuple[str, int], ...]:
 # --- Eq. 18, 19, 43-47 ---
 
 _NAMES = tuple(s.name for s in MODEL_RING.symbols)
-_FIRST_COMBINATION = len(_NAMES) - len(COMBINATIONS)
 
 
 def amplitude(left: str) -> str:

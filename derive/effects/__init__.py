@@ -7,20 +7,25 @@ whose id matches the file. A user's own files of that kind are read by :func:`fr
 from __future__ import annotations
 
 import importlib
+import inspect
 import pkgutil
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 
 from derive.effect import Effect
+from derive.recogniser import numbers_only
 
 
 @cache
 def catalogue() -> tuple[Effect, ...]:
     """Every packaged effect, by id."""
     names = sorted(m.name for m in pkgutil.iter_modules(__path__))
-    return tuple(sorted((_effect_of(importlib.import_module(f"{__name__}.{n}"), n) for n in names), key=_id))
+    modules = [importlib.import_module(f"{__name__}.{n}") for n in names]
+    found = [_effect_of(m, n, inspect.getsource(m)) for m, n in zip(modules, names, strict=True)]
+    return tuple(sorted(found, key=_id))
 
 
 def from_sources(sources: Mapping[Path, bytes]) -> tuple[Effect, ...]:
@@ -36,17 +41,21 @@ def from_sources(sources: Mapping[Path, bytes]) -> tuple[Effect, ...]:
             exec(compile(sources[path], str(path), "exec"), module.__dict__)
         except (Exception, SystemExit) as error:
             raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
-        found.append(_effect_of(module, path.stem))
+        found.append(_effect_of(module, path.stem, sources[path].decode()))
     return tuple(sorted(found, key=_id))
 
 
-def _effect_of(module: ModuleType, stem: str) -> Effect:
+def _effect_of(module: ModuleType, stem: str, text: str) -> Effect:
     effect = getattr(module, "EFFECT", None)
     if not isinstance(effect, Effect):
         raise ValueError(f"{module.__file__}: defines no EFFECT = Effect(...)")
     if effect.id.replace("-", "_") != stem:
         raise ValueError(f"{module.__file__}: its effect is named {effect.id!r}, expected the file's name")
-    return effect
+    if effect.kind != "output":
+        return effect
+    if not callable(getattr(module, "present", None)):
+        raise ValueError(f"{module.__file__}: an effect of the output needs present(values, valid, noise)")
+    return replace(effect, recogniser=numbers_only(text))
 
 
 def _id(effect: Effect) -> str:

@@ -2,9 +2,33 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
+from numpy.typing import NDArray
 
 from derive.effect import Effect, EffectParameter
+
+Array = NDArray[np.float64]
+
+CLIPPED = 5
+"""Samples at one and the same extreme value that make a saturated output."""
+
+
+def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+    """Of an output (N,), V; the noise, V, does not matter."""
+    return bool(np.any(clipped(values, valid)))
+
+
+def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(N,): the samples of an output that stand at its extreme value, if many of them do."""
+    size = np.abs(np.where(valid, values, 0.0))
+    top = float(np.max(size))
+    at = size >= top * (1 - 1e-12)
+    # a short record at coarse quantisation may repeat its maximum: neighbours at the top tell a clip
+    neighbours = int(np.sum(at[1:] & at[:-1]))
+    if top == 0.0 or np.sum(at) < CLIPPED or neighbours < 2:
+        return np.zeros(len(values), dtype=np.bool_)
+    return np.asarray(at)
+
 
 EFFECT = Effect(
     id="saturation",
@@ -22,7 +46,7 @@ EFFECT = Effect(
             "largest output that is recorded",
             10.0,
             shared=True,
-            neutral=math.inf,
+            neutral=float("inf"),
             fitted=False,
         ),
     ),

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from derive.effect import Effect, EffectParameter, Values
-from derive.stages import SensedForce, misalignment_matrix
+from derive.rectified import rectified
+from derive.stages import SensedForce
 
 if TYPE_CHECKING:
     from derive.context import Context
@@ -16,22 +17,8 @@ COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
 
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    assert c.geometry is not None
-    k = c.parameters
-    axes = misalignment_matrix(k["vartheta_x"], k["vartheta_y"], k["vartheta_z"]) * c.geometry.tau
-    axes = sp.Matrix(3, 3, lambda m, n: c.tape.let(f"vibration_axis_{'iop'[m]}{'xyz'[n]}", axes[m, n]))
     P = sp.Matrix(3, 3, lambda m, n: p[f"P_{''.join(sorted('xyz'[m] + 'xyz'[n]))}"])
-    seen = axes * c.in_disc_frame(P) * axes.T
-    # Mean of Eq. 1 over force with the covariance ``seen`` along i, o, p: only second powers survive.
-    return (
-        i
-        + k["K2"] * seen[0, 0]
-        + k["K5"] * seen[1, 1]
-        + k["K7"] * seen[2, 2]
-        + k["K4"] * seen[0, 2]
-        + k["K6"] * seen[0, 1]
-        + k["K8"] * seen[1, 2]
-    )
+    return i + rectified(P, c)
 
 
 EFFECT = Effect(
@@ -47,7 +34,7 @@ EFFECT = Effect(
         r" + K_8 P_{op},\; P_{ab} = \bm\tau_a^T \bm P \bm\tau_b"
     ),
     limits=(
-        "Covariance constant over the record, zero mean, fast against the turn of the disc; exact for Eq. 1, "
+        "Covariance constant over the record (else vibration-level), zero mean, fast against the turn of the disc; exact for Eq. 1, "
         "rectification by third-order terms is left out. P must be positive semidefinite."
     ),
     parameters=tuple(

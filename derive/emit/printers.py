@@ -105,6 +105,16 @@ class _Fused(_C):
         return sign, factors
 
 
+class _Wide(_C):
+    """C in long double."""
+
+    def _print_sin(self, e: sp.Expr) -> str:
+        return f"sinl({self._print(e.args[0])})"
+
+    def _print_cos(self, e: sp.Expr) -> str:
+        return f"cosl({self._print(e.args[0])})"
+
+
 def _decimal(e: sp.Rational) -> str:
     """A rational that is a short decimal, exactly; otherwise nothing."""
     value = int(e.p) / int(e.q)
@@ -131,6 +141,10 @@ def to_c(e: sp.Expr) -> str:
 
 def to_fused_c(e: sp.Expr) -> str:
     return str(_Fused({"contract": False}).doprint(e))
+
+
+def to_wide_c(e: sp.Expr) -> str:
+    return str(_Wide({"contract": False}).doprint(e))
 
 
 def to_latex(e: sp.Expr, **settings: Any) -> str:

@@ -6,7 +6,7 @@ from functools import cache
 
 import jinja2
 
-from derive.emit.printers import to_c, to_fused_c, to_latex, to_numpy
+from derive.emit.printers import to_c, to_fused_c, to_latex, to_numpy, to_wide_c
 from derive.propagation import COEFFICIENT_PARAMETERS
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, SIGNS
 from derive.tape import Program
@@ -23,7 +23,8 @@ def environment(package: str) -> jinja2.Environment:
         keep_trailing_newline=True,
         autoescape=False,  # the output is source code, not markup
     )
-    env.filters |= {"np": to_numpy, "c": to_c, "fused": to_fused_c, "tex": to_latex, "c_name": _c_name}
+    env.filters |= {"np": to_numpy, "c": to_c, "fused": to_fused_c, "wide": to_wide_c}
+    env.filters |= {"tex": to_latex, "c_name": _c_name}
     env.globals |= {
         "quarter_turns": QUARTER_TURNS,
         "signs": SIGNS,

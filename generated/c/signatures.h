@@ -1,8 +1,8 @@
 /* Signatures: what each candidate effect would add to V_j.
  *
  * Derived; do not edit: change the derivation and derive again. Units are SI, outputs V.
- * Effects beyond the paper's instrument: anisoinertia, arm-sag, arm-stretch, bias-drift, bias-step, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-misalignment, self-gradient, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, thermal-bias, thermal-lag, thermal-scale, time-offset, vibration-rectification.
- * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature pitch pressure roll temperature
+ * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-sag, arm-stretch, bearing-run-out, bias-drift, bias-step, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-scale, time-offset, vibration-level, vibration-rectification.
+ * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z angular_vibration_rms d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll temperature vibration_rms yaw
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
  *   spin_frequency (1): rotation frequency of the disc
@@ -31,9 +31,9 @@
 extern "C" {
 #endif
 
-#define RAGG_SIGNATURES_INPUTS 37
+#define RAGG_SIGNATURES_INPUTS 41
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 126
+#define RAGG_SIGNATURES_ROWS 162
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -45,9 +45,28 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
                       double *G);
 
 /* Derivatives of V_j, j = 0 ... 3: D[row * n + i], rows by
+ *   adc-nonlinearity.h
+ *   angular-jitter.W_xx
+ *   angular-jitter.W_xy
+ *   angular-jitter.W_xz
+ *   angular-jitter.W_yy
+ *   angular-jitter.W_yz
+ *   angular-jitter.W_zz
  *   anisoinertia.K_ip
  *   arm-sag.c_z
  *   arm-stretch.c_r
+ *   bearing-run-out.c_x1
+ *   bearing-run-out.s_x1
+ *   bearing-run-out.c_y1
+ *   bearing-run-out.s_y1
+ *   bearing-run-out.c_z1
+ *   bearing-run-out.s_z1
+ *   bearing-run-out.c_x2
+ *   bearing-run-out.s_x2
+ *   bearing-run-out.c_y2
+ *   bearing-run-out.s_y2
+ *   bearing-run-out.c_z2
+ *   bearing-run-out.s_z2
  *   bias-drift.dK0_dt
  *   bias-step.dK0
  *   clock-drift.epsilon
@@ -70,6 +89,11 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   encoder-harmonic.s_3
  *   encoder-harmonic.c_4
  *   encoder-harmonic.s_4
+ *   fuel-gradient.G_xx
+ *   fuel-gradient.G_xy
+ *   fuel-gradient.G_xz
+ *   fuel-gradient.G_yy
+ *   fuel-gradient.G_yz
  *   gain-drift.dK1_dt
  *   gain-step.dK1
  *   gradient-offset.G_xx
@@ -141,6 +165,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   output-gain-step.g
  *   pendulum-angular.K_pa
  *   pressure-bias.dK0_dp
+ *   second-order-loop.b
  *   second-order-misalignment.kappa
  *   self-gradient.G_xx_roll
  *   self-gradient.G_xy_roll
@@ -152,6 +177,10 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   self-gradient.G_xz_pitch
  *   self-gradient.G_yy_pitch
  *   self-gradient.G_yz_pitch
+ *   self-gradient-yaw.G_d
+ *   self-gradient-yaw.G_xy
+ *   self-gradient-yaw.G_xz
+ *   self-gradient-yaw.G_yz
  *   spin-axis-tilt.alpha_x
  *   spin-axis-tilt.alpha_y
  *   spin-axis-wobble.w_x
@@ -160,11 +189,18 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   spin-rate-jitter.sigma_phi
  *   spin-rate-jitter.sigma_walk
  *   spin-rate-offset.epsilon
+ *   spin-servo.c
  *   thermal-bias.dK0_dT
  *   thermal-lag.dK0_dTdot
  *   thermal-lag.dK1_dTdot
  *   thermal-scale.dK1_dT
  *   time-offset.delta_t
+ *   vibration-level.L_xx
+ *   vibration-level.L_xy
+ *   vibration-level.L_xz
+ *   vibration-level.L_yy
+ *   vibration-level.L_yz
+ *   vibration-level.L_zz
  *   vibration-rectification.P_xx
  *   vibration-rectification.P_xy
  *   vibration-rectification.P_xz

@@ -1,3 +1,4 @@
-"""What every room stands on: errors, files written whole, locks, progress, threads, memory. Imports nothing of
-ours.
+"""What every room stands on: errors, files written whole, locks, progress, threads, memory.
+
+Imports nothing of ours.
 """

@@ -40,7 +40,7 @@ class UserError(Exception):
 
     @property
     def message(self) -> str:
-        """The whole message, one fact a line."""
+        """The whole message, one fact per line."""
         head = self.what if self.where is None else f"{self.where}: {self.what}"
         facts = (("found", self.found), ("expected", self.expected), ("remedy", self.remedy))
         # Further lines of a fact are set in: names in it could otherwise pass for facts of ours.

@@ -12,7 +12,7 @@ few of its bins at low frequency carry the drifts. COMPANION enters only where t
 QUALITY are remarks beside the verdict: each is the level of its own statement.
 
 What stands in a record with no doubt has no level here, because chance has no part in it: an output that clips or stands on a
-lattice (``flight.output_effects``), spikes, jumps and lines (``plausibility.spikes``, ``fit.disturbances``,
+lattice (``generated.output_effects``), spikes, jumps and lines (``plausibility.spikes``, ``fit.disturbances``,
 ``signals.noise_spectrum``: 12 standard deviations, 25 times the level), a mistake of units or signs (five times the
 misfit). Neither have comparisons of two explanations of the same thing, which are differences of chi-square.
 """

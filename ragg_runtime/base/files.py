@@ -15,6 +15,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from io import BufferedReader
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
@@ -210,13 +211,23 @@ def _umask() -> int:
     return mask
 
 
+def opened(path: Path) -> BufferedReader:
+    """A user's file, to read. A pipe or a device would be waited for, or never end: UserError."""
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise UserError("a file is needed here, not a pipe or a device", where=path)
+    return path.open("rb")
+
+
+def file_digest(path: Path) -> str:
+    """SHA-256 of a user's file, hexadecimal."""
+    with opened(path) as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
 def read_text(path: Path, longest: int = 1 << 20) -> str:
     """The text of a user's file, UTF-8 with or without a byte-order mark, of at most ``longest`` bytes."""
     try:
-        # A pipe or a device would be waited for, or never end.
-        if path.exists() and not path.is_file() and not path.is_dir():
-            raise UserError("a file is needed here, not a pipe or a device", where=path)
-        with path.open("rb") as stream:
+        with opened(path) as stream:
             data = stream.read(longest + 1)
         if len(data) > longest:
             raise UserError("the file is too long", where=path, expected=f"at most {longest} bytes")

@@ -2,7 +2,7 @@
 
 Passes over flights tell how much they have done (:func:`step`); a command that wants to know listens
 (:func:`shown`). The unit is one sample in one pass with all columns, whitened; how many passes a command takes is
-known well enough beforehand (``PASSES``) to foretell its end.
+known well enough beforehand (``PASSES``) to predict its end.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
 QUIET = 4.0
 """A command that takes no longer than this shows no progress, s."""
 
-SPELL = 15.0
-"""Where stderr is a file, a line is written this often at most, s."""
+INTERVAL = 15.0
+"""Least time between two lines where stderr is a file, s."""
 
 _listener: ContextVar[Callable[[float], None] | None] = ContextVar("listener", default=None)
 
@@ -84,7 +84,7 @@ def _lines() -> Callable[[float], None]:
     def show(share: float) -> None:
         nonlocal last
         now = time.monotonic()
-        if now - last >= max(SPELL, 0.02 * (now - start) / share):
+        if now - last >= max(INTERVAL, 0.02 * (now - start) / share):
             last = now
             left = (now - start) * (1 / share - 1)
             click.echo(f"... {100 * share:.0f} % done, about {_duration(left)} left", err=True)

@@ -24,7 +24,7 @@ R = TypeVar("R")
 T = TypeVar("T")
 
 VARIABLE = "RAGG_THREADS"
-"""Environment variable: the number of threads (default: one a processor, at most ``MOST``)."""
+"""Environment variable: the number of threads (default: one per processor, at most ``MOST``)."""
 
 MOST = 2
 """Most threads unless asked for: each takes some 150 MB on a long flight."""

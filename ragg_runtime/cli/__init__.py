@@ -1,1 +1,5 @@
-"""The command line, ``ragg``: commands, terminal texts, the demonstration. May import every room."""
+"""The command line, ``ragg``: commands, terminal texts, the demonstration.
+
+Imports ``base``, ``compensation``, ``derive``, ``diagnosis``, ``experiments``, ``fit``, ``flight``, ``instrument``,
+``model``, ``model_dir``, ``report``, ``studio``, ``survey``, ``wording`` and ``workflow``.
+"""

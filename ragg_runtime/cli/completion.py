@@ -11,7 +11,7 @@ from click.shell_completion import CompletionItem
 
 def catalogued(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Effects of the catalogue, each with its title where the shell shows it."""
-    from ragg_runtime.model.catalogue import effects
+    from ragg_runtime.workflow.catalogue import effects
 
     found = [(str(e["id"]), str(e["title"])) for e in effects()]
     return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]
@@ -34,9 +34,12 @@ def _listed(model_dir: Any) -> dict[str, bool]:
     """Effects of a model.toml -> whether they have values; nothing of one that cannot be read: completion never fails."""
     import tomllib
 
+    from ragg_runtime.base.errors import UserError
+    from ragg_runtime.base.files import read_text
+
     try:
-        entries = tomllib.loads((Path(model_dir) / "model.toml").read_text("utf-8")).get("effects", [])
+        entries = tomllib.loads(read_text(Path(model_dir) / "model.toml")).get("effects", [])
         rows = [{"id": e} if isinstance(e, str) else dict(e) for e in entries]
         return {str(r["id"]): any(isinstance(v, dict) and "value" in v for v in r.values()) for r in rows}
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, UserError):
         return {}

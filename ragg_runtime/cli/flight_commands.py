@@ -10,6 +10,7 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.scheduler_options import scheduler_options
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command, asked
@@ -129,16 +130,10 @@ def diagnose(
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
 @click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@click.option("--jobs", type=click.IntRange(1), help="Processes on this machine (default: one a processor).")
 @click.option(
-    "--scheduler",
-    metavar="tcp://HOST:PORT",
-    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only, "
-    "tls://HOST:PORT beyond your own walls.",
+    "--jobs", type=click.IntRange(1), help="Processes on this machine (default: one per processor)."
 )
-@click.option("--tls-ca", type=DIRECTORY, metavar="FILE", help="Of a tls:// scheduler: who signed it (PEM).")
-@click.option("--tls-cert", type=DIRECTORY, metavar="FILE", help="Your certificate for it (PEM).")
-@click.option("--tls-key", type=DIRECTORY, metavar="FILE", help="The key of your certificate (PEM).")
+@scheduler_options
 @click.option(
     "--resume",
     type=DIRECTORY,

@@ -84,8 +84,8 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 @json_option
 def effects(identifier: str | None, json_file: str | None) -> None:
     """The catalogue of physical effects; with ID one of them in full."""
-    from ragg_runtime.model.catalogue import effects as catalogue
-    from ragg_runtime.model.catalogue import in_words
+    from ragg_runtime.workflow.catalogue import effects as catalogue
+    from ragg_runtime.workflow.catalogue import in_words
 
     found = catalogue()
     if identifier is None:
@@ -186,14 +186,15 @@ def build(model_dir: Path | None) -> None:
 @json_option
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
+    from ragg_runtime.base.provenance import provenance
     from ragg_runtime.cli import terminal
     from ragg_runtime.model_dir.directory import load_model_dir
-    from ragg_runtime.model_dir.provenance import provenance
+    from ragg_runtime.model_dir.identity import identity
 
     directory = load_model_dir(model_dir)
     say_notes(model_dir, directory.notes)
     steps = [s.as_json() for s in directory.history]
-    made = provenance(command_line(), directory)
+    made = provenance(command_line(), identity(directory))
     emit({"steps": steps, "provenance": made}, json_file, terminal.history(steps))
 
 
@@ -227,6 +228,13 @@ def history(model_dir: Path, json_file: str | None) -> None:
     "--motion", type=DIRECTORY, metavar="FILE", help="Fly this motion (a flight file; its length and rate)."
 )
 @mapping_option
+@click.option(
+    "--spin",
+    multiple=True,
+    metavar="[DISC:]HZ[,RAD@HZ[@RAD]]...",
+    help="How a disc turns (all, if none is named): a rate, negative backwards, 0 none, and swings of so many rad at so "
+    "many Hz, from a phase on. Its encoder is recorded. An encoder in --motion is flown, too.",
+)
 @click.option("--no-gradient", is_flag=True, help="Leave the gravity gradient unrecorded.")
 @click.option("--voltages", is_flag=True, help="Record V_1 ... V_4 too.")
 def simulate(

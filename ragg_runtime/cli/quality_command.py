@@ -41,11 +41,11 @@ def qc(
     Columns: time, inline and cross of one or more discs (inline_A, cross_A ...), positions (easting, northing
     or latitude, longitude), altitude, temperature, a_z or vertical_velocity; other names by --map.
     """
+    from ragg_runtime.base.provenance import provenance
     from ragg_runtime.cli.shared import command_line, emit, write_report
     from ragg_runtime.flight.mapping import read_mapping
-    from ragg_runtime.model_dir.provenance import provenance
-    from ragg_runtime.quality.qc import qc as _qc
     from ragg_runtime.report.quality_page import quality_html, quality_text
+    from ragg_runtime.survey.quality.qc import qc as _qc
 
     how = None if mapping is None else read_mapping(mapping)
     q = _qc(flights, how, arrangement=arrangement, limits=limits)

@@ -84,7 +84,7 @@ def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     import json
 
     if json_file is not None:
-        from ragg_runtime.model_dir.provenance import provenance, versioned
+        from ragg_runtime.base.provenance import provenance, versioned
 
         made = {} if "provenance" in result else {"provenance": provenance(command_line())}
         result = versioned(result | made)
@@ -119,6 +119,6 @@ def telling() -> Iterator[None]:
 
 def command_line() -> str:
     """The command that runs, as it stands in results."""
-    from ragg_runtime.model_dir.provenance import command
+    from ragg_runtime.base.provenance import command
 
     return command()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -17,11 +18,10 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit import off_sheet
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.off_sheet import OffSheet
-from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.score import Error, least
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.form import Form
 from ragg_runtime.model_dir.history import calibrated_rms
-from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loop import Added
 from ragg_runtime.workflow.origin import notes as notes
@@ -55,7 +55,7 @@ def _missing(errors: Sequence[Error], flights: Sequence[Flight], f: Fitted) -> l
         return []
     if not any(o.record.turning for o in f.observations):
         return ["-: of a disc that stands still nothing is demodulated"]
-    longest = max(len(low_pass(x.rate)) / x.rate for x in flights)
+    longest = max(least(x.rate) for x in flights)
     return [
         f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
         "there is no such stretch"
@@ -87,7 +87,7 @@ def errors_table(
 
 
 def ladder(c: Comparison) -> list[str]:
-    """What each simplification of the model is worth, a line a form, if that was asked for."""
+    """What each simplification of the model is worth, one line per form, if that was asked for."""
     if not c.ladder:
         return []
     names = [_in_short(r.form) for r in c.ladder]
@@ -146,7 +146,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
 
 
 def _ranked(r: Ranked) -> str:
-    p = f"1e{r.log_p / 2.302585:.0f}" if r.log_p < -6 else f"{r.p_value:.2g}"
+    p = notebook.p_value(r.log_p / math.log(10.0), r.p_value)
     errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
     return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
 

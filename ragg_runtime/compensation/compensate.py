@@ -15,7 +15,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
 from ragg_runtime.compensation.calibrated import information, inverse
-from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.compensation.schedule import Stretch
 from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
@@ -28,9 +27,11 @@ from ragg_runtime.fit.segments import ROWS, Segment
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
-from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
+from ragg_runtime.signals.demodulators import Demodulator, demodulator
 
 Array = NDArray[np.float64]
 Kind = Literal["frozen", "self", "crossed"]
@@ -245,7 +246,7 @@ def _long_enough(flight: Flight, d: Demodulator) -> None:
 
 def _recorded(flight: Flight, o: Observation, factor: float) -> NDArray[np.complex128] | None:
     """inline + i cross, Eo, of a flight that its recorder demodulated: put right for the calibrated scale factor."""
-    if o.kind != "channels":
+    if not o.recorded.demodulated:
         return None
     g = flight.outputs["inline"] + 1j * flight.outputs["cross"]
     return np.asarray(g * (factor / EOTVOS))

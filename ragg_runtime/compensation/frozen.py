@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,6 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -42,25 +42,24 @@ SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
 
 
-def in_force(directory: ModelDir, model: Model) -> Saved:
-    """The calibration that a model directory keeps, if it is of this model; UserError if there is none."""
-    where = str(directory.path / CALIBRATION)
-    again = f"calibrate: ragg calibrate {directory.path} FLIGHT... --save"
-    if directory.calibration is None:
-        raise UserError("the model has no saved calibration", where=directory.path, remedy=again)
-    saved = read(directory.calibration, where)[-1]
-    nominal = vector(model, directory.instrument)
+def in_force(kept: str | None, where: Path, model: Model, instrument: Instrument) -> Saved:
+    """The calibration that a model directory keeps in a file, if it is of this model; UserError if there is none."""
+    again = f"calibrate: ragg calibrate {where.parent} FLIGHT... --save"
+    if kept is None:
+        raise UserError("the model has no saved calibration", where=where.parent, remedy=again)
+    saved = read(kept, str(where))[-1]
+    nominal = vector(model, instrument)
     names = tuple(model.chain.PARAMETERS)
-    here = (tuple(e.id for e in model.effects), directory.instrument.form.words())
+    here = (tuple(e.id for e in model.effects), instrument.form.words())
     if saved.layout != names or (saved.effects, saved.form) != here:
         raise UserError(
-            "the saved calibration is of another model",
+            "the saved calibration belongs to another model",
             where=where,
             found=f"{saved.form}, effects {', '.join(saved.effects) or 'none'}, made {saved.time}",
             expected=f"{here[1]}, effects {', '.join(here[0]) or 'none'}",
             remedy=again,
         )
-    current = {(c.name, c.accelerometer): k for c, k in base_columns(model, directory.instrument)}
+    current = {(c.name, c.accelerometer): k for c, k in base_columns(model, instrument)}
     for c, k in zip(saved.columns, saved.index, strict=True):
         if current.get((c.name, c.accelerometer)) != k:
             raise UserError(
@@ -82,14 +81,14 @@ def in_force(directory: ModelDir, model: Model) -> Saved:
     return saved
 
 
-def notes(saved: Saved, model: Model, directory: ModelDir) -> list[str]:
+def notes(saved: Saved, model: Model, instrument: Instrument) -> list[str]:
     """What is odd about a saved calibration, in sentences."""
     found = []
     if saved.derivation != model.digest:
         found.append("the model has been derived anew since the calibration was saved")
     if not saved.converged:
         found.append("the saved calibration had not converged")
-    if not np.array_equal(saved.sheet, vector(model, directory.instrument)):
+    if not np.array_equal(saved.sheet, vector(model, instrument)):
         found.append(
             "model.toml has other values than when the calibration was saved; those it saved are used"
         )

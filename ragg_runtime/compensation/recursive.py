@@ -1,7 +1,7 @@
 """Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
 
 A filter is of one output. The states are the fitted parameters of its accelerometers (steps from a point p, in their
-scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo a root second. What is
+scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo per root second. What is
 kept is the triangle R and the right-hand side z of R x = z, so that a sample is one more row, turned into them; nothing is ever
 inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The same
 steps, in the same order, are those of the exported C.
@@ -17,12 +17,14 @@ from scipy import linalg
 
 from ragg_runtime.fit.columns import Column, base_columns, own_columns
 from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import Observation, as_output, carried
+from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.square_root import of_some
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.model.recorded import carried
+from ragg_runtime.signals.demodulate import CUTOFF
 
 Array = NDArray[np.float64]
 
@@ -58,6 +60,11 @@ class Tuning:
     noise: float
     walk: float = 0.0
     forget: float = float("inf")
+
+
+def following(density: float) -> float:
+    """Walk, Eo/sqrt(s), with which channels of a noise of so much, Eo/sqrt(Hz), are followed as the demodulators' low-pass would."""
+    return float(density / np.sqrt(2.0) * 2 * np.pi * CUTOFF)
 
 
 @dataclass(frozen=True)

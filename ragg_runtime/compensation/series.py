@@ -17,14 +17,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.demodulators import Demodulator, demodulator
 from ragg_runtime.compensation.schedule import Stretch, within
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
-from ragg_runtime.model.evaluate import EOTVOS, scale_factor
+from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.signals.demodulators import Demodulator, demodulator
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from ragg_runtime.compensation.demodulators import Demodulator
-from ragg_runtime.fit.observation import Observation, output_weights
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.unknown_gradient import spin_frequency
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import runs
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -29,7 +29,7 @@ def of_noise(o: Observation, noise: Noise, d: Demodulator, k_ggi: float) -> tupl
     f = np.linspace(-0.5, 0.5, GRID)
     carrier = 2 * spin_frequency(o)
     density = np.zeros(GRID)  # one-sided, V^2/Hz
-    for weight, model in zip(output_weights(o), noise.models, strict=True):
+    for weight, model in zip(o.signs, noise.models, strict=True):
         density += weight**2 * model.psd(np.abs(carrier + f))
     passed = np.abs(d.response(f)) ** 2 * density
     cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi

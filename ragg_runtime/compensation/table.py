@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated
 from ragg_runtime.compensation.series import Series
+from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
 
 Array = NDArray[np.float64]
-
-CHANNELS = ("inline", "cross")
 
 
 @dataclass(frozen=True)
@@ -52,8 +51,8 @@ class Table:
         """Columns and their units, in order."""
         found = {"time": "s"}
         for end in self.endings:
-            found |= {f"{c}{end}": "Eo" for c in CHANNELS}
-            found |= {f"{c}{end}_std": "Eo" for c in CHANNELS}
+            found |= {f"{c}{end}": "Eo" for c in DEMODULATED}
+            found |= {f"{c}{end}_std": "Eo" for c in DEMODULATED}
             found[f"quality{end}"] = "1"
         if self.tensor is not None:
             found |= {f"Gamma_{c}": "Eo" for c in COMPONENTS} | {f"Gamma_{c}_std": "Eo" for c in COMPONENTS}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,11 +12,12 @@ from scipy.signal import oaconvolve
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
+from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import bursts, columns, convergence
+from ragg_runtime.fit import bursts, columns, convergence, fitted
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -69,15 +70,6 @@ class Comparison:
     def residual(self) -> list[Array]:
         """(N,) V of every flight, calibrated."""
         return self.fitted.residuals(np.zeros(self.fitted.n_base))
-
-    @cached_property
-    def residual_nominal(self) -> list[Array]:
-        """(N,) V of every flight, with the values as they were given."""
-        f = self.fitted
-        return [
-            np.concatenate([*lean.each(partial(nominal_residual, f, self.nominal_values), whitened=False)])
-            for lean, _ in (x.for_residuals(np.zeros((1, f.size)), f.n_base) for x in f.prepared)
-        ]
 
     def with_nominal(self, instrument: Instrument) -> Comparison:
         """The same, ``nominal`` being these values."""
@@ -241,7 +233,8 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    quiet = complaint is None and output_explained.complaint is None and not loud(f, calibrated, noise)
+    doubt = doubts(f, output_explained)
+    quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
@@ -253,7 +246,7 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         remainder=rem,
         nominal_values=vector(f.model, f.instrument),
         complaint=complaint,
-        remark=remark(output_explained, f),
+        remark=doubt or disturbed(f),
         explained=output_explained,
         off_sheet=tuple(off_sheet(f.model, f.instrument, f.calibration)),
     )
@@ -269,11 +262,6 @@ def loud(f: Fitted, scored: Scored, noise: float) -> bool:
     return scored.whole.rms_Eo > LOUD * noise * swell(f) * known
 
 
-def remark(e: Explained, f: Fitted) -> str | None:
-    """What is wrong with the record, in words: that nothing in it follows the motion, or how it is disturbed."""
-    return e.complaint or disturbed(f)
-
-
 def disturbed(f: Fitted) -> str | None:
     """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
     found = [
@@ -284,7 +272,22 @@ def disturbed(f: Fitted) -> str | None:
         for x, text in zip(f.prepared, found, strict=True)
         if text is not None
     ]
-    return "; ".join(said) or None
+    return "; ".join([*said, *_digits(f)]) or None
+
+
+def _digits(f: Fitted) -> list[str]:
+    """That the noise is mostly the digits that were written, in words."""
+    found = []
+    for x, r, k_ggi in zip(f.prepared, f.rounding, f.scales, strict=True):
+        o = x.observation
+        if r.worst is None or not r.prevails(fitted.estimated(x)):
+            continue
+        which = "" if len(f.prepared) == 1 else f"{o.name}: "
+        found.append(
+            f"{which}the digits of the file make {r.rms / k_ggi:.3g} Eo of what is taken for noise, most of it"
+            f" {o.digits.columns[r.worst].words(r.worst)}"
+        )
+    return found
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

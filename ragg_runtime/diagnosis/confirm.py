@@ -131,7 +131,7 @@ def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Va
 
 def _random_columns(f: Fitted) -> dict[str, int]:
     """The place of every random effect's column."""
-    if any(o.kind == "channels" for o in f.observations):
+    if any(o.recorded.demodulated for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent
     columns = design.candidate_columns(f.model, f.instrument)
     found = {}

@@ -19,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.diagnosis import comparison, motion_saturation, next_motion, strong
+from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
+from ragg_runtime.diagnosis.doubts import doubts
 from ragg_runtime.diagnosis.explained import explained
-from ragg_runtime.diagnosis.line_rival import line_rival
+from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
@@ -32,10 +33,9 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import MOTION_SATURATION, observations_of
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects import recognised
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -78,9 +78,7 @@ def diagnose_fitted(
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
-    as_recorded, clipped = f, motion_saturation.without(f, flights)
-    f = f if clipped is None else clipped
-    output = _output_effects(f, flights) + ([] if clipped is None else [MOTION_SATURATION])
+    output = _output_effects(f, flights)
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
     c = confirmed(last, extend)
@@ -93,7 +91,7 @@ def diagnose_fitted(
     rem = c.remainder
     simpler = None if rem.significant else _simpler(f, field, choice)
     rem = rem if simpler is None else simpler
-    line = line_rival(steps, replace(last, field=field, choice=choice))
+    line, steady = line_rival(steps, replace(last, field=field, choice=choice))
     if line is not None and not line.better(rem, alone=simpler is not None):
         line = None
     rem = rem if line is None else line.within(rem)
@@ -108,10 +106,11 @@ def diagnose_fitted(
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     output_explained = explained(target, after)
+    doubt = doubts(target, output_explained)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
     loud = comparison.loud(target, after, noise) and not random_found
-    if complaint is not None or output_explained.complaint is not None or remains or loud:
+    if complaint is not None or doubt is not None or remains or loud:
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
@@ -123,9 +122,6 @@ def diagnose_fitted(
     if steps:
         later, _ = _ranking(f, field, choice, last.instants, ())
         ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
-    if clipped is not None:
-        (whole,) = as_recorded.score([np.zeros(as_recorded.size)])
-        ranking = [replace(r, before=whole.whole) if r.effect == MOTION_SATURATION else r for r in ranking]
     credence = weighed(last.field, steps)
     ranking = [with_probability(r, credence) for r in ranking]
     groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
@@ -147,7 +143,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=output_explained.complaint or (line and line.words) or comparison.disturbed(target),
+        remark=_remark(doubt, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
@@ -156,11 +152,23 @@ def diagnose_fitted(
     )
 
 
+def _remark(
+    doubt: str | None, line: LineRival | None, steady: Sequence[Steady], disturbed: str | None
+) -> str | None:
+    """What is wrong with the record, or what else than the effects found would do, or how the record is disturbed."""
+    if doubt is not None:
+        return doubt
+    if line is not None:
+        return line.words
+    said = [*(s.words for s in steady), *([] if disturbed is None else [disturbed])]
+    return "; ".join(said) or None
+
+
 def _followed(
     target: Fitted, instants: Sequence[tuple[str, float | None]], found: Sequence[str]
 ) -> sequential.Evidence | None:
     """From when on the model no longer holds; a step that is found is such an instant itself."""
-    if target.observations[0].kind == "channels":
+    if target.observations[0].recorded.demodulated:
         return None  # neighbouring samples of a demodulated channel are not independent
     followed = sequential.evidence(target)
     for effect, instant in instants:
@@ -215,14 +223,14 @@ def _without_terms(rem: Remainder) -> Remainder:
 
 
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
-    """Effects of the recorder, recognised in the values of each recorded output."""
-    known = {e.id for e in f.model.candidates if e.kind == "output"}
-    found = []
+    """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
+    found = set()
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
-        for name, series in x.outputs.items():
-            if name not in f.instrument.layout.columns:
-                continue
-            valid = np.isfinite(series) & x.valid
-            found += recognised(series, valid, w.noise.models[0].rms, known)
-    return sorted(set(found))
+        columns, noise = {**x.channels, **x.outputs}, w.noise.models[0].rms
+        outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
+        for effect, r in f.model.recognisers.items():
+            looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
+            if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
+                found.add(effect)
+    return sorted(found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeGuard
 
 import numpy as np
 
@@ -73,25 +74,82 @@ class LineRival:
         return Remainder((replace(first, log_p=log_p, terms=(found,), chi2=chi2), *others))
 
 
-def line_rival(steps: Sequence[Taken], last: Stage) -> LineRival | None:
-    """The first of the effects chosen, the strong ones before the others, in whose place a line would do as well."""
+@dataclass(frozen=True)
+class Steady:
+    """An effect of which the record shows no more than a constant term: a sinusoid at a multiple of the spin rate.
+
+    Attributes
+    ----------
+    effect, others
+        Its id, and the effects that would do as well.
+    turns, frequency
+        Multiple of the spin rate, and that in Hz.
+    width
+        How far off it a line may be that explains as much (3 sigma), Hz.
+    """
+
+    effect: str
+    others: tuple[str, ...]
+    turns: int
+    frequency: float
+    width: float
+
+    @property
+    def words(self) -> str:
+        times = {1: "the spin rate", 2: "twice the spin rate"}.get(
+            self.turns, f"{self.turns} times the spin rate"
+        )
+        others = f", by {', '.join(self.others)} as well" if self.others else ""
+        return (
+            f"what {self.effect} explains is a constant term at {times}{others}; a line within {self.width:.1g} Hz of"
+            f" {self.frequency:.6g} Hz would do too"
+        )
+
+
+def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
+    """The first of the effects chosen, the strong ones before the others, in whose place a line beside a multiple of the spin
+    rate would do as well; and those that are no more than a line at one.
+    """
+    steady = []
     for t in steps:
-        if (line := _in_place(t.before, (), t.test.chi2)) is not None:
-            return LineRival(line=line, effect=t.effect, own=t.test.chi2, beside=0.0)
+        line = near_lines.best(t.before, ())
+        if _in_place(line, t.test.chi2):
+            return LineRival(line=line, effect=t.effect, own=t.test.chi2, beside=0.0), ()
+        steady += _steady(t.before, line, t.effect, t.test.chi2, t.rivals)
     field, choice = last.field, last.choice
+    rivals = selection.rivals(field, choice)
     for e in choice.chosen:
         others = [o for o in choice.chosen if o != e]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
-        given = [n for o in others for n, _ in field.candidates[o]]
-        if (line := _in_place(last.fitted, given, choice.chi2 - beside)) is not None:
-            return LineRival(line=line, effect=e, own=choice.chi2 - beside, beside=beside)
-    return None
+        line = near_lines.best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
+        if _in_place(line, choice.chi2 - beside):
+            return LineRival(line=line, effect=e, own=choice.chi2 - beside, beside=beside), ()
+        steady += _steady(last.fitted, line, e, choice.chi2 - beside, rivals[e])
+    return None, tuple(steady)
 
 
-def _in_place(f: Fitted, given: Sequence[int], chi2: float) -> NearLine | None:
-    line = near_lines.best(f, given)
-    if line is None or line.slip < SLIP or line.chi2 < chi2 - selection.INDISTINGUISHABLE:
-        return None
-    if line.log_p > np.log(false_alarms.REMAINDER):
-        return None
-    return line
+def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
+    """Whether a line, plainly off the multiple, explains as much."""
+    return (
+        line is not None
+        and line.slip >= SLIP
+        and line.chi2 >= chi2 - selection.INDISTINGUISHABLE
+        and line.log_p <= np.log(false_alarms.REMAINDER)
+    )
+
+
+def _steady(
+    f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
+) -> list[Steady]:
+    """The effect, if a line at the very multiple explains as much."""
+    if line is None or line.chi2 - line.slip < chi2 - selection.INDISTINGUISHABLE:
+        return []
+    r = f.prepared[0].observation.record
+    turns = round(line.frequency / r.spin_frequency)
+    # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
+    width = 3.0 * float(np.sqrt(12.0 / line.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
+    return [
+        Steady(
+            effect=effect, others=tuple(others), turns=turns, frequency=turns * r.spin_frequency, width=width
+        )
+    ]

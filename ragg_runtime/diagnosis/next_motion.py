@@ -19,6 +19,7 @@ from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import linearised
 from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.flight.record import is_disc_angle
 from ragg_runtime.signals.fir import filtered
 
 Array = NDArray[np.float64]
@@ -27,6 +28,12 @@ Sinusoid = tuple[str, float, float, float]
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 """Frequencies that are tried, over the spin frequency."""
+
+HIGHEST = 0.2
+"""Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
+
+WORTHWHILE = 1.05
+"""Factor by which a motion must part two effects farther than a longer record of what there is already."""
 
 AXES = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
 
@@ -122,14 +129,16 @@ def proposals(
     first = f.prepared[0].observation.record
     spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
     motions = [
-        (axis, ratio, limits[kind(axis)]) for axis in AXES for ratio in RATIOS if ratio * spin <= 0.2 * rate
+        (axis, ratio, limits[kind(axis)])
+        for axis in AXES
+        for ratio in RATIOS
+        if ratio * spin <= HIGHEST * rate
     ]
-    # a longer record of what there is already gains something as well: only more than that is a reason
     still, *moving = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
     found = []
     for n, (e, r) in enumerate(known):
         best = max(range(len(motions)), key=lambda m: moving[m][n], default=None)
-        if best is None or moving[best][n] <= 1.05 * still[n]:
+        if best is None or moving[best][n] <= WORTHWHILE * still[n]:
             continue
         axis, ratio, size = motions[best]
         now = separation(f.whole, f.n_base, field, signals[e], r)
@@ -176,7 +185,7 @@ def rows_of(
     channels = {
         name: np.full(n, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
         for name, x in first.channels.items()
-        if not name.startswith("spin_angle")
+        if not is_disc_angle(name)
     }
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))

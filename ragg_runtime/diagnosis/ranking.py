@@ -15,7 +15,6 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.model.model import Effect
-from ragg_runtime.model.record import missing_channels
 
 
 @dataclass(frozen=True)
@@ -166,7 +165,7 @@ def _place(chosen: Sequence[str]) -> Callable[[Ranked], tuple[int, float, str]]:
 def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
     found = []
     for e in f.model.candidates:
-        missing = sorted({c for o in f.observations for c in missing_channels(e, o.record.wide)})
+        missing = sorted({c for o in f.observations for c in e.missing(o.record.wide)})
         if missing:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):
@@ -197,8 +196,21 @@ def _absorbed(f: Fitted, field: Field, e: Effect) -> str:
     )
 
 
-def _sizes(f: Fitted, field: Field) -> list[tuple[str, str]]:
-    """Size, in display units, at which each testable effect would be seen at three sigma."""
+@dataclass(frozen=True)
+class Detectable:
+    """Size of an effect's parameter, in its display unit, at which a record would show it at three sigma."""
+
+    effect: str
+    name: str
+    size: float
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.name} = {self.size:.3g} {self.unit}"
+
+
+def _sizes(f: Fitted, field: Field) -> list[Detectable]:
+    """For each parameter of each effect that is testable."""
     rows = []
     left = np.linalg.norm(field.P, axis=0)
     for e, columns in field.candidates.items():
@@ -208,5 +220,5 @@ def _sizes(f: Fitted, field: Field) -> list[tuple[str, str]]:
             if best:
                 norm, c = max(best, key=lambda x: float(x[0]))
                 size = 3.0 / norm * c.scale / c.unit_factor
-                rows.append((e, f"{name.split('.', 1)[1]} = {size:.3g} {c.unit}"))
+                rows.append(Detectable(effect=e, name=name.split(".", 1)[1], size=float(size), unit=c.unit))
     return rows

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.explained import Explained
 from ragg_runtime.diagnosis.next_motion import Proposal
-from ragg_runtime.diagnosis.ranking import NotTestable, Ranked
+from ragg_runtime.diagnosis.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.evidence.sequential import Change, Evidence
 from ragg_runtime.fit.fitted import Fitted, Scored
 from ragg_runtime.fit.off_sheet import OffSheet
@@ -38,7 +38,7 @@ class Diagnosis:
     before: Error
     scored: Scored
     noise_floor: float
-    sizes: tuple[tuple[str, str], ...]
+    sizes: tuple[Detectable, ...]
     target: Fitted
     coefficients: Array
     next_motion: tuple[Proposal, ...]
@@ -139,5 +139,5 @@ class Diagnosis:
             "holds_until_s": None if self.change is None else self.change.until,
             "holds_until_flight": None if self.change is None else self.change.flight,
             "next_motion": [p.as_json() for p in self.next_motion],
-            "detectable": [{"effect": e, "three_sigma": s} for e, s in self.sizes],
+            "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
         }

@@ -130,7 +130,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (scores[e], e))
     # effects with the same signature are all of its group, however many they are
-    scores |= {e: score(e) for e in near[CONTENDERS:] if _twins(tests[e], tests[best])}
+    scores |= {e: score(e) for e in near[CONTENDERS:] if _alike(tests[e], tests[best])}
     equal = [e for e in near if scores.get(e, np.inf) < scores[best] + selection.INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
@@ -141,7 +141,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
 
 
-def _twins(a: Test, b: Test) -> bool:
+def _alike(a: Test, b: Test) -> bool:
     """Whether two effects explain the same, with as many coefficients, as far as a linear test tells."""
     return a.rank == b.rank and abs(a.chi2 - b.chi2) < selection.INDISTINGUISHABLE
 

@@ -1,4 +1,4 @@
-"""Statistical evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
+"""Evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
 
-May import ``lack_of_fit``, ``fit`` and what is below.
+Imports ``base`` and ``fit``.
 """

@@ -14,7 +14,6 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.model.record import missing_channels
 
 Array = NDArray[np.float64]
 
@@ -230,7 +229,5 @@ def testable_effects(f: Fitted) -> list[str]:
     """Deterministic candidates of which every flight has the channels."""
     have = [set(o.record.wide) for o in f.observations]
     return [
-        e.id
-        for e in f.model.candidates
-        if e.kind == "deterministic" and not any(missing_channels(e, h) for h in have)
+        e.id for e in f.model.candidates if e.kind == "deterministic" and not any(e.missing(h) for h in have)
     ]

@@ -6,5 +6,5 @@ Gradiometer*: a test mass about a perfect instrument (Section III.A), an imperfe
 53 stands for the instrument, the derived analytical and simplified models for themselves. Nothing is tuned:
 where the paper leaves an input open, the choice is said, and what depends on it is shown.
 
-May import ``reference``, ``model`` and what is below.
+Imports ``base``, ``generated``, ``instrument``, ``reference`` and ``signals``.
 """

@@ -77,8 +77,8 @@ def _give(result: Result, json_file: str | None, figures: Path | None) -> None:
         for path in result.figures(figures):
             click.echo(f"wrote {path}", err=True)
     if json_file is not None:
+        from ragg_runtime.base import provenance
         from ragg_runtime.base.files import write_text
-        from ragg_runtime.model_dir import provenance
 
         made = provenance.provenance(provenance.command())
         found = provenance.versioned(result.as_json() | {"provenance": made})

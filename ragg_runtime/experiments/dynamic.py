@@ -21,7 +21,7 @@ from ragg_runtime.experiments.models import Channels, channels, error, output, o
 from ragg_runtime.experiments.regular import TURNS, WITH_MASS, regular_run
 from ragg_runtime.experiments.result import Json, Row, Table, judge
 from ragg_runtime.experiments.vartheta_x import LARGEST, Reach
-from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation, disc_angle
 from ragg_runtime.signals.demodulate import demodulate
 

@@ -12,7 +12,7 @@ from ragg_runtime.experiments.result import Cell, Table
 from ragg_runtime.experiments.turbulent import Derivative, turbulent_run
 from ragg_runtime.experiments.vartheta_x import LARGEST, Reach, draws, response, with_angles
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation
 from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.signals.demodulate import low_pass

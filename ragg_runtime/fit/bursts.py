@@ -1,4 +1,4 @@
-"""Spells in which a record is far noisier than elsewhere: they are no measure of its noise."""
+"""Stretches in which a record is far noisier than elsewhere: they are no measure of its noise."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from ragg_runtime.signals.noise_spectrum import NoiseModel, estimate
 Array = NDArray[np.float64]
 
 INTERVALS = 48
-"""Spells into which the residual is divided."""
+"""Stretches into which the residual is divided."""
 
 LOUD = 4.0
 """Power of an interval over the median's of those before it, and of those after it, from which it is loud: louder than one side
 alone is a noise that has changed its level."""
 
 BESIDE = 16
-"""Spells on either side with which one is compared: twice as many as may be bursts, so that they do not shift a median."""
+"""Stretches on either side with which one is compared: twice as many as may be bursts, so that they do not shift a median."""
 
 FEW = 1 / 6
 """Largest share of intervals that are bursts: more of them are noise whose level changes, which the estimate averages."""

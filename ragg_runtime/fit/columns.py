@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.fit.observation import Observation, narrow
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import Units, units
@@ -109,16 +109,7 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
 
 def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:
     """What an observation sees of its output's voltages: (members, N), or (N,) of one accelerometer -> (m, N)."""
-    members, signs = o.output.members, np.array(o.output.signs, dtype=np.float64)
-    at = None if accelerometer is None else members.index(accelerometer - 1)
-    if o.kind == "voltages":
-        if at is None:
-            return v
-        full = np.zeros((len(members), v.shape[-1]))
-        full[at] = v
-        return full
-    G = np.asarray(signs @ v if at is None else signs[at] * v)
-    return (narrow(G, o.record) if o.kind == "channels" else G)[None, :]
+    return o.recorded.through(o.recorded.of_voltages(o.output, v, accelerometer), o.record)
 
 
 def null_biases(columns: Sequence[Column]) -> list[int]:

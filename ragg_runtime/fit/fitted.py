@@ -14,10 +14,11 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
+from ragg_runtime.fit.rounding import Rounding, rounding
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
@@ -127,6 +128,11 @@ class Fitted:
     def size(self) -> int:
         """Number of columns, base and candidates."""
         return int(self.triangles[0][0].shape[1]) - 1
+
+    @cached_property
+    def rounding(self) -> tuple[Rounding, ...]:
+        """What the digits of the files make in each observation."""
+        return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
     @cached_property
     def whole(self) -> Array:
@@ -297,10 +303,15 @@ def swell(f: Fitted) -> float:
     return float(np.sqrt(np.mean(power)))
 
 
+def estimated(x: PreparedFlight) -> float:
+    """Variance of the estimated noise of what was observed as G_out, V^2."""
+    share = x.observation.recorded.noise_share(x.observation.record)
+    return float(share * sum(m.rms**2 for m in x.noise.models))
+
+
 def noise_floor(f: Fitted) -> float:
-    """rms of the estimated noise of G_out before demodulation, Eo."""
+    """rms of the noise of G_out before demodulation, Eo: the estimated one, and no less than the digits of the file make."""
     variances = []
-    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
-        share = noise_gain(x.observation.record.rate) if x.observation.kind == "channels" else 1.0
-        variances.append(share * sum(m.rms**2 for m in x.noise.models) / (k_ggi / f.k_ggi) ** 2)
+    for x, k_ggi, digits in zip(f.prepared, f.scales, f.rounding, strict=True):
+        variances.append(max(estimated(x), digits.rms**2) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.observation import Observation, narrow
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Chain, Model
 
@@ -99,7 +99,7 @@ def linearised(at: Point, o: Observation) -> Array:
         modules.append((at.model.signatures, evaluators["signatures"], candidates, len(base), q))
     r, m = o.record, len(o.series)
     n = len(r.time)
-    signs = None if o.kind == "voltages" else np.array(o.output.signs, dtype=np.float64)
+    signs = None if o.recorded.separate else np.array(o.output.signs, dtype=np.float64)
     members = o.output.members
     columns = np.zeros((len(base) + len(candidates) + 1, m, n))
     for chain, evaluator, wanted, first, p in modules:
@@ -114,9 +114,9 @@ def linearised(at: Point, o: Observation) -> Array:
             if first == 0:
                 V = evaluator.voltages(*case, members=members)
                 columns[-1, :, some] = V if signs is None else signs @ V
-    if o.kind == "channels":
+    if o.recorded.demodulated:
         for k in range(len(columns)):
-            columns[k] = narrow(columns[k], r)
+            columns[k] = o.recorded.through(columns[k], r)
     for k, c in enumerate((*base, *candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:

@@ -15,7 +15,7 @@ from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, in_words
 from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.observation import Observation, noise_gain
+from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
@@ -66,7 +66,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             remedy="give a longer or cleaner recording",
         )
     parts = _parts(at, o)
-    if o.kind == "channels":
+    if o.recorded.demodulated:
         return _of_channels(parts, o)
     noise = _of_level(parts, o, Level())
     level = _level(parts, o, noise)
@@ -102,7 +102,7 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
     """What is left of segments that are spread over the flight."""
     unwhitened = Noise((), (np.ones(1),) * len(o.series))
     band = unknown_gradient.band(o)
-    rate = o.record.rate if o.kind != "channels" else None
+    rate = None if o.recorded.demodulated else o.record.rate
     n_base = len(design.base_columns(at.model, at.instrument))
     random = {e.id for e in at.model.candidates if e.kind == "random"}
     shown = [
@@ -129,18 +129,22 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
-    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated."""
-    gain = noise_gain(o.record.rate)
+    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
+
+    Of channels that were recorded more seldom than the motion a sample counts for more.
+    """
+    gain, more = o.recorded.noise_share(o.record), telling(o.record)
     squares = free = 0.0
     for p in parts:
         (x,) = p.outputs
         squares += float(np.sum(x.rest**2)) / gain
         # The fit takes as many degrees of freedom as it has columns; an unknown gradient takes its own band.
-        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * len(x.rest)))
+        free += len(x.rest) * max(0.1, 1 - (x.rank + p.taken) / (gain * more * len(x.rest)))
     sigma = float(np.sqrt(squares / free))
     density = np.full(2, np.log(2 * sigma**2 / o.record.rate))
     model = NoiseModel(o.record.rate, np.array([-20.0, 20.0]), density, np.zeros(2))
-    return Noise((model,), (np.array([1.0 / sigma]),))
+    freedom = max(1.0, gain * more * free)
+    return Noise(models=(model,), filters=(np.array([np.sqrt(more) / sigma]),), freedom=freedom)
 
 
 def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:

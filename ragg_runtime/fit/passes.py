@@ -15,7 +15,7 @@ from ragg_runtime.base.threads import mapped
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
-from ragg_runtime.fit.observation import Observation, as_output, output_weights
+from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.segments import ROWS, Segment, segments
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
@@ -61,7 +61,7 @@ class Piece:
 
     def sums(self, some: slice = slice(None)) -> Array:
         """(n + 1,), V: sums of the columns of G_out over some samples; zero of channels, which have lost their mean."""
-        weights = output_weights(self.observation) * (self.observation.kind != "channels")
+        weights = self.observation.signs * (not self.observation.recorded.demodulated)
         return np.asarray(np.sum(self.columns[:, :, some], axis=2) @ weights)
 
     def left(self, coefficients: Array) -> Array:
@@ -75,7 +75,7 @@ class Piece:
 def flight_segments(o: Observation) -> list[Segment]:
     """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
     n = len(o.record.time)
-    return segments(n, max(n, ROWS) if o.kind == "channels" else ROWS)
+    return segments(n, max(n, ROWS) if o.recorded.demodulated else ROWS)
 
 
 def passed(

@@ -8,11 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import oaconvolve
 
-from ragg_runtime.model.evaluate import EOTVOS
+from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.demodulate import CUTOFF, demodulate, low_pass
 
 Array = NDArray[np.float64]
+
+
+def least(rate: float) -> float:
+    """Shortest stretch without a gap that the demodulator can take, s."""
+    return len(low_pass(rate)) / rate
 
 
 @dataclass(frozen=True)

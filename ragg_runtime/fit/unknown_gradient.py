@@ -88,12 +88,12 @@ def spin_frequency(o: Observation) -> float:
     return float(np.abs(np.mean(step))) * r.rate / (2 * np.pi)
 
 
-def splines(time: Array, phi: Array) -> Array:
-    """(n, N): T_1 sin 2 phi and T_2 cos 2 phi for every basis spline of T_1 and of T_2 over ``time``."""
+def splines(time: Array, cosine: Array, sine: Array) -> Array:
+    """(n, N): T_1 times a carrier's sine and T_2 times its cosine for every basis spline of T_1 and of T_2 over ``time``."""
     count = max(4, int(np.ceil((time[-1] - time[0]) / KNOT_SECONDS)) + 3)
     knots = np.concatenate([[time[0]] * 3, np.linspace(time[0], time[-1], count - 2), [time[-1]] * 3])
     basis = interpolate.BSpline.design_matrix(time, knots, 3).toarray().T
-    double = np.stack([np.sin(2 * phi), np.cos(2 * phi)])
+    double = np.stack([sine, cosine])
     return np.asarray((basis[:, None, :] * double[None]).reshape(-1, len(time)))
 
 
@@ -125,7 +125,7 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         here = np.array(r.valid[a - lead : b])
         if np.sum(here[lead:]) < 2:
             continue
-        X = splines(*r.angle(slice(a - lead, b))) * here
+        X = splines(*r.carried(slice(a - lead, b))) * here
         inside = here[lead:]
         shares = _shares(o, X)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
@@ -143,7 +143,7 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
 def _shares(o: Observation, X: Array) -> list[Array]:
     """What each output of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each."""
     alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
-    if o.kind != "voltages" or (alike and len(set(o.output.radii)) == 1):
+    if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
         return [w * X for w in o.weights]
     sine, cosine = X[0::2], X[1::2]
     found = []

@@ -1,4 +1,7 @@
-"""Flights: records of motion and output, read from and written to the field's files. May import ``signals`` and ``base``."""
+"""Flights: records of motion and output, read from and written to the field's files.
+
+Imports ``base``, ``instrument`` and ``signals``.
+"""
 
 from ragg_runtime.flight.files import iter_flight_chunks, read_flight, read_flights, write_flight
 from ragg_runtime.flight.record import Flight

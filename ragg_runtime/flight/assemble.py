@@ -24,6 +24,7 @@ from ragg_runtime.flight.record import (
     Array,
     Flight,
     Mask,
+    is_disc_angle,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Batch, Column
@@ -36,7 +37,6 @@ BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
 channels are often sampled more slowly than the motion, with blanks between."""
 
-_MANY = 1 << 24  # values of a slow channel that are kept at most
 _ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
@@ -337,7 +337,7 @@ def _filled(values: Array, name: str) -> Array:
     if not len(places):  # only in a part of a longer record
         return np.zeros_like(values)
     there = values[places]
-    if name.startswith("spin_angle"):
+    if is_disc_angle(name):
         there = np.unwrap(there)
     result[missing] = np.interp(np.flatnonzero(missing), places, there)
     return result

@@ -94,7 +94,7 @@ def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
                 _NOT_CSV,
                 where=at(path, f"line {number}"),
                 found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
-                expected="one row a line, a number for each column",
+                expected="one row per line, a number for each column",
                 remedy="the file may be damaged, not fully copied, or not a text file",
             )
         yield line

@@ -188,7 +188,7 @@ def _damaged(path: Path, error: Exception) -> UserError:
         where=path,
         found=(str(error) or type(error).__name__).split("\n", 1)[0][:200],
         expected="a whole workbook (.xlsx)",
-        remedy="save it anew, or as CSV",
+        remedy="save it again, or as CSV",
     )
 
 

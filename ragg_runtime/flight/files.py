@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import glob
-import hashlib
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -13,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.base.files import replacing
+from ragg_runtime.base.files import file_digest, replacing
 from ragg_runtime.flight.angular_acceleration import REACH
 from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
 from ragg_runtime.flight.formats import ending_of, format_of
@@ -136,7 +135,8 @@ def _bounded(source: Source) -> Iterator[Batch]:
 
 
 def _noted(made: Flight, source: Source) -> Flight:
-    return replace(made, notes=(*source.notes, *made.notes)) if source.notes else made
+    notes = (*source.notes, *made.notes)
+    return replace(made, notes=notes, demodulation=source.demodulation)
 
 
 @contextlib.contextmanager
@@ -264,12 +264,6 @@ def flight_name(path: Path) -> str:
     folder = path.resolve().parent.name
     # it is told on terminals and in reports: what would steer them, or pass for a line of ours, is written out
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
-
-
-def file_digest(path: Path) -> str:
-    """SHA-256 of the file, hexadecimal."""
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _parts(source: Source, rows: int) -> Iterator[Batch]:

@@ -43,7 +43,7 @@ def format_of(path: Path) -> Format:
     if ending is not None:
         return ENDINGS[ending]
     raise UserError(
-        "the ending of the file name stands for no flight format",
+        "no flight format has this file name ending",
         where=path,
         found=path.suffix or "no ending",
         expected=", ".join(ENDINGS),

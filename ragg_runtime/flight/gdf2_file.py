@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
+from ragg_runtime.flight.numerals import numbers, shortest
 from ragg_runtime.flight.one_table import joined
 from ragg_runtime.flight.source import Column, Heading, Look, RawBatch, Table, Written, distinct, not_numbers
 
@@ -222,16 +222,11 @@ def _batches(path: Path, fields: Sequence[_Field], wanted: Sequence[_Field], kin
 
 
 def _numbers(cells: NDArray[np.bytes_], field: _Field, path: Path, before: int) -> NDArray[Any]:
-    try:
-        values = parsed(cells)
-    except ValueError:
-        n = first_wrong(cells)
-        raise UserError(
-            "not a number",
-            where=at(path, f"record {before + n + 1}", f"column {field.name!r}"),
-            found=repr(cells[n].decode("utf-8", "replace")),
-            expected=f"a number in characters {field.start + 1} to {field.stop}, as the .dfn file says",
-        ) from None
+    values = numbers(
+        cells,
+        lambda n: at(path, f"record {before + n + 1}", f"column {field.name!r}"),
+        f"a number in characters {field.start + 1} to {field.stop}, as the .dfn file says",
+    )
     return values if field.null is None else np.where(values == field.null, np.nan, values)
 
 

@@ -22,7 +22,7 @@ from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.instants import GPS_EPOCH, is_clock, way_of
 from ragg_runtime.flight.mapping import UNKNOWN
 from ragg_runtime.flight.names import ROLES, role_of
-from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.flight.record import DEMODULATED, SI_UNITS, is_demodulated
 from ragg_runtime.flight.source import Heading, Look, Table, is_unit
 from ragg_runtime.instrument.units import units
 
@@ -73,7 +73,7 @@ def draft(path: Path) -> Draft:
     if unused:
         lines += ["", "# Not used (any column can be kept as an auxiliary channel under a name of its own):"]
         lines += [f"# {_key(h.name)} = {_entry(h.name, h.unit or UNKNOWN)}" for h in unused if not h.text]
-    if any(r.demodulated for h in table.headings if (r := role_of(h.name)) is not None):
+    if any(is_demodulated(r.name) for h in table.headings if (r := role_of(h.name)) is not None):
         lines += [
             "",
             "# How inline and cross were made, if it is known:",
@@ -218,7 +218,7 @@ def _unit(h: Heading, name: str, values: NDArray[Any], questions: list[str], whe
 
 def _of_others(name: str) -> str | None:
     stem = re.sub(r"_[^_]+$", "", name)
-    return SI_UNITS.get(stem) if stem in ("inline", "cross") else None
+    return SI_UNITS.get(stem) if stem in DEMODULATED else None
 
 
 def _looks(name: str, values: NDArray[Any]) -> str:

@@ -19,7 +19,7 @@ x = "y"
 y = "x"
 z = "-z"
 
-[demodulator]                   # how inline and cross were made
+[demodulator]                   # how inline and cross were made; further keys: instrument/demodulation.py
 kind = "butterworth"
 cutoff = "0.18 Hz"
 order = 6
@@ -41,7 +41,8 @@ from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.form_version import VERSION, WRITER, Form
 from ragg_runtime.flight.instants import WAYS
-from ragg_runtime.instrument.units import read_quantity, units
+from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
+from ragg_runtime.instrument.units import units
 
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
@@ -52,7 +53,6 @@ _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part"),
     "time": ("column", "format", "unit", "origin"),
     "axes": ("x", "y", "z"),
-    "demodulator": ("kind", "cutoff", "order", "delay"),
     "columns": ("column", "unit", "sign", "scale", "offset"),
 }
 
@@ -82,7 +82,7 @@ class Mapped:
     """A mapping as it was read; see the module's text for the file.
 
     ``axes`` has, for x, y and z of the measurement frame, the recorder's axis (0, 1, 2) and its sign;
-    ``demodulator`` what is known of it, as written; ``digest`` the SHA-256 of the text. ``kept``: it is the
+    ``demodulator`` how the channels were made; ``digest`` the SHA-256 of the text. ``kept``: it is the
     model's own, and does not apply to files that have none of its columns (a simulated flight, say).
     """
 
@@ -93,7 +93,7 @@ class Mapped:
     line: str | None = None
     lines: tuple[str, ...] | None = None
     part: str | None = None
-    demodulator: Mapping[str, str] | None = None
+    demodulator: Demodulation | None = None
     digest: str = ""
     kept: bool = False
 
@@ -125,7 +125,7 @@ def parse_mapping(text: str, path: Path) -> Mapped:
             raise _unknown(at(path), key, _TABLES)
         if not isinstance(value, dict):
             raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
-        if key != "columns":
+        if key in _KEYS and key != "columns":
             _check_keys(value, _KEYS[key], at(path, f"[{key}]"))
     file = data.get("file", {})
     lines = file.get("lines")
@@ -153,7 +153,7 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         line=_word(file.get("line"), "line", at(path, "[file]")),
         lines=tuple(lines) if lines is not None else None,
         part=_word(file.get("part"), "part", at(path, "[file]")),
-        demodulator=_demodulator(data.get("demodulator"), at(path, "[demodulator]")),
+        demodulator=read_demodulation(data.get("demodulator"), at(path, "[demodulator]")),
         digest=hashlib.sha256(text.encode()).hexdigest(),
     )
 
@@ -230,7 +230,7 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
         found.append(("xyz".index(bare), -1.0 if text.startswith("-") else 1.0))
     order = [k for k, _ in found]
     if len(set(order)) < 3:
-        raise UserError("an axis stands there twice", where=where, found=dict(raw))
+        raise UserError("an axis appears twice", where=where, found=dict(raw))
     parity = 1.0 if order in ([0, 1, 2], [1, 2, 0], [2, 0, 1]) else -1.0
     if parity * math.prod(s for _, s in found) < 0:
         raise UserError(
@@ -241,17 +241,6 @@ def _axes(raw: Mapping[str, Any], where: str) -> tuple[tuple[int, float], ...]:
             remedy="if a sensor is wired the other way round, give its column sign = -1",
         )
     return tuple(found)
-
-
-def _demodulator(raw: Mapping[str, Any] | None, where: str) -> Mapping[str, str] | None:
-    if raw is None:
-        return None
-    known = units(9.8)
-    for key, unit in (("cutoff", "Hz"), ("delay", "s")):
-        if key in raw:
-            q = read_quantity(raw[key], at(where, key), count=1)
-            known.to_si(float(q.value) if isinstance(q.value, float) else 0.0, q.unit, unit, at(where, key))
-    return MappingProxyType({k: str(v) for k, v in raw.items()})
 
 
 def _unit(raw: Any, where: str) -> str:

@@ -183,7 +183,7 @@ def _loaded(path: Path) -> dict[str, Any]:
             where=path,
             found=(str(error) or type(error).__name__).split("\n", 1)[0][:200],
             expected="a whole MAT-file, version 5 to 7.3",
-            remedy="copy it again, or save it anew: save('flight.mat', '-v7')",
+            remedy="copy it again, or save it again: save('flight.mat', '-v7')",
         ) from None
     return {n: v for n, v in found.items() if not n.startswith("__")}
 

@@ -44,10 +44,6 @@ class Role:
     def rank(self) -> int:
         return _RANKS.index(self.sure)
 
-    @property
-    def demodulated(self) -> bool:
-        return self.name.split("_")[0] in ("inline", "cross")
-
 
 def plain(column: str) -> str:
     """A column's name in small letters, its words divided by ``_``."""

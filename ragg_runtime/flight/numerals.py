@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.record import Array
 
 
@@ -29,7 +31,21 @@ def parsed(cells: NDArray[np.bytes_]) -> Array:
     return bare.astype(np.float64)
 
 
-def first_wrong(cells: NDArray[np.bytes_]) -> int:
+def numbers(cells: NDArray[np.bytes_], where: Callable[[int], str], expected: str) -> Array:
+    """As :func:`parsed`; UserError for a cell that is no number, with ``where`` it is, counted from 0."""
+    try:
+        return parsed(cells)
+    except ValueError:
+        n = _first_wrong(cells)
+        raise UserError(
+            "not a number",
+            where=where(n),
+            found=repr(cells[n].decode("utf-8", "replace"))[:60],
+            expected=expected,
+        ) from None
+
+
+def _first_wrong(cells: NDArray[np.bytes_]) -> int:
     """The first cell at which :func:`parsed` stumbles."""
     for n in itertools.count():
         try:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.instrument.demodulation import Demodulation
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -29,11 +30,10 @@ RATES = frozenset(
 )
 """Time derivatives of the motion: models form them from it, whatever columns of these names hold."""
 
-OUTPUTS = ("G_out", *VOLTAGES, *DEMODULATED)
-
 AUXILIARY: Mapping[str, str] = MappingProxyType(
     {"temperature": "K", "roll": "rad", "pitch": "rad", "yaw": "rad", "pressure": "Pa"}
     | dict.fromkeys(("B_x", "B_y", "B_z"), "T")
+    | {"fuel_mass": "kg", "vibration_rms": "m/s^2", "angular_vibration_rms": "rad/s"}
 )
 """Auxiliary channels of fixed meaning and their SI units; any other name is an auxiliary channel as well."""
 
@@ -49,6 +49,16 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
     | dict.fromkeys(DEMODULATED, "s^-2")
 )
 """SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
+
+
+def is_demodulated(name: str) -> bool:
+    """Whether a column is a demodulated channel by its name: ``inline``, ``cross_A``, ``inline_1`` ..."""
+    return name.partition("_")[0] in DEMODULATED
+
+
+def is_disc_angle(name: str) -> bool:
+    """Whether a column is the angle of a disc by its name: ``spin_angle``, ``spin_angle_A`` ..."""
+    return name.startswith("spin_angle")
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +85,8 @@ class Flight:
         Name -> unit that the file gives, of every column of the file; empty if the flight comes from none.
     notes
         What was derived, filled in or looks odd, in sentences.
+    demodulation
+        How ``inline`` and ``cross`` were made, if the mapping of the file says so.
     """
 
     time: Array
@@ -87,6 +99,7 @@ class Flight:
     valid: Mask = field(default_factory=lambda: np.ones(0, dtype=np.bool_))
     units: Mapping[str, str] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
+    demodulation: Demodulation | None = None
 
     def __post_init__(self) -> None:
         time = _read_only(self.time)
@@ -101,7 +114,7 @@ class Flight:
             for name, column in columns.items():
                 if column.shape != time.shape:
                     raise UserError(
-                        f"{name} has another length than time",
+                        f"{name} differs in length from time",
                         where=at(self.path, self.name),
                         found=column.shape,
                         expected=time.shape,
@@ -113,7 +126,7 @@ class Flight:
 
     def _unit(self, name: str) -> str:
         """SI unit of a column: outputs and disc angles have names of the instrument's own."""
-        own = "V" if name in self.outputs else "rad" if name.startswith("spin_angle") else "1"
+        own = "V" if name in self.outputs else "rad" if is_disc_angle(name) else "1"
         return SI_UNITS.get(name, own)
 
     def __repr__(self) -> str:
@@ -139,7 +152,7 @@ class Flight:
         since = self.time - self.time[0]
         for first, last in stretches:
             valid[(since >= first) & (since <= last)] = False
-            notes.append(f"left out by hand: {first:g} s to {last:g} s")
+            notes.append(left_out(first, last))
         return dataclasses.replace(self, valid=valid, notes=tuple(notes))
 
     def part(self, rows: slice) -> Flight:
@@ -151,6 +164,11 @@ class Flight:
             outputs={name: v[rows] for name, v in self.outputs.items()},
             valid=self.valid[rows],
         )
+
+
+def left_out(first: float, last: float) -> str:
+    """The note of a stretch of time that somebody has left out, s."""
+    return f"left out by hand: {first:g} s to {last:g} s"
 
 
 def _read_only(values: ArrayLike) -> Array:

@@ -200,7 +200,7 @@ def _not_increasing(time: Array, steps: Array, where: str, first_row: int) -> Us
     row = int(np.flatnonzero(steps <= 0)[0])
     count = int(np.sum(steps <= 0))
     return UserError(
-        "an instant stands there twice" if steps[row] == 0 else "the time runs back",
+        "an instant appears twice" if steps[row] == 0 else "the time runs back",
         where=where,
         found=f"row {first_row + row}: {time[row]:.10g} s, row {first_row + row + 1}: {time[row + 1]:.10g} s"
         + (f" (and {count - 1} more such places)" if count > 1 else ""),

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.flight.record import Array
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 
 Batch = Mapping[str, Array]
@@ -93,7 +94,8 @@ class Source:
     """A flight: columns of numbers under the names of the contract, each with a unit, and its rows.
 
     ``line`` is the flight line, where the file has several; ``origin`` the instant at which ``time`` is 0, if
-    it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file.
+    it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file,
+    ``demodulation`` how its channels were made, if that is known.
     """
 
     path: Path
@@ -102,6 +104,7 @@ class Source:
     line: str | None = None
     origin: datetime | None = None
     notes: tuple[str, ...] = ()
+    demodulation: Demodulation | None = None
 
 
 @dataclass(frozen=True)
@@ -204,13 +207,11 @@ def is_unit(text: str) -> bool:
 
 
 def distinct(path: Path, headings: Sequence[Heading]) -> tuple[Heading, ...]:
-    """The headings; UserError if a name stands there twice."""
+    """The headings; UserError if a name appears twice."""
     seen: set[str] = set()
     for h in headings:
         if h.name in seen:
-            raise UserError(
-                f"the column {h.name!r} stands there twice", where=path, remedy="remove or rename one"
-            )
+            raise UserError(f"the column {h.name!r} appears twice", where=path, remedy="remove or rename one")
         seen.add(h.name)
     return tuple(headings)
 

@@ -176,8 +176,18 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
         dated = way is None or way.dated
         notes: tuple[str, ...] = (f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})",)
         if mapping.demodulator is not None:
-            notes += ("demodulated: " + ", ".join(f"{k} {v}" for k, v in mapping.demodulator.items()),)
-        found.append(Source(table.path, columns, batches, table.line, origin if dated else None, notes))
+            notes += (f"demodulated: {mapping.demodulator.words()}",)
+        found.append(
+            Source(
+                path=table.path,
+                columns=columns,
+                batches=batches,
+                line=table.line,
+                origin=origin if dated else None,
+                notes=notes,
+                demodulation=mapping.demodulator,
+            )
+        )
     return found
 
 

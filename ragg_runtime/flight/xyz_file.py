@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.csv_file import LONGEST_LINE
-from ragg_runtime.flight.numerals import first_wrong, parsed, shortest
+from ragg_runtime.flight.numerals import numbers, parsed, shortest
 from ragg_runtime.flight.one_table import union
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading
 
@@ -225,16 +225,8 @@ def _blocks(stream: BinaryIO, line: _Line) -> Iterator[bytes]:
 
 
 def _numbers(cells: NDArray[np.bytes_], path: Path, line: _Line, column: Heading) -> NDArray[Any]:
-    try:
-        values = parsed(cells)
-    except ValueError:
-        n = first_wrong(cells)
-        raise UserError(
-            "not a number",
-            where=at(path, f"line {line.name}" if line.name else "", f"column {column.name!r}"),
-            found=repr(cells[n].decode("utf-8", "replace"))[:60],
-            expected="a number, or * where it is missing",
-        ) from None
+    place = at(path, f"line {line.name}" if line.name else "", f"column {column.name!r}")
+    values = numbers(cells, lambda _: place, "a number, or * where it is missing")
     return np.where(values == DUMMY, np.nan, values)
 
 

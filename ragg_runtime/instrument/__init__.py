@@ -1,3 +1,4 @@
-"""The instrument: nominal parameters, units and effects of one gradiometer, read from ``model.toml``. May import
-base.
+"""The instrument: nominal parameters, units and effects of one gradiometer, read from ``model.toml``.
+
+Imports ``base``.
 """

@@ -12,7 +12,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.base.files import write_text
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
@@ -101,6 +101,8 @@ def model_text(instrument: Instrument) -> str:
         document.add("g0", f"{instrument.g0!r} m/s^2")
     if instrument.form != PAPER:
         document.add("model", _form(instrument.form))
+    if instrument.demodulation is not None:
+        document.add("demodulator", _demodulator(instrument.demodulation))
     document.add("disc", disc if instrument.layout.of_paper else _discs(instrument.layout))
     document.add("accelerometers", accelerometers)
     text = tomlkit.dumps(document)
@@ -143,9 +145,11 @@ def _form(form: Form) -> Any:
     return table
 
 
-def write_instrument(instrument: Instrument, path: Path) -> None:
-    """Write :func:`model_text` to a file, whole or not at all."""
-    write_text(path, model_text(instrument))
+def _demodulator(d: Demodulation) -> Any:
+    table = tomlkit.table()
+    for key, value in d.entries().items():
+        table.add(key, value)
+    return table
 
 
 def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, ...]:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import form as forms
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.layout import PAPER, Layout, paper, scale
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
@@ -65,6 +66,7 @@ class Instrument:
     Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
     the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
     ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
+    ``demodulation``: how inline and cross are made, if the sheet says so.
     """
 
     radius: float
@@ -77,6 +79,7 @@ class Instrument:
     sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
     form: Form = forms.PAPER
     layout: Layout = PAPER
+    demodulation: Demodulation | None = None
 
     def __post_init__(self) -> None:
         if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency
@@ -95,6 +98,7 @@ class Instrument:
         form: Form = forms.PAPER,
         layout: Layout | None = None,
         sigmas: Mapping[str, ArrayLike] | None = None,
+        demodulation: Demodulation | None = None,
     ) -> Instrument:
         """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
 
@@ -120,6 +124,7 @@ class Instrument:
             effects_folder=effects_folder,
             layout=layout,
             form=form,
+            demodulation=demodulation,
             sigmas=MappingProxyType({name: _vector(v, layout.size) for name, v in (sigmas or {}).items()}),
         )
         _check_physical(made)

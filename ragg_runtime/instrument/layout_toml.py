@@ -183,7 +183,7 @@ def _direction(table: Mapping[str, Any], key: str, where: str, default: Vector3)
     numbers = numbers and all(isinstance(v, int | float) and not isinstance(v, bool) for v in raw)
     if not numbers or not all(math.isfinite(float(v)) for v in raw) or not any(v != 0 for v in raw):
         raise UserError(
-            f"{key} is no direction",
+            f"{key} is not a direction",
             where=where,
             found=repr(raw),
             expected=f"{key} = [0, 0, 1], three numbers",

@@ -13,6 +13,7 @@ import numpy as np
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.form_version import VERSION, WRITER, Form
+from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
 from ragg_runtime.instrument.layout import PAPER, Layout, paper
@@ -39,7 +40,17 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
     FORM.check(table, path)
-    known = ("disc", "accelerometers", "effects", "effects_folder", "model", "g0", VERSION, WRITER)
+    known = (
+        "disc",
+        "accelerometers",
+        "effects",
+        "effects_folder",
+        "model",
+        "g0",
+        "demodulator",
+        VERSION,
+        WRITER,
+    )
     _check_names(table, known, None, path)
     layout, g0 = _discs(table, path)
     accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
@@ -54,6 +65,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         effects_folder=_folder(table.get("effects_folder"), path),
         layout=layout,
         form=read_form(table.get("model"), path),
+        demodulation=read_demodulation(table.get("demodulator"), at(path, "[demodulator]")),
     )
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,6 +43,21 @@ def constants(layout: Layout) -> Mapping[str, tuple[float, ...]]:
     if not all(d.level for d in layout.discs):
         found |= _entries("axes", [axes(layout.discs[p.disc]) for p in places])
     return found
+
+
+PARTS = 1_000_000
+"""Of a degree: what an angle on the disc is written in."""
+
+
+def degrees(layout: Layout) -> tuple[Fraction | None, ...]:
+    """The exact angle of each accelerometer, as it was written; ``None``: it was not written in millionths of a degree."""
+    found = []
+    for p in layout.places:
+        parts = math.degrees(p.angle) * PARTS
+        exact = Fraction(round(parts), PARTS)
+        # what turning degrees into radians rounds off
+        found.append(exact if abs(parts - round(parts)) < 1e-12 * PARTS else None)
+    return tuple(found)
 
 
 def _entries(name: str, matrices: list[Array]) -> dict[str, tuple[float, ...]]:

@@ -22,6 +22,9 @@ from ragg_runtime.instrument.unit_spelling import spellings
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
+EOTVOS = 1e-9
+"""1 Eo in s^-2."""
+
 DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
 _EXAMPLES = "a unit such as m, um, rad, arcsec, ug, ug/g^2, mA/g, ohm, deg/h, Eo, 1/K, s^-2, or 1 for none"

@@ -1,3 +1,4 @@
-"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder. May import
-fit and below.
+"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder.
+
+Imports ``base``, ``fit``, ``flight``, ``model`` and ``signals``.
 """

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import series_name
 from ragg_runtime.fit.segments import segments
+from ragg_runtime.flight.record import is_disc_angle
 from ragg_runtime.lack_of_fit import features
 from ragg_runtime.lack_of_fit.features import Relaxations
 from ragg_runtime.model.record import GRADIENTS, Record
@@ -174,7 +175,7 @@ class Chunks(Sequence[tuple[slice, Singles]]):
 
 def _is_channel(name: str) -> bool:
     """Whether a column that is no motion may enter a term: not gradients, nor the angles of discs."""
-    return name not in _NOT_A_CHANNEL and not name.startswith("spin_angle")
+    return name not in _NOT_A_CHANNEL and not is_disc_angle(name)
 
 
 @dataclass(frozen=True)

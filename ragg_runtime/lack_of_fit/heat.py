@@ -62,7 +62,7 @@ def heat(
 
 def _table(s: Scores) -> Heat:
     left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
-    good = left2 > 1e-6 * s.sums.norm2  # as in omnibus: single precision knows no less
+    good = left2 > omnibus.OWN * s.sums.norm2
     norm = np.sqrt(np.where(good, left2, np.nan))
     terms = s.dictionary.terms
     rows = harmonics()

@@ -66,7 +66,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
 
     ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
     """
-    if len(f.prepared) != 1 or f.observations[0].kind == "channels":
+    if len(f.prepared) != 1 or f.observations[0].recorded.demodulated:
         return None
     x = f.prepared[0]
     r = x.observation.record

@@ -36,6 +36,13 @@ FAMILY = false_alarms.REMAINDER
 SHARES = false_alarms.REMAINDER_SHARES
 """How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
+OWN = 1e-6
+"""Share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single
+precision knows no less."""
+
+APART = 0.05
+"""Share of a term's square that must be left of it beside the terms taken before, for its score to count."""
+
 MOST_TERMS = 8
 
 EFFORT = 3.0
@@ -268,7 +275,7 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
 
 
 def _line(s: Scores) -> tuple[float, Found] | None:
-    if s.prepared.observation.kind == "channels":
+    if s.prepared.observation.recorded.demodulated:
         return None  # their noise is only white within the demodulator's band
     line = s.sums.spectrum.best()
     if line is None:
@@ -292,8 +299,7 @@ def _line(s: Scores) -> tuple[float, Found] | None:
 def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
     left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
-    # in single precision a column that is nearly all in the base has no direction of its own left
-    good = left2 > 1e-6 * s.sums.norm2
+    good = left2 > OWN * s.sums.norm2
     norm = np.sqrt(np.where(good, left2, np.inf))
     tried = int(np.sum(good))
     z = s.sums.dot / norm
@@ -315,7 +321,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     taken: list[Found] = []
     chi2 = 0.0
     while len(taken) < most:
-        now = np.where(left > 0.05, score / np.sqrt(np.maximum(left, 0.05)), 0.0)
+        now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
         if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)

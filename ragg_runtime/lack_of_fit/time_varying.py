@@ -23,13 +23,19 @@ from ragg_runtime.lack_of_fit.whitened_terms import products, squares
 Array = NDArray[np.float64]
 
 PARTS = 4
-"""Spells in a block of time."""
+"""Stretches in a block of time."""
 
 WINDOWS = (1, 2, 4, 8, 16)
 """Lengths of windows, in intervals; each is moved by half of it."""
 
 CYCLES = np.arange(1, 61) / 2
 """Cycles of a swing in a flight. The shortest is three intervals long."""
+
+ONE_SIDED = 0.01
+"""Share of a term's information that must lie on either side of an instant for a jump there to be told from the whole."""
+
+ONE_PHASE = 0.01
+"""Determinant of a cosine and a sine of one period, over the product of their squares, below which they are one and the same."""
 
 QUESTIONS = 4
 
@@ -135,7 +141,7 @@ class BlockScores:
         D, V = np.cumsum(d[::-1], axis=0)[::-1], np.cumsum(v[::-1], axis=0)[::-1]
         share = _ratio(V[at], V[0])
         amount = D[at] - share * D[0]
-        variance = np.where((share > 0.01) & (share < 0.99), V[at] * (1.0 - share), 0.0)
+        variance = np.where((share > ONE_SIDED) & (share < 1.0 - ONE_SIDED), V[at] * (1.0 - share), 0.0)
         since = 1.0 - at / len(d)
         return self._single(
             amount, variance, since * (1.0 - since), [f"since {self.time[n]:.4g} s" for n in at]
@@ -166,7 +172,7 @@ class BlockScores:
         c, s = np.cos(angle), np.sin(angle)
         C, S, cc, ss, cs = c @ d, s @ d, c**2 @ v, s**2 @ v, (c * s) @ v
         determinant = cc * ss - cs**2
-        clear = determinant > 0.01 * cc * ss  # else the two phases are one and the same
+        clear = determinant > ONE_PHASE * cc * ss
         chi2 = np.where(clear, _ratio(C**2 * ss + S**2 * cc - 2 * C * S * cs, determinant), 0.0)
         n, k = np.unravel_index(int(np.argmax(chi2)), chi2.shape)
         std = float(1.0 / np.sqrt(max(float(np.sum(v[:, k])), 1e-300)))

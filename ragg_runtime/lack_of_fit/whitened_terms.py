@@ -17,7 +17,6 @@ from scipy import fft
 
 from ragg_runtime.base.threads import count, mapped
 from ragg_runtime.fit import unknown_gradient
-from ragg_runtime.fit.observation import narrow
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
@@ -66,7 +65,7 @@ class Directions:
         self.size = len(r.time)
         self.level = prepared.noise.level.of(r.quantity)
         steady = not prepared.noise.level.parts
-        self.may_be_periodic = piece.observation.kind != "channels" and bool(r.valid.all()) and steady
+        self.may_be_periodic = steady and bool(r.valid.all()) and not self.whole.recorded.demodulated
         """Whether terms may be filtered periodically: not past gaps, through the demodulator, nor where the noise's level changes."""
         if self.may_be_periodic:
             cut = [np.asarray(taps[: self.size]) for taps in self.filters]
@@ -85,8 +84,8 @@ class Directions:
 
         def through(k: int) -> tuple[slice, Singles, Singles]:
             at, x = chunks[k]
-            if o.kind == "channels":  # what the recorder made of G_out before it was recorded
-                x = narrow(x.astype(np.float64), wide).astype(np.float32)
+            if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
+                x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
             parts = [
                 _kept(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)

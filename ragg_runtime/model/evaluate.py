@@ -9,14 +9,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
-from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.instrument.units import EOTVOS, Units, units
 from ragg_runtime.model.model import Chain, Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]
-
-EOTVOS = 1e-9
-"""1 Eo in s^-2."""
 
 
 def voltages(chain: Chain, r: Record, p: Array, o: Output = PAPER.outputs[0]) -> Array:

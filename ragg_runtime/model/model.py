@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 import sys
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from importlib import resources
@@ -40,6 +40,16 @@ class Chain(Protocol):
     ) -> Array: ...
 
     def values_of(self, j: int, p: Array) -> Array: ...
+
+
+class Recogniser(Protocol):
+    """A module that recognises an effect of the recorder. No chance is allowed for: what it says is certain.
+
+    It is asked of the outputs, or of the columns that it names as ``CHANNELS``.
+    """
+
+    def present(self, values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+        """Whether a series (N,), SI, shows it; ``valid`` (N,) are usable samples, ``noise`` the output's standard deviation, V."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +94,26 @@ class Effect:
     parameters: tuple[EffectParameter, ...]
     either: bool = False
 
+    def missing(self, recorded: Container[str]) -> tuple[str, ...]:
+        """The channels that it needs and a flight, which has those recorded, does not have."""
+        return missing_channels(self, recorded)
+
+
+class Needs(Protocol):
+    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
+
+    @property
+    def channels(self) -> tuple[str, ...]: ...
+
+    @property
+    def either(self) -> bool: ...
+
+
+def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
+    """As :meth:`Effect.missing`, of an effect whoever describes it."""
+    missing = tuple(c for c in e.channels if c not in recorded)
+    return () if e.either and len(missing) < len(e.channels) else missing
+
 
 MANY = 200_000
 """Samples from which a model that was derived for a flight is worth half a second of compiling."""
@@ -106,13 +136,15 @@ class Model:
     sources
         The model in C: file name -> text, as derived.
     folded
-        The generated module of the folded form, which only the paper's model has.
+        The generated module of the folded form, which models without further effects have.
     layout
         Whose accelerometers the chain is.
     fitting
         The C of chain and signatures: of what fits evaluate.
     in_machine_code
         Whether fits run in machine code (see :meth:`for_fits`).
+    own_recognisers
+        Those of a model directory's own effects of the output channel, by their ids.
     """
 
     effects: tuple[Effect, ...]
@@ -125,6 +157,15 @@ class Model:
     layout: Layout = PAPER
     fitting: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
     in_machine_code: bool = field(default=False, compare=False)
+    own_recognisers: Mapping[str, Recogniser] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def recognisers(self) -> Mapping[str, Recogniser]:
+        """Effect id -> what recognises it, of the candidates that act on the output channel, in the order of their ids."""
+        from generated.output_effects import RECOGNISERS
+
+        every = {**cast(Mapping[str, Recogniser], RECOGNISERS), **self.own_recognisers}
+        return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
     def for_fits(self, samples: int) -> Model:
         """The model for fits to so many samples: in machine code if they outweigh the wait for the compiler."""
@@ -181,16 +222,25 @@ def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout 
     byte for byte, the same.
     """
     modules = {}
-    for name in ("chain", "signatures"):
-        if f"{name}.py" not in files:
+    output_effects = sorted(n for n in files if n.startswith("output_effects/") and n.endswith(".py"))
+    for name in ("chain.py", "signatures.py", "folded.py", *output_effects):
+        if name not in files:
             continue
-        module = ModuleType(f"ragg_{label}_{name}")
+        stem = name.removesuffix(".py")
+        module = ModuleType(f"ragg_{label}_{stem.replace('/', '_')}")
         sys.modules[module.__name__] = module
-        exec(compile(files[f"{name}.py"], f"<{label}/{name}.py>", "exec"), module.__dict__)
-        modules[name] = module
+        exec(compile(files[name], f"<{label}/{name}>", "exec"), module.__dict__)
+        modules[stem] = module
+    own = {
+        stem.partition("/")[2].replace("_", "-"): cast(Recogniser, module)
+        for stem, module in modules.items()
+        if "/" in stem
+    }
     c = {n.partition("/")[2]: text for n, text in files.items() if n.startswith("c/")}
     model = _model(json.loads(files["manifest.json"]), modules["chain"], modules.get("signatures"), c)
-    return replace(model, sources={name: c[name] for name in ("chain.c", "chain.h")}, layout=layout)
+    sources = {name: c[name] for name in c if not name.startswith("signatures")}
+    folded = modules.get("folded")
+    return replace(model, sources=sources, folded=folded, layout=layout, own_recognisers=own)
 
 
 def _model(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,12 @@ from numpy.typing import NDArray
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.layout import Layout, Vector3, gain
+from ragg_runtime.instrument.layout import Vector3, gain
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
 
 Array = NDArray[np.float64]
@@ -60,6 +62,10 @@ class Record:
         Whether the disc turns at all.
     axes
         First two axes of the disc at rest in the measurement frame; ``None``: x and y.
+    demodulation
+        How inline and cross were made, where they are what was recorded.
+    every
+        Samples from one at which they were recorded to the next.
     """
 
     time: Array
@@ -72,6 +78,13 @@ class Record:
     phase: float = 0.0
     turning: bool = True
     axes: tuple[Vector3, Vector3] | None = None
+    demodulation: Demodulation = OURS
+    every: int = 1
+
+    @cached_property
+    def low_pass(self) -> Demodulator:
+        """What inline and cross have passed."""
+        return kernel(self.demodulation, self.rate)
 
     @cached_property
     def channels(self) -> Mapping[str, Array]:
@@ -89,6 +102,24 @@ class Record:
     def demodulation_angle(self) -> Array:
         """(N,) rad: half the angle of the gradient's carriers."""
         return self.phi if self.phase == 0.0 else self.phi + self.phase / 2
+
+    @cached_property
+    def quadratures(self) -> tuple[Array, Array]:
+        """Cosine and sine, (N,), of the gradient's carriers: G_out holds T_1 sin + T_2 cos."""
+        double = 2 * self.demodulation_angle
+        return np.asarray(np.cos(double)), np.asarray(np.sin(double))
+
+    @cached_property
+    def carriers(self) -> tuple[Array, Array]:
+        """Those on which inline and cross are put to be one series: the gradient's, or ones that turn by a quarter from sample
+        to sample where they were recorded more seldom (of a disc that turns twice a second, say, recorded every second, one
+        of them would always be zero).
+        """
+        return self.quadratures if self.every == 1 else self._quarters(self.time)
+
+    def _quarters(self, time: Array) -> tuple[Array, Array]:
+        angle = np.pi / 2 * np.remainder(np.rint(time * self.rate), 4.0 * self.every) / self.every
+        return np.asarray(np.cos(angle)), np.asarray(np.sin(angle))
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -142,12 +173,15 @@ class Record:
         time = np.array(self.time[rows])
         return replace(self, time=time, wide=wide, valid=valid, halo=(a - first, last - b))
 
-    def angle(self, rows: slice) -> tuple[Array, Array]:
-        """Time, s, and disc angle, rad, of some samples alone."""
+    def carried(self, rows: slice) -> tuple[Array, Array, Array]:
+        """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
         time = np.array(self.time[rows])
+        if self.every > 1:
+            return time, *self._quarters(time)
+        phi = disc_angle(time, self.spin_frequency)
         if self.angle_column in self.wide:
-            return time, np.array(self.wide[self.angle_column][rows])
-        return time, disc_angle(time, self.spin_frequency)
+            phi = np.array(self.wide[self.angle_column][rows])
+        return time, np.asarray(np.cos(2 * phi)), np.asarray(np.sin(2 * phi))
 
     def _inner(self, x: Array) -> Array:
         return x[self.halo[0] : len(x) - self.halo[1]]
@@ -192,20 +226,6 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
 
 
-Kind = Literal["voltages", "G_out", "channels"]
-"""What of an output a flight holds: its accelerometers' voltages, itself, or what a demodulator has made of it."""
-
-
-def recorded(flight: Flight, layout: Layout, place: int) -> Kind | None:
-    """What of an output was recorded, the most telling; ``None``: nothing."""
-    o = layout.outputs[place]
-    if layout.voltages(o, flight.outputs) is not None:
-        return "voltages"
-    if o.name in flight.outputs:
-        return "G_out"
-    return "channels" if len(layout.outputs) == 1 else None
-
-
 STANDING = 1e-3
 """Range of a recorded disc angle, rad, below which the disc stands still."""
 
@@ -237,6 +257,7 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         phase=phase(gain(o, k["k_VI"] * k["K1"], instrument.radii + k["dR"])),
         turning=turning,
         axes=None if disc.level else disc.across,
+        demodulation=flight.demodulation or instrument.demodulation or OURS,
     )
 
 
@@ -252,19 +273,3 @@ def _from_gap(valid: NDArray[np.bool_]) -> Array:
     before = at - np.maximum.accumulate(np.where(valid, -n, at))
     after = np.minimum.accumulate(np.where(valid, 2 * n, at)[::-1])[::-1] - at
     return np.minimum(np.minimum(before, after), n).astype(np.float64)
-
-
-class Needs(Protocol):
-    """An effect, as far as the channels go that it needs: all of them, or one of them (``either``)."""
-
-    @property
-    def channels(self) -> tuple[str, ...]: ...
-
-    @property
-    def either(self) -> bool: ...
-
-
-def missing_channels(e: Needs, recorded: Container[str]) -> tuple[str, ...]:
-    """The channels that an effect needs and a flight, which has those recorded, does not have."""
-    missing = tuple(c for c in e.channels if c not in recorded)
-    return () if e.either and len(missing) < len(e.channels) else missing

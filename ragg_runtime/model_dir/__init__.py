@@ -1,3 +1,4 @@
-"""A model directory: reading, changing it whole or not at all, deriving its code. May import model, instrument,
-base, and ``derive``.
+"""A model directory: reading, changing it whole or not at all, deriving its code.
+
+Imports ``base``, ``derive``, ``instrument`` and ``model``.
 """

@@ -229,12 +229,18 @@ def _placed(layout: Layout) -> SymbolicLayout:
     """The layout as the derivation takes it."""
     from derive.layout import PAPER as QUARTERS
     from derive.layout import Layout as SymbolicLayout
-    from derive.layout import Output
+    from derive.layout import Output, rest_of_angles
 
     if layout.like_paper:
         return QUARTERS
     outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
-    return SymbolicLayout(names=layout.names, constants=stations.constants(layout), outputs=outputs)
+    constants = stations.constants(layout)
+    return SymbolicLayout(
+        names=layout.names,
+        constants=constants,
+        outputs=outputs,
+        rest=rest_of_angles(stations.degrees(layout), constants["cos_j"], constants["sin_j"]),
+    )
 
 
 def with_effects(

@@ -13,7 +13,7 @@ import os
 import shutil
 import stat
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -167,15 +167,16 @@ def replace_model_dir(
     text: str,
     *,
     generated: Code,
-    history: tuple[Step, ...],
-    calibration: str | None = None,
+    step: Step | None = None,
+    calibration: Callable[[str | None], str] | None = None,
     mapping: str | None = None,
 ) -> ModelDir:
     """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
 
-    Without a ``calibration`` or ``mapping`` (text of calibration.json, mapping.toml) the one that is there stays.
+    ``step`` is added to the history, and ``calibration`` is given the text of calibration.json and makes the new one: of both
+    what is there now counts, so that a calibration saved meanwhile hinders nobody. What is not given stays.
 
-    Raises UserError if the directory was changed since ``current`` was read, or cannot be written.
+    Raises UserError if model.toml was changed since ``current`` was read, or if the directory cannot be written.
     """
     path = current.path
     parse_instrument(text, path / MODEL)
@@ -189,14 +190,17 @@ def replace_model_dir(
             ) from None
         except OSError as error:
             raise UserError("the model cannot be written", where=path, found=error.strerror) from None
-        if load_model_dir(path).digest != current.digest:
+        found = load_model_dir(path)
+        if found.text != current.text:
             raise UserError(
                 "the model was changed by someone else meanwhile",
                 where=path,
-                remedy="look at it with: ragg history, and run the command again",
+                remedy="look at it with: ragg history, load it again and repeat the change",
             )
+        history = found.history if step is None else (*found.history, step)
+        kept = None if calibration is None else calibration(found.calibration)
         try:
-            _stage(transaction.stage(path), text, generated, history, calibration, mapping)
+            _stage(transaction.stage(path), text, generated, history, kept, mapping)
             folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
             transaction.switch(path, folders, removed=removed)
         except OSError as error:

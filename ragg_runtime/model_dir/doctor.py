@@ -141,7 +141,7 @@ def _code(path: Path, mend: bool) -> Iterator[Finding]:
         return
     missing = bool(expected) and current.generated is None
     if mend:
-        replace_model_dir(current, current.text, generated=expected, history=current.history)
+        replace_model_dir(current, current.text, generated=expected)
     yield Finding(
         what=f"{GENERATED}/ is missing" if missing else f"{GENERATED}/ is not what {MODEL} derives",
         way_back="derived again" if mend else "it is not used; ragg doctor derives it again",

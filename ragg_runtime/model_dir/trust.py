@@ -48,7 +48,7 @@ class OwnEffects:
     digest: str
 
     def lines(self) -> list[str]:
-        """What would be executed, a line each file: its place, size and SHA-256."""
+        """What would be executed, one line per file: its place, size and SHA-256."""
         return [
             f"{one_line(str(path))}  ({len(text)} bytes, SHA-256 {hashlib.sha256(text).hexdigest()})"
             for path, text in self.sources.items()

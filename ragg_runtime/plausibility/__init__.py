@@ -1,6 +1,6 @@
 """Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them.
 
-May import ``fit``, ``model`` and what is below.
+Imports ``base``, ``fit``, ``flight``, ``generated``, ``instrument``, ``model`` and ``signals``.
 """
 
 from ragg_runtime.model.settings import check_settings

@@ -7,25 +7,35 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.range_end import motion_at_the_end
-from ragg_runtime.flight.record import (
-    ANGULAR_ACCELERATION,
-    ANGULAR_RATE,
-    DEMODULATED,
-    SI_UNITS,
-    SPECIFIC_FORCE,
-)
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import missing_channels
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
 
 LIKE = 0.9
 """Correlation from which two series are taken for the same thing."""
+
+UNLIKE = 0.5
+"""Correlation with its own rate below which an angular acceleration that follows another one has its axis exchanged."""
+
+SAME_SIZE = 2.0
+"""Factor within which an angular acceleration has the size of its rate's derivative: smoothing and noise stay below it."""
+
+NEAR = 1.25
+"""Factor within which a ratio of the two is one that a mistake of units makes."""
+
+FEWEST = 64
+"""Samples from which two series can be compared."""
+
+SAME_SPIN = 2e-3
+"""Relative distance of the encoder's rate from the model's spin rate that a disc's own slowness may have."""
+
+IN_DEGREES = 1e-2
+"""The same, of a rate that degrees taken for radians would make."""
 
 _LONGEST = 1 << 16  # samples that a comparison of columns takes
 _DEGREE = np.pi / 180
@@ -43,7 +53,7 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
     """UserError if the flight cannot be held against this model at all."""
     where = flight.path or flight.name
     for e in model.effects:
-        missing = missing_channels(e, flight.channels)
+        missing = e.missing(flight.channels)
         if missing:
             raise UserError(
                 f"the effect {e.id} of the model needs a channel that the flight lacks",
@@ -104,18 +114,7 @@ def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float)
 def remarks(instrument: Instrument, flight: Flight) -> list[str]:
     """Columns that stand still or contradict each other, in sentences that name the likely mistake."""
     encoders = (x for d in instrument.layout.discs for x in _encoder(d, flight))
-    return [*_stuck(flight), *_ends(instrument, flight), *_rates(flight), *encoders]
-
-
-def _ends(instrument: Instrument, flight: Flight) -> list[str]:
-    """Motion sensors that seem to have been at the end of their range."""
-    left_out = instrument.effect("motion-saturation") is not None
-    said = []
-    for name, mask in motion_at_the_end(flight.channels, flight.valid).items():
-        at = f"{int(np.sum(mask))} samples stand at the extreme values, {np.max(np.abs(flight.channels[name][mask])):.6g} {SI_UNITS[name]}"
-        done = "not used" if left_out else "ragg diagnose says whether they disturb (motion-saturation)"
-        said.append(f"{name}: {at}, as of a saturated sensor; {done}")
-    return said
+    return [*_stuck(flight), *_rates(flight), *encoders]
 
 
 def _stuck(flight: Flight) -> list[str]:
@@ -144,7 +143,7 @@ def _rates(flight: Flight) -> list[str]:
         given.append(np.where(valid, flight.channels[change][part], np.nan))
         wanted.append(differentiate(flight.channels[rate][part], flight.rate, valid))
     there = np.isfinite(given).all(axis=0) & np.isfinite(wanted).all(axis=0)
-    if np.sum(there) < 64:
+    if np.sum(there) < FEWEST:
         return []
     G, W = np.array(given)[:, there], np.array(wanted)[:, there]
     sizes = np.outer(np.std(G, axis=1), np.std(W, axis=1))
@@ -157,12 +156,12 @@ def _rates(flight: Flight) -> list[str]:
         factor = float(np.std(G[k]) / np.std(W[k]))
         if abs(like[k, best]) < LIKE:
             continue
-        if best != k and abs(like[k, k]) < 0.5:
+        if best != k and abs(like[k, k]) < UNLIKE:
             said.append(f"{change} is the derivative of {ANGULAR_RATE[best]}, not of {rate}: axes exchanged?")
         elif best == k and like[k, k] < 0:
             said.append(f"{change} is minus the derivative of {rate}: the sign of one of them is reversed")
-        elif best == k and not 0.5 < factor < 2:
-            near = [text for x, text in _FACTORS if 0.8 < factor / x < 1.25]
+        elif best == k and not 1 / SAME_SIZE < factor < SAME_SIZE:
+            near = [text for x, text in _FACTORS if 1 / NEAR < factor / x < NEAR]
             meant = f": {near[0]}?" if near else ": check the units of both"
             said.append(f"{change} is {factor:.4g} times the derivative of {rate}{meant}")
     return said
@@ -177,13 +176,13 @@ def _encoder(disc: Disc, flight: Flight) -> list[str]:
     angle = np.unwrap(flight.channels[column][part])
     time = flight.time[part]
     rate = float(np.median(np.diff(angle) / np.diff(time))) / (2 * np.pi)
-    if abs(rate - f) < 2e-3 * abs(f):
+    if abs(rate - f) < SAME_SPIN * abs(f):
         return []
-    if abs(rate + f) < 2e-3 * abs(f):
+    if abs(rate + f) < SAME_SPIN * abs(f):
         return [f"{column} runs backwards, at {rate:.6g} Hz: the sign of the encoder is reversed?"]
     nyquist = flight.rate / 2
     if any(
-        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < 1e-2 * abs(f)
+        abs((x - rate + nyquist) % (2 * nyquist) - nyquist) < IN_DEGREES * abs(f)
         for x in (f / _DEGREE, f * _DEGREE)
     ):
         return [f"{column} turns at {rate:.6g} Hz, the model's disc at {f:.6g} Hz: degrees for radians?"]

@@ -33,7 +33,7 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     t = 0 of the file's time.
     """
     x = p.flight
-    if p.kind == "channels" or len(x) < 64:
+    if p.recorded.demodulated or len(x) < 64:
         return None
     first, step = p.even
     worst = 0.0

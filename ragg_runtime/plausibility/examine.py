@@ -16,7 +16,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
-from ragg_runtime.model.record import recorded
+from ragg_runtime.model.recorded import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.identify import LikelyMistake, derived_rates, likely_mistake
@@ -101,7 +101,7 @@ def _saturated(p: Picker) -> list[str]:
         return []
     G = p.flight.outputs[p.output.name]
     clipped = int(np.sum(p.flight.valid & np.isfinite(G) & ~p.usable))
-    if not clipped or p.kind == "voltages":
+    if not clipped or p.recorded.separate:
         return []
     top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))
     return [
@@ -111,8 +111,8 @@ def _saturated(p: Picker) -> list[str]:
 
 def _without_motion_spikes(flight: Flight) -> Flight:
     """Spikes of the motion record interpolated, and their samples marked as missing."""
-    notes, channels, valid = [], dict(flight.channels), flight.valid.copy()
-    rates = []
+    channels, valid = dict(flight.channels), flight.valid.copy()
+    notes: dict[str, str] = {}
     for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
         if name not in channels:
             continue
@@ -121,26 +121,25 @@ def _without_motion_spikes(flight: Flight) -> Flight:
         let_go(channels[name])
         if not mask.any():
             continue
-        if name in ANGULAR_RATE:
-            rates.append(name)
         channels[name] = x
         valid &= ~mask
-        notes.append(note_of(name, mask, flight.time, "not used"))
+        notes[name] = note_of(name, mask, flight.time, "not used")
     if not notes:
         return flight
+    rates = [n for n in notes if n in ANGULAR_RATE]
     if rates and derived_rates(flight):
         derivative = planned([channels[n] for n in ANGULAR_RATE], flight.rate)
         for rate in rates:
             change = ANGULAR_ACCELERATION[ANGULAR_RATE.index(rate)]
             channels[change] = derivative.of(channels[rate], flight.rate)[0]
-        notes = [n for n in notes if not n.startswith("omegadot")]
-    return dataclasses.replace(flight, channels=channels, valid=valid, notes=(*flight.notes, *notes))
+        notes = {n: text for n, text in notes.items() if n not in ANGULAR_ACCELERATION}
+    return dataclasses.replace(flight, channels=channels, valid=valid, notes=(*flight.notes, *notes.values()))
 
 
 def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mask, list[str]]:
     """Valid samples without the output's spikes, found in what the fitted model leaves."""
     valid = p.flight.valid.copy()
-    if p.kind == "channels":
+    if p.recorded.demodulated:
         return valid, []  # a demodulator has smeared them
     fitted = explain(model, instrument, p.pick(p.rows())).p
     eotvos = scale_factor(model, fitted, p.place)

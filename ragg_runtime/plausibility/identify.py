@@ -16,7 +16,6 @@ from ragg_runtime.plausibility.mistakes import mistakes
 from ragg_runtime.plausibility.quick_fit import Explained, explain
 from ragg_runtime.plausibility.subsample import Picker
 from ragg_runtime.plausibility.timing import searches
-from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.signals.derivative import differentiate
 
 SUSPICIOUS = 30.0
@@ -33,6 +32,16 @@ MOST_TRIED = 24
 
 BETTER = 5.0
 """Factor by which the residual must fall once a mistake is undone: no missing effect looks like that."""
+
+AS_GOOD = 1.1
+"""Factor over the least that any mistake undone leaves within which another explains the record as well: the plainer is named."""
+
+MUCH_CALMER = 30.0
+"""Sum of squares of the parameters' moves, in plausible sizes, by which one mistake is more likely than another however plain
+that is: the exponent of e^15 in their priors."""
+
+NO_WORSE = 1.05
+"""Factor by which the residual may grow where a mistake undone only calms the parameters: rows that are left out differ."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +105,7 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
         _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
     ]
     found = _chosen(before, tried)
-    if p.kind != "channels" or (found is not None and found.factor > BETTER):
+    if not p.recorded.demodulated or (found is not None and found.factor > BETTER):
         return found
     made = other_demodulator.best(model, instrument, p)  # takes a while: if nothing else would do
     return found if made is None else _chosen(before, [*tried, _otherwise(made)])
@@ -104,10 +113,10 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
 
 def _otherwise(made: other_demodulator.Made) -> _Tried:
     return _Tried(
-        what=f"inline and cross were made by another demodulator, such as {made.what}",
+        what=f"inline and cross were made by another demodulator, such as {made.how.words()}",
         remedy=(
-            f"record G_out itself, or demodulate as here: a symmetric FIR low-pass, half amplitude at {CUTOFF:g} Hz,"
-            " channels not delayed"
+            f"if that is so, say it in model.toml or in a mapping: [demodulator] {made.how.toml()};"
+            " else record G_out itself"
         ),
         plainness=3,
         left=made.left,
@@ -119,10 +128,11 @@ def _chosen(before: Explained, tried: Sequence[_Tried]) -> LikelyMistake | None:
     if not convincing:
         return None
     least = min(t.left.share for t in convincing)
-    equal = [t for t in convincing if t.left.share < 1.1 * least]
+    equal = [t for t in convincing if t.left.share < AS_GOOD * least]
     calm = min(t.left.surprise for t in equal)
     equal = sorted(
-        (t for t in equal if t.left.surprise < calm + 30.0), key=lambda t: t.plainness + t.left.surprise
+        (t for t in equal if t.left.surprise < calm + MUCH_CALMER),
+        key=lambda t: t.plainness + t.left.surprise,
     )
     first = equal[0]
     others = tuple(t.what for t in equal[1:3])
@@ -136,7 +146,7 @@ def _explains(before: Explained, after: Explained, factor: float = 1.0, *, calmi
         calming
         and before.surprise > SURPRISING
         and after.surprise * BETTER * factor < before.surprise
-        and after.share * factor < 1.05 * before.share
+        and after.share * factor < NO_WORSE * before.share
     )
 
 

@@ -80,13 +80,12 @@ def _stem(name: str) -> str:
 
 
 def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[Mistake]:
-    several = f"{rows.names[0]} ... {rows.names[-1]}"
-    what = {"G_out": rows.names[0], "voltages": several, "channels": "inline and cross"}[rows.kind]
+    what = f"{rows.names[0]} ... {rows.names[-1]}" if rows.recorded.separate else " and ".join(rows.names)
 
     def scaled(factor: float) -> Callable[[Rows], Rows]:
         return lambda r: replace(r, data=factor * r.data)
 
-    if rows.kind == "channels":
+    if rows.recorded.demodulated:
         yield from _definitions()
         for factor, unit, given in ((1e-9, "Eo", "s^-2"), (1e9, "s^-2", "Eo")):
             yield Mistake(
@@ -105,11 +104,11 @@ def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[
     given = written.get(rows.names[0], "V")
     for unit, factor in _meant(units_, given, ("V", "mV", "uV", "kV")):
         yield Mistake(
-            f"{what} {'are' if rows.kind == 'voltages' else 'is'} in {unit}, not in {given}",
+            f"{what} {'are' if rows.recorded.separate else 'is'} in {unit}, not in {given}",
             f"write the unit [{unit}]",
             scaled(factor),
         )
-    if rows.kind != "voltages":
+    if not rows.recorded.separate:
         return
     for order in _orders(len(rows.names)):
         swapped = [k for k, was in enumerate(order) if was != k]

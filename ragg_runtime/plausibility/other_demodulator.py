@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import optimize, signal
+from scipy import optimize
 
+from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.model import Model
 from ragg_runtime.plausibility.quick_fit import Explained, explain
-from ragg_runtime.plausibility.subsample import Picker
+from ragg_runtime.plausibility.subsample import Picker, Rows
 
 Array = NDArray[np.float64]
+Family = Callable[[float], Demodulation]
+"""Low-passes of one kind and order, by their corner, Hz."""
 
 CORNERS = (0.02, 0.04, 0.07, 0.12, 0.2, 0.35)
 """Hz: corners that are tried first of every low-pass; the best is then refined between its neighbours."""
@@ -24,6 +29,9 @@ ORDERS = (1, 2, 3, 4, 6, 8)
 BOTH_WAYS = (1, 2, 4)
 """Of those that go forward and backward, in each direction."""
 
+THINNED = (2, 4, 8, 16)
+"""Times the record's rate at which the channels may have been made before they were thinned out."""
+
 FLAT = 0.443
 """Half-power frequency of a moving average times its length."""
 
@@ -33,74 +41,120 @@ FINE = 1e-4
 
 @dataclass(frozen=True)
 class Made:
-    """How the channels were made, in words, and what the model then leaves of them."""
+    """How the channels were made, and what the model then leaves of them."""
 
-    what: str
+    how: Demodulation
     left: Explained
 
 
-@dataclass(frozen=True)
-class _LowPass:
-    """A family of low-passes: Butterworth of an ``order``, or moving averages (order 0)."""
-
-    order: int
-    causal: bool
-
-    def kernel(self, corner: float, rate: float, half: int) -> Array:
-        """(2 half + 1,): centred, for a corner, Hz."""
-        if not self.order:
-            return _average(FLAT / corner, rate, half, causal=self.causal)
-        impulse = np.zeros(half + 1)
-        impulse[0] = 1.0
-        h = signal.sosfilt(signal.butter(self.order, corner, fs=rate, output="sos"), impulse)
-        return np.concatenate([np.zeros(half), h]) if self.causal else np.asarray(signal.convolve(h, h[::-1]))
-
-    def words(self, corner: float) -> str:
-        if self.order:
-            way = (
-                "a causal Butterworth low-pass"
-                if self.causal
-                else "a Butterworth low-pass, forward and backward,"
-            )
-            return f"{way} of order {self.order} at {corner:.3g} Hz"
-        return f"a moving average over the {'last' if self.causal else 'surrounding'} {FLAT / corner:.3g} s"
+def _families() -> Iterator[Family]:
+    for n in ORDERS:
+        yield lambda f, n=n: Demodulation(kind="causal", order=n, cutoff=f)  # type: ignore[misc]
+        yield lambda f, n=n: Demodulation(  # type: ignore[misc]
+            kind="causal", order=n, cutoff=f, delay=-1.0 / (2 * np.pi * f * np.sin(np.pi / (2 * n)))
+        )  # what it delays slow things by, taken back
+    for n in BOTH_WAYS:
+        yield lambda f, n=n: Demodulation(kind="butterworth", order=n, cutoff=f)  # type: ignore[misc]
+    yield lambda f: Demodulation(kind="average", length=FLAT / f)
+    yield lambda f: Demodulation(kind="causal average", length=FLAT / f)
 
 
-FAMILIES = (
-    *(_LowPass(order=n, causal=True) for n in ORDERS),
-    *(_LowPass(order=n, causal=False) for n in BOTH_WAYS),
-    *(_LowPass(order=0, causal=c) for c in (False, True)),
-)
+FAMILIES: tuple[Family, ...] = tuple(_families())
 
 
 def best(model: Model, instrument: Instrument, p: Picker) -> Made | None:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    half, rate, rows = len(p.taps) // 2, p.flight.rate, p.pick(p.rows())
+    rate, rows = p.flight.rate, p.pick(p.rows())
     corners = np.array([f for f in CORNERS if f < rate / 4])
-    found: list[Made] = []
+
+    def left(how: Demodulation) -> Explained:
+        return explain(model, instrument, _through(rows, how, rate, len(p.taps) // 2))
+
+    found = []
     for family in FAMILIES:
+        k = int(np.argmin([left(family(float(f))).share for f in corners]))
+        found.append(_refined(family, left, corners[[max(k - 1, 0), min(k + 1, len(corners) - 1)]]))
+    if not found:
+        return None
+    found.sort(key=lambda m: m[1].left.share)
+    family, made = found[0]
+    for near, there in found[:LATE_TRIED]:
+        late = _late(near, left, there)
+        if late[1].left.share * PLAINLY < made.left.share:
+            family, made = late
+    # where they were thinned out the corner is another one by a little: a digital low-pass bends its frequencies
+    for every in THINNED:
+        faster = _faster(family, every * rate)
+        other = _refined(faster, left, _corner(made.how) * np.array([1 / NEAR, NEAR]))[1]
+        if other.left.share * CLEARLY < made.left.share:
+            made = other
+    return made
 
-        def left(corner: float, family: _LowPass = family) -> Explained:
-            return explain(model, instrument, replace(rows, taps=family.kernel(corner, rate, half)))
 
-        k = int(np.argmin([left(float(f)).share for f in corners]))
-        near = np.log(corners[[max(k - 1, 0), min(k + 1, len(corners) - 1)]])
-        x = optimize.minimize_scalar(
-            lambda x, left=left: np.log(max(left(float(np.exp(x))).share, 1e-300)),
-            bounds=(near[0], near[1]),
-            method="bounded",
-            options={"xatol": FINE},
-        ).x
-        corner = float(np.exp(x))
-        found.append(Made(family.words(corner), left(corner)))
-    return min(found, key=lambda m: m.left.share, default=None)
+NEAR = 1.05
+"""Factor about a corner within which it is searched for once more."""
+
+LATE_TRIED = 3
+"""Low-passes of which it is asked whether they fit better with a delay: the best without one."""
+
+NO_DELAY = 1e-3
+"""s: less is none, but what else the low-pass is not quite."""
+
+PLAINLY = 2.0
+"""Factor by which less must be left for a delay to be said: it is one more number that is fitted."""
+
+CLEARLY = 1.1
+"""Factor by which less must be left for channels to be taken for thinned out."""
 
 
-def _average(seconds: float, rate: float, half: int, *, causal: bool) -> Array:
-    """Samples at the ends count in part, so that the length may be any."""
-    n = np.arange(-half, half + 1)
-    length = min(seconds * rate, float(half))
-    edges = (n - 0.5, n + 0.5) if not causal else (n.astype(np.float64), n + 1.0)
-    low, high = (0.0, length) if causal else (-length / 2, length / 2)
-    taps = np.clip(np.minimum(edges[1], high) - np.maximum(edges[0], low), 0.0, None)
-    return np.asarray(taps / np.sum(taps))
+def _late(family: Family, left: Callable[[Demodulation], Explained], made: Made) -> tuple[Family, Made]:
+    """The same low-pass with a delay, s, or without some of its own: corner and delay at which least is left."""
+
+    def at(x: Array) -> Demodulation:
+        return replace(family(float(np.exp(x[0]))), delay=float(x[1]))
+
+    def cost(x: Array) -> float:
+        return float(np.log(max(left(at(x)).share, 1e-300)))
+
+    begin = np.log(_corner(made.how))
+    x = optimize.fmin(
+        cost,
+        np.array([begin, made.how.delay]),
+        initial_simplex=np.array([begin, made.how.delay]) + np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.3]]),
+        xtol=FINE,
+        maxfun=120,
+        disp=False,
+    )
+    how = at(x)
+    if abs(how.delay) < NO_DELAY:
+        how = replace(how, delay=0.0)
+    return lambda f: replace(family(f), delay=how.delay), Made(how, left(how))
+
+
+def _corner(how: Demodulation) -> float:
+    return how.cutoff if how.cutoff is not None else FLAT / (how.length or 1.0)
+
+
+def _faster(family: Family, rate: float) -> Family:
+    return lambda f: replace(family(f), rate=rate)
+
+
+def _refined(family: Family, left: Callable[[Demodulation], Explained], near: Array) -> tuple[Family, Made]:
+    """The corner between two, Hz, at which least is left."""
+    low, high = np.log(near)
+    x = optimize.minimize_scalar(
+        lambda x: np.log(max(left(family(float(np.exp(x)))).share, 1e-300)),
+        bounds=(low, high),
+        method="bounded",
+        options={"xatol": FINE},
+    ).x
+    how = family(float(np.exp(x)))
+    return family, Made(how, left(how))
+
+
+def _through(rows: Rows, how: Demodulation, rate: float, half: int) -> Rows:
+    """Rows that have passed a low-pass, of which at most so many samples on either side count."""
+    taps = built(how, rate).centred
+    spare = len(taps) // 2 - half
+    taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
+    return replace(rows, taps=taps)

@@ -26,6 +26,15 @@ GRADIENT_SCALE = 1e4
 OUTLIER = 8.0
 """Residual, in robust standard deviations, from which a sample is left out of the fit."""
 
+QUARTILE = 0.75
+"""Quantile of the residuals that tells their size. Not the median: where the residual is a beat rather than noise that says little."""
+
+QUARTILE_OF_NORMAL = 1.15
+"""The same quantile of the modulus of a normal variable, in standard deviations."""
+
+SETTLED = 0.999
+"""Factor by which the noise must still fall for the estimate to go on."""
+
 
 @dataclass(frozen=True)
 class Explained:
@@ -122,8 +131,7 @@ def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_]]:
     theta = shrunken(X, y)
     for _ in range(10):
         left = np.abs(y - theta @ X)
-        # three quarters, not half: where the residual is a beat rather than noise its median says little
-        now = left <= OUTLIER * float(np.quantile(left, 0.75)) / 1.15
+        now = left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL
         if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
             break
         kept = now
@@ -145,7 +153,7 @@ def shrunken(X: Array, y: Array) -> Array:
     for _ in range(200):
         left = d * noise / (s**2 + noise)
         found = max((float(np.sum(left**2)) + rest) / len(y), 1e-30)
-        if found > 0.999 * noise:
+        if found > SETTLED * noise:
             break
         noise = found
     return np.asarray(Vt.T @ (d * s / (s**2 + noise)))

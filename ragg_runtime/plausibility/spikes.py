@@ -26,9 +26,18 @@ FAR = 4.4
 """Distance from both sides, over the 95 % quantile of distances from their mean (9 sigma if Gaussian)."""
 
 GLITCH = 12.0
-"""Error of what the neighbours foretell, in robust standard deviations, from which a sample of motion is off."""
+"""Distance of a sample of motion from the prediction by its neighbours, in robust standard deviations, from which it is off."""
 
-_FORETOLD = np.array([1.0, -6.0, 15.0, 0.0, 15.0, -6.0, 1.0]) / 20.0
+STEP = 0.3
+"""Share of a sample's distance by which the sides may differ: more is a step, not a spike."""
+
+USUAL = 0.95
+"""Quantile of the distances that tells the usual scatter: spikes are fewer than the rest."""
+
+MEDIAN_OF_NORMAL = 0.67
+"""Median of the modulus of a normal variable, in standard deviations."""
+
+_PREDICTION = np.array([1.0, -6.0, 15.0, 0.0, 15.0, -6.0, 1.0]) / 20.0
 
 PART = 1 << 18
 """Samples that are looked at together in a long record."""
@@ -70,12 +79,12 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
     above, below = e - np.maximum(before, after), np.minimum(before, after) - e
     distance = np.maximum(0.0, np.maximum(above, below))
     scatter = np.abs(e - (before + after) / 2)
-    distance[np.abs(after - before) > 0.3 * distance] = 0.0  # a step
-    usual = _in_blocks(scatter, 0.95)
+    distance[np.abs(after - before) > STEP * distance] = 0.0  # a step
+    usual = _in_blocks(scatter, USUAL)
     if len(usual) > 1 and 0 < len(e) % BLOCK < BLOCK // 4:
         usual[-1] = usual[-2]  # too short to speak for itself
     usual = ndimage.maximum_filter1d(usual, 3, mode="nearest")
-    everywhere = np.quantile(scatter, 0.95)
+    everywhere = np.quantile(scatter, USUAL)
     limit = FAR * np.maximum(np.repeat(usual, BLOCK)[: len(e)], everywhere)
     far = distance > limit
     for run in runs(far):
@@ -97,9 +106,9 @@ def _in_blocks(x: Array, q: float) -> Array:
 def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     """Spikes of a smooth record (N,), and the record with them interpolated.
 
-    A glitch is off what its neighbours foretell (a polynomial of the fifth degree through three samples on
+    A glitch is off the prediction by its neighbours (a polynomial of the fifth degree through three samples on
     either side) by ``GLITCH`` times the usual error of that, and by more than twice the range of everything
-    within a dozen samples. The largest go first, since they spoil what is foretold of the others.
+    within a dozen samples. The largest go first, since they spoil the prediction of the others.
     """
     n = len(x)
     found = np.zeros(n, dtype=np.bool_)
@@ -119,11 +128,11 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     off = np.zeros(len(y), dtype=np.bool_)
     before: Array | None = None
     for _ in range(12):
-        error = y - ndimage.correlate1d(y, _FORETOLD, mode="mirror")
+        error = y - ndimage.correlate1d(y, _PREDICTION, mode="mirror")
         size = np.abs(error)
         usual = _in_blocks(size, 0.5)
         usual = np.repeat(ndimage.maximum_filter1d(usual, 3, mode="nearest"), BLOCK)[: len(y)]
-        far = size > GLITCH * np.maximum(usual, np.median(size)) / 0.67
+        far = size > GLITCH * np.maximum(usual, np.median(size)) / MEDIAN_OF_NORMAL
         if not far.any():
             break
         before = np.array(y) if before is None else before

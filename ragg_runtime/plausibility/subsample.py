@@ -10,15 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from generated.output_effects.saturation import clipped
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.output_effects.saturation import saturation
-from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.flight.spool import let_go
+from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
+from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.model.model import Chain
-from ragg_runtime.model.record import GRADIENTS, SPIN, Kind, disc_angle, recorded, spin
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
+from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 
 Array = NDArray[np.float64]
@@ -39,8 +40,8 @@ class Rows:
 
     Attributes
     ----------
-    kind
-        ``voltages``, ``G_out`` or ``channels`` (inline and cross alone): which output ``data`` is.
+    recorded
+        Which form of the output ``data`` is.
     data
         (m, n) V: the output; of channels k_ggi (inline/2, -cross).
     time, phi
@@ -48,10 +49,10 @@ class Rows:
     channels
         Name -> (n,) SI; time derivatives (``d_a_x``) that the model asks for among them.
     taps
-        Low-pass of the demodulator; empty unless ``kind`` is ``channels``.
+        Low-pass of the demodulator; empty if there is none.
     """
 
-    kind: Kind
+    recorded: Recorded
     data: Array
     time: Array
     phi: Array
@@ -73,20 +74,11 @@ class Rows:
 
     def before_demodulation(self, volts: Array, accelerometer: int | None) -> Array:
         """(members, n) or (1, n): the output's voltages, or itself, of these, or of one accelerometer's (n,)."""
-        members, signs = self.output.members, np.array(self.output.signs, dtype=np.float64)
-        at = None if accelerometer is None else members.index(accelerometer - 1)
-        if self.kind == "voltages":
-            if at is None:
-                return volts
-            full = np.zeros((len(members), volts.shape[-1]))
-            full[at] = volts
-            return full
-        G = signs @ volts if at is None else signs[at] * volts
-        return np.asarray(G[None])
+        return self.recorded.of_voltages(self.output, volts, accelerometer)
 
     def seen(self, raw: Array) -> Array:
         """(..., m, n): what the recorded output sees of :meth:`before_demodulation`."""
-        if self.kind != "channels":
+        if not self.recorded.demodulated:
             return raw
         carriers = 2 * np.stack([np.sin(2 * self.phi), np.cos(2 * self.phi)])
         taps = self.taps.reshape((1,) * (raw.ndim - 1) + (-1,))
@@ -112,7 +104,7 @@ class Picker:
 
     flight: Flight
     instrument: Instrument
-    kind: Kind
+    recorded: Recorded
     usable: Mask
     derived: Mapping[str, Array]
     taps: Array
@@ -129,14 +121,14 @@ class Picker:
     @cached_property
     def columns(self) -> tuple[str, ...]:
         """Of the flight, that hold the output."""
-        return _columns(self.flight, self.instrument, self.place, self.kind)
+        return _columns(self.flight, self.instrument, self.place, self.recorded)
 
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
         """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
         there = (
             self._there if first == 0 and last is None else np.flatnonzero(self.usable[first:last]) + first
         )
-        if self.kind == "channels":
+        if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
             sparse = min(SPARSE, len(self.usable) / max(float(np.sum(self.usable)), 1.0))
             return whole[: max(most, round(3 * sparse * len(self.taps)))]
@@ -196,7 +188,7 @@ class Picker:
     def _rows(self, rows: Index, time: Array, phi: Array, channels: Mapping[str, Array]) -> Rows:
         """With the output of these rows."""
         return Rows(
-            kind=self.kind,
+            recorded=self.recorded,
             data=np.nan_to_num(np.stack([_picked(v, rows) for v in self._output()])),
             time=time,
             phi=phi,
@@ -204,7 +196,7 @@ class Picker:
             taps=self.taps,
             output=self.output,
             names=self.columns,
-            usable=self.usable[rows] if self.kind == "channels" else None,
+            usable=self.usable[rows] if self.recorded.demodulated else None,
         )
 
     @cached_property
@@ -230,7 +222,7 @@ class Picker:
 
     def _output(self) -> list[Array]:
         outputs = self.flight.outputs
-        if self.kind != "channels":
+        if not self.recorded.demodulated:
             return [outputs[v] for v in self.columns]
         k = self.instrument.scale_factor
         return [k / 2 * outputs["inline"], -k * outputs["cross"]]
@@ -247,26 +239,22 @@ def _picked(column: Array, rows: Index) -> Array:
     return found
 
 
-def _columns(flight: Flight, instrument: Instrument, place: int, kind: Kind) -> tuple[str, ...]:
+def _columns(flight: Flight, instrument: Instrument, place: int, form: Recorded) -> tuple[str, ...]:
     layout = instrument.layout
-    o = layout.outputs[place]
-    volts = layout.voltages(o, flight.outputs) or ()
-    return {"voltages": volts, "G_out": (o.name,), "channels": DEMODULATED}[kind]
+    return form.columns(layout, layout.outputs[place], flight.outputs) or ()
 
 
 def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (), place: int = 0) -> Picker:
     """Prepare a flight for picking rows; ``inputs`` are the names that the model asks for, ``place`` the output."""
-    kind = recorded(flight, instrument.layout, place)
-    if kind is None:
+    form = recorded(flight, instrument.layout, place)
+    if form is None:
         raise ValueError("the flight does not hold this output")
     usable = flight.valid.copy()
-    for name in _columns(flight, instrument, place, kind):
+    for name in _columns(flight, instrument, place, form):
         usable &= np.isfinite(flight.outputs[name])
     own = instrument.layout.outputs[place].name
     if own in flight.outputs and usable.any():
-        clipped = saturation(flight.outputs[own], usable)
-        if clipped is not None:
-            usable &= ~clipped[1]
+        usable &= ~clipped(flight.outputs[own], usable)
     derived = {}
     for name in inputs:
         if name in SPIN:
@@ -281,5 +269,6 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             for _ in range(order):
                 series = differentiate(series, flight.rate)
             derived[name] = series
-    taps = low_pass(flight.rate) if kind == "channels" else np.zeros(0)
-    return Picker(flight, instrument, kind, usable, derived, taps, place)
+    how = flight.demodulation or instrument.demodulation or OURS
+    taps = kernel(how, flight.rate).centred if form.demodulated else np.zeros(0)
+    return Picker(flight, instrument, form, usable, derived, taps, place)

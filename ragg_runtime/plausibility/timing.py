@@ -58,9 +58,9 @@ def searches(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     found = _shift(model, instrument, p)
     if p.disc.spin_frequency == 0.0:
         return found
-    if p.kind != "channels":  # a demodulator at the wrong rate lets nothing through
+    if not p.recorded.demodulated:  # a demodulator at the wrong rate lets nothing through
         found += _spin(model, instrument, p)
-    if p.disc.angle_column not in p.flight.channels or p.kind == "channels":
+    if p.disc.angle_column not in p.flight.channels or p.recorded.demodulated:
         found += _phase(model, instrument, p)
     return found
 
@@ -175,7 +175,7 @@ def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
     """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y most."""
     x = p.flight
     f = abs(p.disc.spin_frequency)
-    if p.kind == "channels" or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):
+    if p.recorded.demodulated or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):
         return ()
     n = min(len(x), LONGEST)
     whole = p.pick(np.arange(n))

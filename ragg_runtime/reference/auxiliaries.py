@@ -66,6 +66,17 @@ def plausible(
     }
 
 
+def further(rng: np.random.Generator) -> Mapping[str, Auxiliary]:
+    """What only some carriers record: heading, fuel on board, and levels of vibration above the recorder's bandwidth."""
+    burning = rng.uniform(0.02, 0.06)  # kg/s
+    return {
+        "yaw": _slow(rng, float(rng.uniform(-3.0, 3.0)), 0.5).value,
+        "fuel_mass": lambda time: np.asarray(500.0 - burning * time),
+        "vibration_rms": _slow(rng, 0.5, 0.1).value,
+        "angular_vibration_rms": _slow(rng, 1e-4, 2e-5).value,
+    }
+
+
 def _slow(rng: np.random.Generator, mean: float, amplitude: float) -> Sinusoids:
     """A mean and three slow sinusoids, SI."""
     return Sinusoids(mean, amplitude * np.ones(3), 1 / rng.uniform(100, 900, 3), rng.uniform(0, 6.28, 3))

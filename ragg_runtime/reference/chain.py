@@ -100,6 +100,11 @@ class Chain:
         change = np.zeros_like(present)
         for delay, weight in transducer.averaging(self.effects):
             change += weight * (self._unfiltered(time, delay, angle_error) - present)
+        widths = transducer.widths(self.effects, self.size)
+        for width in np.unique(widths[widths > 0]):
+            group = np.flatnonzero(widths == width)
+            for delay, weight in transducer.loop_quadrature(float(width)):
+                change[group] += weight * (self._unfiltered(time, delay, angle_error) - present)[group]
         return np.asarray(present + change)
 
     def _unfiltered(self, time: Array, earlier: float, angle_error: Array) -> Array:
@@ -144,13 +149,23 @@ class Chain:
         past = time - delay
         return Instant(
             time=past,
-            phi=tuple(
-                geometry.disc_angle(t.at(time, delay), past, angle_error, self.effects) for t in self.turning
-            ),
+            phi=self._angles(time, delay, angle_error),
             motion=self.motion.at(time, delay),
             auxiliaries=self._auxiliaries_at(past),
             around=around,
         )
+
+    def _angles(self, time: Array, delay: float, error: Array) -> tuple[Taylor, ...]:
+        """The true angle of each disc, (N,) rad each."""
+        past = time - delay
+        found = [geometry.disc_angle(t.at(time, delay), past, error, self.effects) for t in self.turning]
+        if geometry.yields(self.effects):
+            near = [self.motion.at(time, delay - n * _STEP).omegadot for n in range(-2, 3)]
+            for k, d in enumerate(self.instrument.layout.discs):
+                about = np.stack([np.asarray(d.axis) @ m for m in near])
+                turning = Taylor(about[2], _FIRST @ about / _STEP, _SECOND @ about / _STEP**2)
+                found[k] = geometry.fallen_behind(found[k], turning, self.effects)
+        return tuple(found)
 
     def _auxiliaries_at(self, time: Array) -> dict[str, Array]:
         found = {name: channel(time) for name, channel in self.auxiliaries.items()}
@@ -162,7 +177,12 @@ class Chain:
 
     def _average(self, j: int, instant: Instant, shaken: tuple[tuple[Array, float], ...]) -> Array:
         """Voltage of accelerometer j, averaged over the instances of the unrecorded vibration."""
-        voltages = (weight * self._voltage(j, instant, v) for v, weight in shaken)
+        shakes = [
+            (v + u * instant.auxiliaries["vibration_rms"] if np.any(u) else v, weight * w)
+            for v, weight in shaken
+            for u, w in force.louder(self.effects)
+        ]
+        voltages = (weight * self._voltage(j, instant, v) for v, weight in shakes)
         return np.asarray(sum(voltages), dtype=np.float64)
 
     def _voltage(self, j: int, instant: Instant, shake: Array) -> Array:
@@ -192,6 +212,7 @@ class Chain:
             + k["K8"] * o * p
             + transducer.further_terms(j, measured, triad, instant.motion, instant.auxiliaries, self.effects)
         )
+        bracket = transducer.converted(j, bracket, self.effects)
         gain = transducer.gain(j, instant.time, instant.auxiliaries, self.effects)
         return np.asarray(k["k_VI"] * k["K1"] * gain * bracket, dtype=np.float64)
 
@@ -201,7 +222,7 @@ class Chain:
         """f_x, f_y, f_z of accelerometer j, (N,) m/s^2, and the triad they are along."""
         arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
         if not geometry.bends(j, self.effects):
-            return self._specific_force(_lifted(arm * radius, lift), triad, instant, shake), triad
+            return self._specific_force(j, _lifted(arm * radius, lift), triad, instant, shake), triad
         length, f = self._settled(j, fixed, radius, instant, shake)
         around = [self._settled(j, fixed, radius, near, shake)[0] for near in instant.around]
         beside = np.stack([*around[:2], length, *around[2:]])
@@ -215,11 +236,11 @@ class Chain:
     ) -> tuple[Array, Triple]:
         """Radius under the force that acts at this radius, (N,) m, and that force."""
         arm, triad, lift = self._in_measurement_frame(j, fixed, instant)
-        f = self._specific_force(_lifted(arm * radius, lift), triad, instant, shake)
+        f = self._specific_force(j, _lifted(arm * radius, lift), triad, instant, shake)
         length = np.full(instant.time.shape, radius)
         for _ in range(_ARM_ITERATIONS):
             length = geometry.arm_length(j, radius, f, self.effects)
-            f = self._specific_force(_lifted(arm * length, lift), triad, instant, shake)
+            f = self._specific_force(j, _lifted(arm * length, lift), triad, instant, shake)
         return length, f
 
     def _along(self, triad: Triad, f: Triple, further: Array) -> Triple:
@@ -243,8 +264,17 @@ class Chain:
         arm, tau_x, tau_y, tau_z, *lift = turned
         return arm, (tau_x, tau_y, tau_z), lift[0] if lift else None
 
-    def _specific_force(self, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
+    def _centre(self, j: int, instant: Instant) -> Taylor | None:
+        """Where the centre of accelerometer j's disc wanders to, (3, N) m."""
+        disc = self.instrument.layout.places[j].disc
+        away = geometry.run_out(instant.phi[disc], self.effects)
+        axes = self.standing[disc]
+        return away if away is None or axes is None else away.turned(axes)
+
+    def _specific_force(self, j: int, r: Taylor, triad: Triad, instant: Instant, shake: Array) -> Triple:
         """Eq. 49 at position r (3, N), or what a point moving like r feels, and Eq. 50: along the triad."""
+        centre = self._centre(j, instant)
+        r = _lifted(r, centre)
         m, here = instant.motion, r.value
         of_platform = np.cross(m.omegadot, here, axis=0) + np.cross(
             m.omega, np.cross(m.omega, here, axis=0), axis=0
@@ -252,9 +282,14 @@ class Chain:
         f = m.a + shake + of_platform
         if self.spin:
             f = f + self.spin * (carried(r, m.omega, m.omegadot) - of_platform)
+        if centre is not None and self.spin != 1:  # the path of the centre is felt in any kinematics
+            resting = Taylor.constant(centre.value)
+            moving, still = (carried(x, m.omega, m.omegadot) for x in (centre, resting))
+            f = f + (1 - self.spin) * (moving - still)
         if self.gravity is not None:
             f = f - self.gravity.difference(instant.time, here)
         f = f - force.attraction(here, instant.auxiliaries, self.effects)
+        f = f + force.jittered(here, instant.auxiliaries, self.effects)
         x, y, z = (np.sum(f * tau.value, axis=0) for tau in triad)
         return x, y, z
 

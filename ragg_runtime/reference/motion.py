@@ -7,6 +7,7 @@ at time - shift, where the shift is kept apart from the time so that nanoseconds
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -134,7 +135,7 @@ class Recorded:
         object.__setattr__(self, "_knots", np.append(pieces.x[:-1][kept], pieces.x[-1]))
         object.__setattr__(self, "_coefficients", pieces.c[:, kept])
 
-    def _evaluate(self, time: Array, shift: float, derivative: bool) -> Array:
+    def _evaluate(self, time: Array, shift: float, derivative: int) -> Array:
         knots, c = self._knots, self._coefficients
         reach = (self.time[-1] - self.time[0]) / (self.time.size - 1)
         if time.size and (time.min() < knots[0] - reach or time.max() > knots[-1] + reach):
@@ -147,8 +148,8 @@ class Recorded:
         piece = np.clip(np.searchsorted(knots, time - shift, side="right") - 1, 0, knots.size - 2)
         # The difference to the knot is exact, so a shift of nanoseconds is not rounded away.
         x = (time - knots[piece]) - shift
-        order = c.shape[0] - 1
-        weights = np.arange(order, 0, -1) if derivative else np.ones(order + 1)
+        powers = np.arange(c.shape[0] - 1, derivative - 1, -1)
+        weights = [math.perm(int(n), derivative) for n in powers]
         total = np.zeros(time.shape)
         for weight, row in zip(weights, c, strict=False):
             total = total * x + weight * row[piece]
@@ -156,11 +157,15 @@ class Recorded:
 
     def value(self, time: Array, shift: float = 0.0) -> Array:
         """Value at ``time - shift``, (N,)."""
-        return self._evaluate(time, shift, derivative=False)
+        return self._evaluate(time, shift, derivative=0)
 
     def rate(self, time: Array, shift: float = 0.0) -> Array:
         """Time derivative at ``time - shift``, (N,)."""
-        return self._evaluate(time, shift, derivative=True)
+        return self._evaluate(time, shift, derivative=1)
+
+    def acceleration(self, time: Array, shift: float = 0.0) -> Array:
+        """Second time derivative at ``time - shift``, (N,)."""
+        return self._evaluate(time, shift, derivative=2)
 
 
 @dataclass(frozen=True)

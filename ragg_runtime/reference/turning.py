@@ -1,4 +1,4 @@
-"""How a disc turns: steadily, with swings, to and fro, or not at all."""
+"""How a disc turns: steadily, with swings, to and fro, as an encoder recorded it, or not at all."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.reference.angle import disc_angle, turns
+from ragg_runtime.reference.motion import Recorded
 from ragg_runtime.reference.taylor import Taylor
 
 Array = NDArray[np.float64]
@@ -15,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Turning:
-    """Angle 2 pi frequency t + start + sum of amplitude sin(2 pi f t + phase).
+    """Angle 2 pi frequency t + start + sum of amplitude sin(2 pi f t + phase) + recorded.
 
     Attributes
     ----------
@@ -25,11 +26,24 @@ class Turning:
         (amplitude rad, frequency Hz, phase rad) each.
     start
         rad.
+    recorded
+        What a record of the angle has beyond the steady turning, rad; ``None``: nothing.
     """
 
     frequency: float
     swings: tuple[tuple[float, float, float], ...] = ()
     start: float = 0.0
+    recorded: Recorded | None = None
+
+    @classmethod
+    def of_record(cls, time: Array, angle: Array) -> Turning:
+        """As an encoder saw it: ``angle`` (N,) rad, in which whole turns may be missing, at ``time`` (N,) s."""
+        whole = np.unwrap(angle)
+        frequency = float((whole[-1] - whole[0]) / (time[-1] - time[0]) / (2 * np.pi))
+        steady = 2 * np.pi * frequency * (time - time[0])
+        rest = Recorded(time, whole - whole[0] - steady)
+        start = float(angle[0] - 2 * np.pi * turns(frequency, time[0]))
+        return cls(frequency=frequency, start=start, recorded=rest)
 
     def at(self, time: Array, delay: float = 0.0) -> Taylor:
         """The angle and its rates at ``time - delay``, (N,) s; whole turns of the steady part are dropped."""
@@ -41,6 +55,9 @@ class Turning:
             beat = 2 * np.pi * (turns(f, time) - turns(f, delay)) + phase
             swing = Taylor(beat, np.full(time.shape, rate), np.zeros(time.shape)).sine()
             found = found + swing * amplitude
+        if self.recorded is not None:
+            of = self.recorded
+            found = found + Taylor(of.value(time, delay), of.rate(time, delay), of.acceleration(time, delay))
         return found
 
     def encoder(self, time: Array) -> Array:

@@ -1,9 +1,10 @@
 """Reports: one self-contained HTML document each, without scripts, links or files beside it.
 
 ``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
-bytes. Numbers come from the results, words from ``words``, series for figures from ``series``.
+bytes. Numbers come from the results, words from ``wording``, series for figures from ``series``.
 
-May import ``survey``, ``diagnosis`` and what is below.
+Imports ``base``, ``diagnosis``, ``evidence``, ``fit``, ``instrument``, ``model``, ``signals``, ``survey`` and
+``wording``.
 """
 
 from __future__ import annotations

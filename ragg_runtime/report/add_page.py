@@ -24,6 +24,12 @@ from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
 
+CHANGED = 0.005
+"""Share of the error by which it must change to be said to fall or to rise: the figures have three digits."""
+
+OTHER = 0.02
+"""Share by which the error at the start of a step may differ from that at the end of the one before, on the same flights."""
+
 STEPS = 14
 """Latest steps of a history that are drawn."""
 
@@ -86,8 +92,8 @@ def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Co
     )
     if after.complaint is not None:
         return f"Nothing was added: {numbers.clean(after.complaint)}."
-    fell = after.calibrated.rms_Eo < 0.995 * before.calibrated.rms_Eo
-    rose = after.calibrated.rms_Eo > 1.005 * before.calibrated.rms_Eo
+    fell = after.calibrated.rms_Eo < (1.0 - CHANGED) * before.calibrated.rms_Eo
+    rose = after.calibrated.rms_Eo > (1.0 + CHANGED) * before.calibrated.rms_Eo
     moved = f"the error falls from {a} to {b} Eo" if fell else f"the error stays {b} Eo"
     if rose:
         moved = f"the error rises from {a} to {b} Eo"
@@ -132,7 +138,7 @@ def _steps(history: Sequence[Mapping[str, Any]]) -> list[Step]:
     last = float("nan")
     for entry in history:
         start, end = _value(entry.get("before"), "calibrated"), _value(entry.get("after"), "calibrated")
-        if start == start and not abs(start - last) <= 0.02 * start:
+        if start == start and not abs(start - last) <= OTHER * start:
             label = "as it was" if not steps else "same model,\nother flights"
             steps.append(Step(label, start, _value(entry.get("before"), "holdout"), strong=False))
         sign = {"add": "+", "remove": numbers.MINUS}.get(str(entry.get("action", "")), "")

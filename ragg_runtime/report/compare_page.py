@@ -6,11 +6,14 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.comparison import LOUD, Comparison
 from ragg_runtime.report import figures, page, panels, parameters, series
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
+
+HARDLY = 0.05
+"""Root of what the error has beyond the noise, over the noise, up to which it is called hardly more."""
 
 
 def compare_html(
@@ -66,7 +69,7 @@ def headline(c: Comparison) -> str:
             f" ({noise} Eo)."
         )
     excess = c.calibrated.rms_Eo**2 - c.noise_floor**2
-    if excess <= (0.05 * c.noise_floor) ** 2:
+    if excess <= (HARDLY * c.noise_floor) ** 2:
         beside = "hardly more than" if excess > 0.0 else "no more than"
         return (
             f"The model is not adequate: calibrated, it leaves {error} Eo, {beside} the noise"
@@ -100,7 +103,7 @@ def lead(c: Comparison) -> list[str]:
             f" ({numbers.number(z)} standard deviations)."
         )
     blocks = c.by_time()
-    if blocks and float(str(blocks[0]["over_noise"])) > 1.15:
+    if blocks and float(str(blocks[0]["over_noise"])) > LOUD:
         b = blocks[0]
         digits = 0 if float(str(b["to_s"])) - float(str(b["from_s"])) > 10.0 else 1
         where = f" of {numbers.clean(str(b['flight']))}" if len(f.prepared) > 1 else ""

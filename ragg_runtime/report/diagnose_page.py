@@ -256,12 +256,9 @@ def unexplained(d: Diagnosis) -> dict[str, Any]:
 def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
     """(effect, size of each parameter at which this record would show it at three sigma)."""
     found: dict[str, list[str]] = {}
-    for effect, text in d.sizes:
-        name, _, size = text.partition(" = ")
-        number, _, unit = size.partition(" ")
-        found.setdefault(effect, []).append(
-            f"{name} = {numbers.with_unit(numbers.number(float(number)), unit)}"
-        )
+    for s in d.sizes:
+        text = f"{s.name} = {numbers.with_unit(numbers.number(s.size), s.unit)}"
+        found.setdefault(s.effect, []).append(text)
     return list(found.items())
 
 

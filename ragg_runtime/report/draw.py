@@ -160,8 +160,8 @@ def _named(ax: Axes, n: int) -> list[str]:
 
 def _limits(ax: Axes, unit: str, curves: list[str]) -> dict[str, Any]:
     """Where an axes lies in the drawing, what it spans (first, last, whether logarithmic), and what it holds."""
-    figure = ax.get_figure(root=True)
-    assert figure is not None
+    figure = ax.get_figure()
+    assert isinstance(figure, Figure)
     wide, high = (72.0 * x for x in figure.get_size_inches())
     b = ax.get_position()
     return {

@@ -75,7 +75,7 @@ def values(f: Fitted, r: Ranked) -> Values:
 def headlines(
     parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
 ) -> tuple[Value, ...]:
-    """One value a parameter, the same numbers as on the terminal and in the JSON."""
+    """One value per parameter, the same numbers as on the terminal and in the JSON."""
     return tuple(_headline(q) for q in of_parameters(parameters, combinations))
 
 

@@ -27,13 +27,6 @@ FLIGHTS = 4
 DRAWN = CUTOFF + WIDTH / 2
 """Highest frequency that a demodulated channel holds, Hz."""
 
-OUTPUTS = {
-    "G_out": "G_out",
-    "voltages": "V_1 … V_4, each by itself",
-    "channels": "inline and cross, put back on their carriers",
-}
-"""What of a flight was fitted, by the kind of observation."""
-
 ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
 
 
@@ -148,7 +141,7 @@ def measured_section(f: Fitted, residual: Residuals) -> dict[str, Any]:
 def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     """Slow error at every harmonic of the spin, in their own order, with what noise alone gives."""
     rows = {str(x["harmonic"]): float(str(x["rms_Eo"])) for x in comparison.harmonic_errors(f, coefficients)}
-    noise = series.harmonic_noise(f) if rows else {}
+    noise = series.harmonic_noise(f, rows)
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
     limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
@@ -208,7 +201,6 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
     samples = sum(len(r.time) for r in records)
     valid = sum(int(np.sum(r.valid)) for r in records)
     duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
-    kind = OUTPUTS.get(f.observations[0].kind, f.observations[0].kind)
     used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
         used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
@@ -217,7 +209,7 @@ def facts(f: Fitted) -> list[tuple[str, str]]:
         ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),
         ("duration", numbers.seconds(duration)),
         ("samples", used),
-        ("output", kind),
+        ("output", f.observations[0].recorded.words),
         ("effects in the model", effects),
         ("k_ggi", f"{numbers.number(f.k_ggi, 4)} V/Eo"),
         ("spin", f"{numbers.number(f.instrument.spin_frequency, 4)} Hz"),

@@ -174,13 +174,19 @@ class _Direction:
     weight: float
 
 
+def _in_patterns(f: Fitted) -> bool:
+    """Whether directions are told as sums of A1 ... A4 with signs: those that the paper's G_out sees, and only it."""
+    form = f.observations[0].recorded
+    return f.instrument.layout.like_paper and not (form.separate or form.demodulated)
+
+
 def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
     """Named directions and their (k, n) unit vectors over the fitted parameters, in scales."""
     columns = f.calibration.columns
-    kind = f.observations[0].kind
+    patterns = _in_patterns(f)
     directions, rows = [], []
     for positions in _names(f).values():
-        together = kind == "G_out" and len(positions) == 4 and f.instrument.layout.like_paper
+        together = patterns and len(positions) == 4
         for k, n in enumerate(positions):
             row = np.zeros(len(columns))
             if together:
@@ -214,7 +220,7 @@ def visibility(f: Fitted) -> Visibility:
         len(own),
         tuple((k, tuple(v)) for k, v in unseen.items()),
         tuple(g for g in groups if g.unseen),
-        f.observations[0].kind == "G_out" and f.instrument.layout.like_paper,
+        _in_patterns(f),
     )
 
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.quality.by_line import IN_BAND, LineFigures
-from ragg_runtime.quality.qc import Quality
-from ragg_runtime.quality.trends import Day, Dependence
-from ragg_runtime.report import page, quality_charts
+from ragg_runtime.report import page, quality_charts, quality_galileo
 from ragg_runtime.report.page import Origin
+from ragg_runtime.survey.quality.by_line import IN_BAND, LineFigures
+from ragg_runtime.survey.quality.qc import Quality
+from ragg_runtime.survey.quality.trends import Day, Dependence
 from ragg_runtime.wording import numbers
 
 STEPPED = 5.0
@@ -38,6 +38,7 @@ def quality_html(q: Quality, *, title: str, command: str) -> str:
         "repeated": list(q.repeats[0].noise) if q.repeats else [],
         "dependences": [_dependence(d) for d in q.dependences],
         "days": [_day(d) for d in q.days],
+        "galileo": quality_galileo.tables(q),
         "band": f"{IN_BAND[0]:g} to {IN_BAND[1]:g} Hz",
     }
     return page.render(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,8 @@ from scipy import signal
 
 from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import noise_gain, output_weights
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.lack_of_fit.dictionary import harmonics
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.derivative import stretches
 
@@ -56,7 +54,7 @@ def envelope(time: Array, x: Array, valid: NDArray[np.bool_], points: int = POIN
 def measured(w: PreparedFlight) -> Array:
     """(N,) V: what was observed, as G_out; zero where a sample is not valid."""
     o = w.observation
-    pairs = zip(output_weights(o), o.series, strict=True)
+    pairs = zip(o.signs, o.series, strict=True)
     return np.asarray(sum(k * np.where(o.record.valid, x, 0.0) for k, x in pairs))
 
 
@@ -104,16 +102,16 @@ def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Arr
 def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
     psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
-    if w.observation.kind != "channels":
+    if not w.observation.recorded.demodulated:
         return np.asarray(psd)
-    rate = w.observation.record.rate
-    _, H = signal.freqz(low_pass(rate), worN=np.minimum(np.abs(f - 2 * spin), rate / 2), fs=rate)
+    r = w.observation.record
+    H = r.low_pass.response(np.minimum(np.abs(f - 2 * spin), r.rate / 2))
     return np.asarray(psd * np.abs(H) ** 2)
 
 
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
-    share = noise_gain(w.observation.record.rate) if w.observation.kind == "channels" else 1.0
+    share = w.observation.recorded.noise_share(w.observation.record)
     return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
 
 
@@ -145,11 +143,11 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     return float(inline), float(cross)
 
 
-def harmonic_noise(f: Fitted) -> dict[str, float]:
-    """The same at every harmonic of :func:`ragg_runtime.diagnosis.comparison.harmonic_errors`, Eo."""
+def harmonic_noise(f: Fitted, harmonics: Iterable[str]) -> dict[str, float]:
+    """The same at harmonics of the spin (const, cos 1 ...), Eo."""
     works = [(w, s) for w, s in zip(f.prepared, f.scales, strict=True) if _long(w)]
     found = {}
-    for h in harmonics():
+    for h in harmonics:
         k = series_name.harmonic(h).multiple
         squares = [
             demodulated_noise(w, s, abs(w.observation.record.spin_frequency), k, 2.0 if k else 1.0) ** 2

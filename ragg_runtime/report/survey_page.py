@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -24,24 +25,30 @@ def survey_html(
     survey: Survey, *, title: str, command: str, digest: str, sources: Sequence[tuple[str, str]]
 ) -> str:
     """The report as one HTML document; ``digest`` is that of the derived model, the rest as in ``compare_html``."""
-    x = survey.summary
     context: dict[str, Any] = {
         "kind": "Survey of flights",
+        "errors": [],
+        "figures": page.figures(_figures(survey)),
+        "terms": [(numbers.harmonic(h), numbers.product(t), n) for h, t, n in survey.summary.terms],
+        "by_flight": _by_flight(survey),
+        "digest": digest,
+    }
+    return page.render("survey.html.j2", Origin(title, command, sources), context | shown(survey))
+
+
+def shown(survey: Survey) -> dict[str, Any]:
+    """Verdicts, effects and the tables, in words and digits: of the report and of the studio."""
+    x = survey.summary
+    return {
         "state": _state(survey),
         "headline": f"{counted(x.counts)}.",
         "lead": _lead(survey),
         "facts": _facts(survey),
-        "errors": [],
-        "figures": page.figures(_figures(survey)),
-        "effects": x.effects,
+        "effects": [asdict(e) for e in x.effects],
         "flights": [_row(n, r) for n, r in enumerate(survey.done)],
         "failed": [(r["flight"], str(r["error"]["message"]).split("\n")) for r in survey.failed],
-        "terms": [(numbers.harmonic(h), numbers.product(t), n) for h, t, n in x.terms],
         "trends": [_trend(t) for t in x.trends],
-        "by_flight": _by_flight(survey),
-        "digest": digest,
     }
-    return page.render("survey.html.j2", Origin(title, command, sources), context)
 
 
 def _state(s: Survey) -> str:

@@ -1,1 +1,4 @@
-"""Signal processing without physics: FIR filters, derivatives, demodulation, spectra of noise. May import base."""
+"""Signal processing without physics: FIR filters, derivatives, demodulation, spectra of noise.
+
+Imports ``base``.
+"""

@@ -2,7 +2,7 @@
 
 White noise of a level that is taken for constant where it changes deceives every test: loud intervals weigh too much, and a
 term that is large where the noise is loud looks significant. A noise whose level follows what is known is made white of
-unit variance by one factor a sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
+unit variance by one factor per sample after its filter (uniformly modulated noise: M. Priestley, J. R. Stat. Soc. B 27, 1965).
 Whether the level follows something is asked by the studentised test of R. Koenker (J. Econometrics 17, 1981): the squares
 against groups of samples, with their own fourth moment, so that heavy tails are no evidence.
 """

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Kind, without_gradients
-from ragg_runtime.compensation.demodulators import DEMODULATORS
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.flight import Flight
-from ragg_runtime.quality.qc import Quality, qc
 from ragg_runtime.report.quality_page import quality_html
+from ragg_runtime.signals.demodulators import DEMODULATORS
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.survey.quality.qc import Quality, qc
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after
 from ragg_runtime.workflow.after import Compensation

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.model.record import Record
 from ragg_runtime.report import series as reported
 from ragg_runtime.report.spectrogram import spectrogram
@@ -20,7 +21,7 @@ from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
 
-UNITS = ("V", "Eo", "inline", "cross")
+UNITS = ("V", "Eo", *DEMODULATED)
 
 DENSE = 260
 """Frequencies of a spectrum."""

@@ -38,7 +38,7 @@ class Places:
             path = Path(text).resolve() if text and "\0" not in text else None
         except (OSError, RuntimeError, ValueError):
             path = None
-        if path is None or not any(path == r or r in path.parents for r in self.roots):
+        if path is None or not self.holds(path):
             raise UserError(
                 "this place is not open to the studio",
                 where=text[:200] or "(no name)",
@@ -46,6 +46,11 @@ class Places:
                 remedy="name its folder when you start `ragg studio`",
             )
         return path
+
+    def holds(self, path: Path) -> bool:
+        """Whether it lies, links followed, below one of the folders."""
+        real = path.resolve()
+        return any(real == r or r in real.parents for r in self.roots)
 
     def listing(self, text: str) -> dict[str, object]:
         """What of a folder can be opened: folders, model directories, flights."""
@@ -74,7 +79,9 @@ def safe_name(name: str) -> str:
     ending = ending_of(plain)
     if ending is None or len(plain) == len(ending):
         raise UserError(
-            "this is no flight file", where=name[:200], expected="a name that ends in " + ", ".join(ENDINGS)
+            "this is not a flight file",
+            where=name[:200],
+            expected="a name that ends in " + ", ".join(ENDINGS),
         )
     if len(plain) > LONGEST_NAME:
         raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")

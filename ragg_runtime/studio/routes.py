@@ -374,6 +374,7 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
         _text(body, "calibration", 40), _text(body, "demodulator", 40)
     ),
     "quality": lambda session, body: session.control(),
+    "survey": lambda session, body: session.survey(session.places.inside(_text(body, "folder"))),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

@@ -23,12 +23,13 @@ from ragg_runtime.instrument.edit_toml import set_parameters
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.quality.qc import Quality
 from ragg_runtime.studio import apply
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
+from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.workflow import loop, versions
 from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.loop import Added, Loaded
@@ -62,6 +63,8 @@ class State:
         A state of the history, by its step, and its comparison on the same flights.
     compensated, quality
         What was made of these flights with this model.
+    survey
+        That of a folder's flights, with this model or one that it was.
     trial
         An effect of the user's own that was tried and is not kept yet: its id, expression, units, and the result.
     """
@@ -78,6 +81,7 @@ class State:
     previous: Comparison | None = None
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
+    survey: Surveyed | None = None
     compensated: Compensation | None = None
     quality: Quality | None = None
     tracks: Tracks = field(default_factory=Tracks)
@@ -105,8 +109,9 @@ class State:
 class Session:
     """The state and the only ways to change it; long ones run as jobs."""
 
-    def __init__(self, places: Places) -> None:
+    def __init__(self, places: Places, workers: Workers = Workers()) -> None:  # noqa: B008 (frozen)
         self.places = places
+        self.workers = workers
         self.jobs = Jobs()
         self._lock = threading.Lock()
         self._state = State()
@@ -306,6 +311,17 @@ class Session:
             self._put(quality=apply.quality(s.model, s.paths, s.flights, s.compensated))
 
         self.jobs.start("quality control", work)
+
+    def survey(self, folder: Path) -> None:
+        """Diagnose every flight of a folder, each by itself."""
+        m = self.state.model
+        flights_below(folder, self.places)
+
+        def work(part: Part) -> None:
+            part("starting the survey", 1.0)
+            self._put(survey=surveyed(m, folder, self.places, self.workers, part))
+
+        self.jobs.start("surveying", work)
 
     def _idle(self) -> None:
         from ragg_runtime.studio.jobs import Busy

@@ -6,10 +6,11 @@ import json
 from collections.abc import Callable, Mapping
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.model_dir.provenance import versioned
+from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State
+from ragg_runtime.studio.surveys import Surveyed, survey_page
 from ragg_runtime.workflow import loop, origin
 
 File = tuple[str, str, bytes]
@@ -93,6 +94,20 @@ def _quality(s: State) -> File:
     return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights))
 
 
+def _survey(s: State) -> Surveyed:
+    if s.survey is None:
+        raise UserError("there is no survey yet", remedy="do it under Survey")
+    return s.survey
+
+
+def _survey_json(s: State) -> File:
+    return "survey.json", JSON, _dumped(s, _survey(s).survey.as_json(), _command(s, "survey"))
+
+
+def _survey_report(s: State) -> File:
+    return "survey.html", HTML, survey_page(_survey(s), s.model, _command(s, "survey"))
+
+
 def _model(s: State) -> File:
     return "model.toml", "application/toml", s.model.directory.text.encode()
 
@@ -110,6 +125,8 @@ FILES: Mapping[str, Callable[[State], File]] = {
     "compensated.csv": lambda s: _compensated(s, "compensated.csv"),
     "compensated.parquet": lambda s: _compensated(s, "compensated.parquet"),
     "quality.html": _quality,
+    "survey.html": _survey_report,
+    "survey.json": _survey_json,
     "model.toml": _model,
     "commands.sh": _commands,
 }

@@ -18,6 +18,7 @@ from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.segments import ROWS
+from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.report.series import measured
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
@@ -202,13 +203,13 @@ class Tracks:
         def make() -> Pyramid:
             x = self.series(name, flight, effects)
             time = r.time
-            if unit in ("inline", "cross"):
+            if unit in DEMODULATED:
                 found = comparison.demodulated_one(f, flight, x)
                 if not len(found[0]):
                     raise UserError(
                         "the flight is too short to be demodulated", where=f.observations[flight].name
                     )
-                time, x = found[0], found[1 if unit == "inline" else 2]
+                time, x = found[0], found[1 + DEMODULATED.index(unit)]
                 return _pyramid_of_gaps(time, x, 1.0 / r.rate)
             scale = 1.0 if unit == "V" else 1.0 / f.k_ggi
             y = np.where(r.valid, x * scale, np.nan)
@@ -218,7 +219,7 @@ class Tracks:
 
     def _stretch(self, name: str, unit: str, flight: int, e: Effect) -> Pyramid:
         """The part of a long flight for which an effect's signature is known."""
-        if unit in ("inline", "cross"):
+        if unit in DEMODULATED:
             raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
         r = self.fitted.prepared[flight].observation.record
         x = e.volts if name == "effect" else self.volts("residual", flight)[e.rows] - e.volts

@@ -12,6 +12,7 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.glance import Glance
+from ragg_runtime.flight.record import left_out
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.model import Effect
@@ -21,6 +22,7 @@ from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.studio import apply, maths
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
+from ragg_runtime.studio.surveys import shown_survey
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow.loop import errors_of
 
@@ -43,6 +45,7 @@ def overview(s: State, version: str) -> Json:
         "history": None if s.loaded is None else _history(s.loaded.directory.history),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
         "quality": None if s.quality is None else quality_page.shown(s.quality),
+        "survey": None if s.survey is None or s.loaded is None else shown_survey(s.survey, s.loaded),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -149,7 +152,7 @@ def _banner(s: State) -> Json | None:
         "converged": converged if isinstance(converged, bool) else None,
         "adequate": c.adequate,
         "k_ggi": c.fitted.k_ggi,
-        "kind": c.fitted.observations[0].kind,
+        "kind": c.fitted.observations[0].recorded.kind,
         "table": [
             panels.error_row("nominal", c.nominal),
             panels.error_row("calibrated", c.calibrated),
@@ -375,9 +378,7 @@ def commands(s: State) -> list[str]:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
-    cut = [f"# {x.name}: {n}" for x in s.flights for n in x.notes if n.startswith("left out by hand")]
+    if s.survey is not None:
+        found.append(f"ragg survey {model} {shlex.quote(str(s.survey.folder))}/*")
+    cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*cut, *found]
-
-
-def model_path(s: State) -> Path:
-    return s.model.directory.path

@@ -1,13 +1,9 @@
-"""Many flights: each diagnosed by itself, on a pool of processes or a Dask cluster, and summarised.
+"""Many flights: each diagnosed by itself, on a pool of processes or a Dask cluster, and summarised; quality control of lines.
 
 ``run.survey`` does it; ``task`` is what is done with one flight, ``local`` and ``cluster`` where, ``journal``
-the file that an interrupted survey continues from, ``summary`` what the flights say together. May import ``diagnosis``,
-``plausibility``, ``model_dir`` and what is below.
+the file that an interrupted survey continues from, ``summary`` what the flights say together. ``quality`` needs no model:
+it imports nothing above ``flight``.
+
+Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model``, ``model_dir``, ``plausibility`` and
+``wording``.
 """
-
-from __future__ import annotations
-
-from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.run import survey
-
-__all__ = ["Survey", "survey"]

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.files import file_digest
 from ragg_runtime.base.form_version import Form
 from ragg_runtime.survey.shape import misshapen
 from ragg_runtime.survey.task import Job, Record, divided
@@ -38,9 +39,8 @@ def sha256(path: Path) -> str | None:
     """Digest of a file, as a flight's (also of ``file::line``); ``None`` if it cannot be read."""
     path, _ = divided(str(path))
     try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError:
+        return file_digest(path)
+    except (OSError, UserError):
         return None
 
 

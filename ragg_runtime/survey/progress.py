@@ -12,7 +12,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.base.progress import SPELL
+from ragg_runtime.base.progress import INTERVAL
 from ragg_runtime.survey.run import Progress
 from ragg_runtime.survey.task import Record
 
@@ -88,7 +88,7 @@ def _lines() -> Progress:
             before = done
             kept = f", {done} of them done before" if done else ""
             click.echo(f"... {total} flights{kept}", err=True)
-        elif now - last >= SPELL or done == total:
+        elif now - last >= INTERVAL or done == total:
             last = now
             left = (now - start) / max(done - before, 1) * (total - done)
             click.echo(f"... {done} of {total}, {left:.0f} s left", err=True)

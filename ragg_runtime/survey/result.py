@@ -18,7 +18,7 @@ from ragg_runtime.wording.numbers import clean
 
 @dataclass(frozen=True, repr=False)
 class Survey:
-    """The result: one record a flight, in the order of the flights' names, and their summary.
+    """The result: one record per flight, in the order of the flights' names, and their summary.
 
     ``records`` are JSON: ``flight``, ``file`` and either ``error`` (``kind``, ``message``) or what
     :func:`ragg_runtime.survey.task.examine` tells of a flight.

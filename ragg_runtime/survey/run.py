@@ -40,7 +40,7 @@ def survey(
     flights
         Files; the order does not matter, a file named twice counts once.
     jobs
-        Worker processes on this machine (default: one a processor).
+        Worker processes on this machine (default: one per processor).
     scheduler
         Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead. What answers there
         can run code in this process: name addresses that you trust.

@@ -1,1 +1,4 @@
-"""How numbers, units and evidence are put into words and tables. May import base."""
+"""How numbers, units and evidence are put into words and tables.
+
+Imports ``base``.
+"""

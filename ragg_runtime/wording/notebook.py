@@ -266,7 +266,7 @@ def _values(parameters: Sequence[Mapping[str, Any]], combined: Sequence[Mapping[
 
 
 def _escaped(text: object) -> str:
-    """Text of strangers: no markup, no control characters, no marks that turn the line round."""
+    """Text of strangers: no markup, no control characters, no marks that reverse the line."""
     plain = "".join(
         "\ufffd" if unicodedata.category(c) in ("Cc", "Cf", "Cs", "Co", "Cn") else c for c in str(text)
     )

@@ -1,3 +1,5 @@
-"""The steps of the loop, for the command line and Python: load, compare, diagnose, add, remove, simulate. May
-import every room below.
+"""The steps of the loop, for the command line and Python: load, compare, diagnose, add, remove, simulate.
+
+Imports ``base``, ``compensation``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model``, ``model_dir``,
+``plausibility``, ``reference``, ``survey`` and ``wording``.
 """

@@ -25,15 +25,15 @@ from ragg_runtime.compensation.compensate import (
     prepared,
     without_gradients,
 )
+from ragg_runtime.compensation.export.contents import Contents
+from ragg_runtime.compensation.export.document import json_files
+from ragg_runtime.compensation.export.folder import write_folder
+from ragg_runtime.compensation.export.numpy_folder import numpy_files
+from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.table import Table, joined
-from ragg_runtime.export.contents import Contents
-from ragg_runtime.export.document import json_files
-from ragg_runtime.export.folder import write_folder
-from ragg_runtime.export.numpy_folder import numpy_files
-from ragg_runtime.export.program import c_program
 from ragg_runtime.flight import Flight
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model_dir import derive
@@ -84,8 +84,8 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
         d,
         d.text,
         generated=_code(d),
-        history=(*d.history, step),
-        calibration=with_another(d.calibration, new, str(d.path / CALIBRATION)),
+        step=step,
+        calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
@@ -100,7 +100,7 @@ def _code(d: ModelDir) -> Any:
 
 def saved_calibration(m: Loaded) -> Saved:
     """The calibration that the model directory keeps; UserError if there is none, or if it is of another model."""
-    return _frozen.in_force(m.directory, m.model)
+    return _frozen.in_force(m.directory.calibration, m.directory.path / CALIBRATION, m.model, m.instrument)
 
 
 def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
@@ -214,6 +214,8 @@ def contents(m: Loaded) -> Contents:
         except UserError as error:
             origin = f"values of model.toml: {error.what}"
     folded = {n: text for n, text in m.model.sources.items() if n.startswith("folded")}
+    if not m.instrument.layout.like_paper:  # of a single accelerometer a volt has few digits: then bit by bit
+        folded = {}
     return Contents(
         name=m.name,
         model=m.model,
@@ -238,7 +240,7 @@ def _chain(m: Loaded) -> str:
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
     """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
     if form not in FORMS:
-        raise UserError("there is no such form of an export", found=repr(form), expected=", ".join(FORMS))
+        raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 
@@ -257,4 +259,4 @@ def read_for_compensation(
 
 def calibration_notes(m: Loaded) -> list[str]:
     """What is odd about the calibration that is kept."""
-    return _frozen.notes(saved_calibration(m), m.model, m.directory)
+    return _frozen.notes(saved_calibration(m), m.model, m.instrument)

@@ -18,8 +18,7 @@ from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import missing_channels
+from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import replace_model_dir
 from ragg_runtime.model_dir.history import Step
@@ -130,9 +129,7 @@ def add(
         tell(made)
     if not (save and made.converged):
         return replace(made, loaded=m)
-    directory = replace_model_dir(
-        m.directory, text, generated=derive.files_of(extended), history=(*m.directory.history, step)
-    )
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(extended), step=step)
     return replace(made, loaded=loaded(directory))
 
 
@@ -180,9 +177,7 @@ def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None)
     step = Step("remove", now(), effect, text=text)
     if tell is not None:
         tell(_planned(m, text, derive.model_of(instrument), step))
-    directory = replace_model_dir(
-        m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
-    )
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
     return loaded(directory)
 
 

@@ -30,9 +30,9 @@ from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.instrument.units import read_quantity
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.survey import Survey
-from ragg_runtime.survey import survey as _survey
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import Progress
+from ragg_runtime.survey.run import survey as _survey
 from ragg_runtime.survey.tls import Tls
 from ragg_runtime.workflow.change import Added as Added
 from ragg_runtime.workflow.change import add as add

@@ -11,14 +11,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.motion_design import Separation, design, even, multisine, tones_of
-from ragg_runtime.diagnosis.next_motion import APART, AXES, Sinusoid, moved
+from ragg_runtime.diagnosis.next_motion import APART, AXES, HIGHEST, Sinusoid, moved
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.workflow.loop import Loaded, diagnose
 
 Array = NDArray[np.float64]
-
-HIGHEST = 0.2
-"""Highest frequency of a motion over the rate of its record: the record must hold its rate of change as well."""
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,13 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation.compensate import seeing, without_gradients
 from ragg_runtime.compensation.frozen import information
 from ragg_runtime.compensation.output import writing
-from ragg_runtime.compensation.recursive import Followed, Online, Tuning
+from ragg_runtime.compensation.recursive import Followed, Online, Tuning, following
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.signals.demodulate import CUTOFF
 from ragg_runtime.workflow.after import saved_calibration
 from ragg_runtime.workflow.loaded import Loaded
 
@@ -74,7 +73,7 @@ def online(
     """
     saved = None if m.directory.calibration is None else saved_calibration(m)
     density = _density(m, saved) if noise is None else noise
-    walk = density / np.sqrt(2.0) * 2 * np.pi * CUTOFF if walk is None else walk
+    walk = following(density) if walk is None else walk
     found = [
         _flight(m, saved, without_gradients(x), Tuning(noise=density, walk=walk, forget=forget))
         for x in flights
@@ -118,7 +117,7 @@ def _flight(
     told = []
     observed = observations_of([x], m.instrument)
     for o in (observed[k] for k in seeing(m.instrument, observed)):
-        if o.kind == "channels":
+        if o.recorded.demodulated:
             raise UserError(
                 "the filter works on the output before demodulation",
                 where=x.path or x.name,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ragg_runtime.base.provenance import provenance
 from ragg_runtime.flight import Flight
-from ragg_runtime.model_dir.provenance import provenance
+from ragg_runtime.model_dir.identity import identity
 from ragg_runtime.workflow.loop import Loaded
 
 
@@ -22,15 +23,9 @@ def origin(
     ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
     has changed.
     """
-    made = provenance(
-        command,
-        m.directory,
-        flights,
-        m.model.digest,
-        files=files,
-        before=None if before is None else before.directory,
-    )
-    return {"notes": notes(m, flights), "provenance": made}
+    model = identity(m.directory, m.model.digest, None if before is None else before.directory)
+    read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
+    return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
 
 
 def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:

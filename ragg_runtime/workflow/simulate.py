@@ -17,14 +17,20 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.model import Effect, packaged
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
-from ragg_runtime.reference.auxiliaries import plausible
+from ragg_runtime.reference.auxiliaries import further, plausible
+from ragg_runtime.reference.chain import Auxiliary
+from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
+from ragg_runtime.workflow.spin import turning_of
 
 if TYPE_CHECKING:
     from ragg_runtime.workflow.loop import Loaded
 
 Array = NDArray[np.float64]
+
+MOST_SAMPLES = 1e8
+"""Eleven days at 100 Hz: what is simulated is held in memory, some hundreds of bytes a sample."""
 
 
 def simulate(m: Loaded, effects: Sequence[str] = (), **options: Any) -> Flight:
@@ -46,10 +52,9 @@ def simulated(
     voltages: bool = False,
     motion: Path | str | None = None,
     mapping: Mapped | None = None,
+    spin: Sequence[str] = (),
 ) -> Flight:
-    """A flight with hidden effects, of an instrument of the order and kinematics that model.toml states.
-
-    Mounting angles of the second power are flown exactly.
+    """A flight with hidden effects, of model.toml's order (mounting angles squared: exactly) and kinematics.
 
     Parameters
     ----------
@@ -60,23 +65,22 @@ def simulated(
     sheet_error
         How far the true instrument lies from its test sheet; 1 is usual.
     motion
-        A flight file whose motion is flown, as long and as densely sampled as it is; else one is drawn. ``mapping``
-        says what its columns are, where it has names of its own.
-
-    Raises
-    ------
-    UserError
+        A flight file whose motion is flown, as long and as densely sampled as it is, and its disc angles where it has
+        some; else one is drawn. ``mapping`` says what its columns are, where it has names of its own.
+    spin
+        How discs turn (``spin.FORM``), where not steadily as the sheet says; their encoders are recorded then.
     """
     effects: dict[str, dict[str, Array]] = dict(_parsed(text, instrument) for text in hidden)
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
     first_order = (form.mounting, form.misalignment) == (1, 1)
-    white = eotvos_noise(noise * 1e-9, instrument.radius)
+    record = None
     if motion is None:
-        flown = draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
+        flown = _drawn(seed, duration, rate, shape)
     else:
-        flown, duration, rate = _recorded(motion, instrument, mapping)
+        record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
+        flown, duration, rate = _recorded(record)
     s = reference.simulate(
         perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
         flown,
@@ -84,23 +88,46 @@ def simulated(
         rate,
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
         record_gradient=not no_gradient,
-        noise=Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if noise else None,
+        noise=_noise(noise, instrument.radius),
         rotations="first-order" if first_order else "exact",
         kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
         seed=seed,
-        auxiliaries=plausible(np.random.default_rng([seed, 12])),
+        auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
+        turning=turning_of(spin, instrument.layout, record),
     )
     return s.flight("simulated", voltages=voltages)
 
 
-def _recorded(
-    file: Path | str, instrument: Instrument, mapping: Mapped | None
-) -> tuple[reference.Motion, float, float]:
-    """The motion of a flight file, its length, s, and its rate, Hz."""
-    x = read_flight(file, instrument.g0, need_output=False, mapping=mapping)
+def _auxiliaries(seed: int, effects: EffectValues, count: int) -> dict[str, Auxiliary]:
+    """What every carrier records, and what the effects ask for beyond that."""
+    asked = {c for e, values in resolve(effects, count).items() for c in channels_needed(e, values)}
+    rare = further(np.random.default_rng([seed, 14]))
+    usual = plausible(np.random.default_rng([seed, 12]))
+    return {**usual, **{name: rare[name] for name in rare if name in asked}}
+
+
+def _noise(density: float, radius: float) -> Noise | None:
+    """Of each accelerometer, for so much (Eo/sqrt(Hz)) of the cross channel, red below 0.05 Hz."""
+    white = eotvos_noise(density * 1e-9, radius)
+    return Noise(alpha=0.05 * white.omega_T, b=1.0, omega_T=white.omega_T) if density else None
+
+
+def _recorded(x: Flight) -> tuple[reference.Motion, float, float]:
+    """The motion of a flight, its length, s, and its rate, Hz."""
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
     return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
+
+
+def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:
+    if duration * rate > MOST_SAMPLES:
+        raise UserError(
+            "the flight is too long to be simulated",
+            found=f"{duration:g} s at {rate:g} Hz",
+            expected=f"at most {MOST_SAMPLES:.0e} samples",
+            remedy="simulate several shorter flights",
+        )
+    return draw_motion(np.random.default_rng([seed, 11]), duration, shape=shape)
 
 
 def _parsed(text: str, instrument: Instrument) -> tuple[str, dict[str, Array]]:

@@ -22,9 +22,7 @@ def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
     """Put another text in the place of model.toml, derive its model, and note the step in the history."""
     instrument = as_of(m, text).instrument
     step = Step(action, datetime.now(UTC).isoformat(timespec="seconds"), effect, text=text)
-    directory = replace_model_dir(
-        m.directory, text, generated=derive.files_of(instrument), history=(*m.directory.history, step)
-    )
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
     return load(directory.path)
 
 

@@ -89,6 +89,10 @@ AUXILIARIES = {
     "B_x": _signal(_RNG, 2e-5, 1e-5).value,
     "B_y": _signal(_RNG, -1e-5, 1e-5).value,
     "B_z": _signal(_RNG, 4e-5, 1e-5).value,
+    "yaw": _signal(_RNG, 0.7, 0.9).value,
+    "fuel_mass": _signal(_RNG, 400.0, 90.0).value,
+    "vibration_rms": _signal(_RNG, 0.3, 0.05).value,
+    "angular_vibration_rms": _signal(_RNG, 3e-4, 5e-5).value,
 }
 EOTVOS_VOLTS = float(np.mean(INSTRUMENT.accelerometers["k_VI"] * INSTRUMENT.accelerometers["K1"])) * 1e-10
 """Volts of one accelerometer for a gradient of 1 Eo across a radius of 0.1 m."""
@@ -105,6 +109,10 @@ CHANNEL_UNIT = {
     "B_x": "T",
     "B_y": "T",
     "B_z": "T",
+    "yaw": "rad",
+    "fuel_mass": "kg",
+    "vibration_rms": "m/s^2",
+    "angular_vibration_rms": "rad/s",
 }
 
 
@@ -185,14 +193,15 @@ ALONGSIDE: Mapping[str, Mapping[str, float]] = {
     **{i: {name: STEP_AT} for i, name in STEPS.items()},
     # A covariance must be positive: its components are varied about an isotropic one.
     "vibration-rectification": {"P_xx": 2e3, "P_yy": 2e3, "P_zz": 2e3},
+    "vibration-level": {"L_xx": 2e4, "L_yy": 2e4, "L_zz": 2e4},
 }
 
-ONE_SIDED = frozenset({"lag", "output-filter"})
-"""The simulator looks backwards only."""
+ONE_SIDED = frozenset({"lag", "output-filter", "second-order-loop"})
+"""The simulator looks backwards only, or has no resonances."""
 
-TOLERANCE: Mapping[str, float] = {"lag": 3e-5, "output-filter": 1e-4}
-"""The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too. The filter
-is derived to first order in b; the simulator averages over an interval."""
+TOLERANCE: Mapping[str, float] = {"lag": 3e-5, "output-filter": 1e-4, "second-order-loop": 3e-4}
+"""The lag is derived for the input force; the simulator delays the second-order terms (1e-5 of it), too. Filter and loop
+are derived to first order in b; the simulator averages over an interval, and over past and future."""
 
 
 def truth(effect: Effect, values: Mapping[str, float]) -> Record:
@@ -247,8 +256,9 @@ FARTHEST = {
     ("gyro-bias", "b_z"): 5e-3,
     ("gyro-delay", "delta_w"): 1e-4,
     ("gyro-delay", "delta_d"): 1e-4,
+    ("second-order-loop", "b"): 3e-5,
 }
-"""What hardly shows by itself would have to be so large that its square does: rad/s, s."""
+"""What hardly shows by itself would have to be so large that its square does: rad/s, s, s^2."""
 
 
 def reach(effect: Effect, q: EffectParameter, share: float) -> float:

@@ -1,12 +1,14 @@
 """The instrument at 50 digits, written down from Eq. 1-15 in vectors: no symbol, no printing, no expansion.
 
 The order of counting is the paper's: mounting rotations to first order in each angle and multiplied out,
-misalignment to first order (Eq. 2), second-order terms without angles (below Eq. 5b).
+misalignment to first order (Eq. 2), second-order terms without angles (below Eq. 5b); or everything is exact
+(``Place``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import mpmath
@@ -80,29 +82,61 @@ def _gradient(x: Sequence[Any]) -> tuple[tuple[Any, ...], ...]:
     return ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
 
 
-def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any]) -> Any:
+@dataclass(frozen=True)
+class Place:
+    """What tells an accelerometer from those of the paper: height, turned triad (3 x 3 in e_r, e_t, e_a), and how it is counted.
+
+    ``spin`` are rate and acceleration of the disc where its turning is felt; ``exact``: all angles, everywhere.
+    """
+
+    height: Any = real(0)
+    turn: Sequence[Sequence[Any]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    spin: tuple[Any, Any] = (real(0), real(0))
+    exact: bool = False
+
+
+def _turned(v: Sequence[Any], axis: Sequence[Any], angle: Any, exact: bool) -> list[Any]:
+    """A vector, turned about a unit axis: by Rodrigues' formula, or to first order."""
+    across = _cross(axis, v)
+    if not exact:
+        return _plus(v, _times(angle, across))
+    return _plus(v, _times(CONTEXT.sin(angle), across), _times(1 - CONTEXT.cos(angle), _cross(axis, across)))
+
+
+def voltage(k: Mapping[str, Any], radius: Any, psi: Any, x: Sequence[Any], at: Place = Place()) -> Any:
     """V of one accelerometer with parameters ``k`` at the angle ``psi`` on a disc along whose axes the channels are."""
-    a, omega, omegadot = x[0:3], x[3:6], x[6:9]
     Gamma = _gradient(x)
+    spin, swing = ([real(0), real(0), s] for s in at.spin)
+    omega = _plus(x[3:6], spin)
+    omegadot = _plus(x[6:9], swing, _cross(x[3:6], spin))  # the platform carries the axis along
 
     def specific_force(r: Sequence[Any]) -> list[Any]:
         gravity = [-_dot(row, r) for row in Gamma]
-        return _plus(a, _cross(omegadot, r), _cross(omega, _cross(omega, r)), gravity)
+        return _plus(x[0:3], _cross(omegadot, r), _cross(omega, _cross(omega, r)), gravity)
 
     e_r = [CONTEXT.cos(psi), CONTEXT.sin(psi), real(0)]
     e_t = [-CONTEXT.sin(psi), CONTEXT.cos(psi), real(0)]
     e_z = [real(0), real(0), real(1)]
-    turned_r = _plus(e_r, _times(k["beta_z"], e_t))
-    turned_t = _plus(e_t, _times(-k["beta_z"], e_r))
-    R = radius + k["dR"]
-    f = specific_force(_times(R, _plus(turned_r, _times(k["beta_x"], e_z))))
-    x_j = _dot(f, turned_t)
-    y_j = _dot(f, _plus(turned_r, _times(-k["beta_x"], e_z)))
-    z_j = -_dot(f, _plus(e_z, _times(k["beta_x"], turned_r)))
-    i = x_j + y_j * k["vartheta_z"] - z_j * k["vartheta_y"]
-    # second-order terms: nominal place and triad, at the actual radius
-    q = specific_force(_times(R, e_r))
-    q_i, q_o, q_p = _dot(q, e_t), _dot(q, e_r), -q[2]
+    # nominal triad: along the turn, outward, down; turned with the accelerometer
+    columns = [[row[n] for row in at.turn] for n in (1, 0, 2)]
+    triad = [_plus(_times(r, e_r), _times(t, e_t), _times(z, e_z)) for r, t, z in columns]
+    triad[2] = _times(-1, triad[2])
+
+    def mounted(v: Sequence[Any], lift: Any) -> list[Any]:
+        return _turned(_turned(v, e_t, lift, at.exact), e_z, k["beta_z"], at.exact)
+
+    R, lifted = radius + k["dR"], _times(at.height, e_z)
+    f = specific_force(_plus(_times(R, mounted(e_r, -k["beta_x"])), lifted))
+    sensed = [_dot(f, mounted(u, k["beta_x"])) for u in triad]
+    if at.exact:  # about x, then y, then z (Section II.A.1)
+        for n, name in enumerate(("vartheta_x", "vartheta_y", "vartheta_z")):
+            sensed = _turned(sensed, [real(int(n == m)) for m in range(3)], -k[name], True)
+        i = sensed[0]
+        q_i, q_o, q_p = sensed
+    else:  # second-order terms: nominal place and triad, at the actual radius
+        i = sensed[0] + sensed[1] * k["vartheta_z"] - sensed[2] * k["vartheta_y"]
+        q = specific_force(_plus(_times(R, e_r), lifted))
+        q_i, q_o, q_p = (_dot(q, u) for u in triad)
     i += k["K0"] + k["K2"] * q_i**2 + k["K5"] * q_o**2 + k["K7"] * q_p**2
     i += k["K4"] * q_i * q_p + k["K6"] * q_i * q_o + k["K8"] * q_o * q_p
     return k["k_VI"] * k["K1"] * i

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
-from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir import derive
+from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import COMPONENTS
 from tests.layouts import sheets
 from tests.layouts.flown import RATE, flown_by

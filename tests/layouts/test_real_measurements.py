@@ -104,9 +104,13 @@ def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() ->
 def test_saturation_that_is_left_unmarked_is_found(tmp_path: Path) -> None:
     d = story.diagnosed(story.UNLIFTED, motion=variants.unmarked(tmp_path))
     assert d.verdict == "missing-effect"
-    assert set(d.found) == {"motion-saturation", "gyro-delay"}
-    (r,) = (r for r in d.ranking if r.effect == "motion-saturation")
-    assert r.after.rms_V < 0.8 * r.before.rms_V
+    assert set(d.found) == {"imu-saturation", "gyro-delay"}
+
+
+def test_a_sheet_that_does_not_allow_for_the_noise_of_the_motion_is_doubted() -> None:
+    d = story.diagnosed(sheet(height="0 mm", lift="0.3"))
+    assert d.verdict == "unexplained"
+    assert "more than accelerometers of this sheet can have" in str(d.remark)
 
 
 def test_the_clocks_of_the_chips_are_the_rest(tmp_path: Path) -> None:

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.cli.main import main
-from ragg_runtime.compensation.demodulators import Demodulator
 from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.instrument.edit_toml import write_instrument
+from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
+from ragg_runtime.signals.demodulators import Demodulator
 
 DURATION = 900.0
 
@@ -37,7 +37,7 @@ def flights(changed: float = 0.0) -> tuple[Flight, Flight]:
 
 def new_model(folder: Path) -> Path:
     """A model directory with the sheet of these flights' instrument."""
-    write_instrument(scenario(7, duration=DURATION).sheet, folder / "sheet.toml")
+    (folder / "sheet.toml").write_text(model_text(scenario(7, duration=DURATION).sheet))
     run("new", folder / "m", "--from", folder / "sheet.toml")
     return folder / "m"
 

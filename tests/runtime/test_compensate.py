@@ -18,11 +18,11 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import compensate
 from ragg_runtime.compensation.compensate import Compensated, Kind, prepared
-from ragg_runtime.compensation.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
 from ragg_runtime.compensation.series import Quality, Series
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
 from ragg_runtime.workflow import after, loop
 from tests.runtime.flown_twice import DURATION, files, flights, new_model, run, truth
 

@@ -17,7 +17,6 @@ import pytest
 import derive.effects
 import derive.emit
 import ragg_runtime.flight
-import ragg_runtime.flight.output_effects
 import ragg_runtime.report.panel
 from derive import pipeline
 from derive.emit import target
@@ -26,10 +25,10 @@ from generated import folded
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.evidence.random_effects import Variance
-from ragg_runtime.flight import formats, output_effects
+from ragg_runtime.flight import formats
 from ragg_runtime.flight.convert import convert
 from ragg_runtime.flight.source import Column, Look, Written
-from ragg_runtime.model.model import packaged
+from ragg_runtime.model.model import from_files, packaged
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.report import compare_html, panel
 from tests.generated import draws
@@ -47,7 +46,7 @@ Put = Callable[[str, ModuleType], ModuleType]
 @pytest.fixture
 def put(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Put]:
     """Write an example beside the files of its package, as far as Python is concerned, and import it."""
-    caches = (derive.effects.catalogue, target.targets, output_effects.recognisers, panel.files)
+    caches = (derive.effects.catalogue, target.targets, panel.files)
     made: list[str] = []
 
     def put(path: str, package: ModuleType) -> ModuleType:
@@ -83,7 +82,6 @@ def test_every_kind_of_thing_has_an_example() -> None:
         "derive/emit/micropython/__init__.py",
         "derive/emit/micropython/templates/folded.py.j2",
         "ragg_runtime/flight/json_file.py",
-        "ragg_runtime/flight/output_effects/stuck_output.py",
         "ragg_runtime/report/panel/largest_residual.py",
     ]
 
@@ -175,20 +173,38 @@ def test_a_random_effect_is_recognised_where_its_sensitivity_is() -> None:
     assert log_p(rng.normal(size=20000) + 0.3 * s * rng.normal(size=20000)) < np.log(1e-12)
 
 
-def test_an_effect_of_the_recorder_is_recognised_by_one_file(put: Put) -> None:
-    put("derive/effects/stuck_output.py", derive.effects)
-    put("ragg_runtime/flight/output_effects/stuck_output.py", ragg_runtime.flight.output_effects)
-    known = [e.id for e in derive.effects.catalogue() if e.kind == "output"]
-    assert "stuck-output" in known
+def test_an_effect_of_the_recorder_is_one_file() -> None:
+    """Taken as a model's own: derived, handed on to the runtime, and recognised, beside those of the catalogue."""
+    path = "derive/effects/stuck_output.py"
+    (effect,) = derive.effects.from_sources({Path(path): EXAMPLES[path].encode()})
+    offered = [e for e in derive.effects.catalogue() if e.kind == "output" or e.id == "cubic-input"]
+    assert "EFFECT" not in effect.recogniser
+    assert "from derive" not in effect.recogniser
+    files = pipeline.derive_model((), (*offered, effect))
+    assert "output_effects/stuck_output.py" in json.loads(files["manifest.json"])["files"]
+    model = from_files(files)
+    assert list(model.recognisers) == ["imu-saturation", "quantisation", "saturation", "stuck-output"]
+
+    def recognised(values: np.ndarray, noise: float) -> list[str]:
+        valid = np.ones(len(values), dtype=bool)
+        of_outputs = {e: r for e, r in model.recognisers.items() if not hasattr(r, "CHANNELS")}
+        return [e for e, r in of_outputs.items() if r.present(values, valid, noise)]
+
     x = np.random.default_rng(3).normal(size=5000)
-    valid = np.ones(5000, dtype=bool)
-    assert output_effects.recognised(x, valid, 1.0, known) == []
+    assert recognised(x, 1.0) == []
     stuck = x.copy()
     for n in (100, 900, 1700, 2500, 3300, 4100):
         stuck[n] = stuck[n - 1]
-    assert output_effects.recognised(stuck, valid, 1.0, known) == ["stuck-output"]
-    assert output_effects.recognised(stuck, valid, 1.0, ["saturation"]) == []  # the model does not offer it
-    assert output_effects.recognised(np.round(x * 2) / 2, valid, 0.5, known) == ["quantisation"]
+    assert recognised(stuck, 1.0) == ["stuck-output"]
+    assert recognised(np.round(x * 2) / 2, 0.5) == ["quantisation"]
+    assert "saturation" in recognised(np.clip(x, -2.0, 2.0), 1.0)
+    with pytest.raises(ValueError, match="present"):
+        text = EXAMPLES[path].replace("def present", "def somewhere")
+        derive.effects.from_sources({Path(path): text.encode()})
+
+
+def test_every_recogniser_that_is_offered_comes_with_the_program() -> None:
+    assert list(packaged().recognisers) == [e.id for e in packaged().candidates if e.kind == "output"]
 
 
 def test_a_file_format_is_one_file_and_a_line(

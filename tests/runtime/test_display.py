@@ -18,7 +18,7 @@ import pytest
 
 from examples import first_notebook
 from ragg_runtime.cli import terminal
-from ragg_runtime.survey import Survey
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.loop import Added

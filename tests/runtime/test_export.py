@@ -166,7 +166,7 @@ BAD = {
     "omegadot_z [rad/s^2]": ("my_z [rad/s^2]", "omegadot_z: the column is missing"),
     "time [s]": ("time [ms]", "time: the column is not in SI units"),
     "a_y [m/s^2]": ("a_y", "a_y: the column has no unit"),
-    "omega_x [rad/s]": ("a_x [m/s^2]", "a_x: the column stands there twice"),
+    "omega_x [rad/s]": ("a_x [m/s^2]", "a_x: the column appears twice"),
 }
 
 
@@ -270,7 +270,7 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
     with pytest.raises(UserError, match="not empty"):
         after.export(loop.load(base[0]), tmp_path, "c")
     assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
-    with pytest.raises(UserError, match="no such form"):
+    with pytest.raises(UserError, match="unknown form"):
         after.export(loop.load(base[0]), tmp_path / "x", "fortran")
 
 
@@ -282,4 +282,4 @@ def test_a_calibration_of_another_model_is_not_exported(
     text = (model / "calibration.json").read_text().replace('"effects": []', '"effects": ["lag"]')
     (copy / "calibration.json").write_text(text)
     told = run("export", copy, tmp_path / "c", "--c")
-    assert "values of model.toml: the saved calibration is of another model" in told
+    assert "values of model.toml: the saved calibration belongs to another model" in told

@@ -18,7 +18,7 @@ from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.instrument.edit_toml import write_instrument
+from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.accelerometer_noise import Noise
@@ -198,7 +198,7 @@ def flight_files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     folder = tmp_path_factory.mktemp("loop")
     s, flight = flown(48, {"thermal-scale": HIDDEN["thermal-scale"]})
     write_flight(flight, folder / "flight.parquet")
-    write_instrument(s.sheet, folder / "sheet.toml")
+    (folder / "sheet.toml").write_text(model_text(s.sheet))
     return folder / "sheet.toml", folder / "flight.parquet"
 
 

@@ -134,9 +134,10 @@ def test_fits_in_machine_code_are_those_in_numpy(monkeypatch: pytest.MonkeyPatch
     size = np.max(np.abs(n), axis=2, keepdims=True)
     assert np.sum(size > 0.0) > 150
     assert np.all(np.abs(c - n) <= 1e-9 * size)
-    for name in ("nominal", "calibrated", "holdout"):
+    # half of five minutes says little of the other half: what rounding does to the noise is magnified there
+    for name, close in (("nominal", 1e-5), ("calibrated", 1e-5), ("holdout", 1e-4)):
         a, b = getattr(by_c, name), getattr(by_numpy, name)
-        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=1e-5)
+        assert a.rms_Eo == pytest.approx(b.rms_Eo, rel=close)
     assert by_c.noise_floor == pytest.approx(by_numpy.noise_floor, rel=1e-4)
 
 

@@ -6,6 +6,7 @@ import os
 import sys
 from pathlib import Path
 
+import click
 import h5py
 import numpy as np
 import pyarrow as pa
@@ -13,10 +14,13 @@ import pyarrow.parquet as pq
 import pytest
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.cli import completion
 from ragg_runtime.cli.main import main
 from ragg_runtime.flight import read_flight
 from ragg_runtime.flight.source import MOST_COLUMNS
+from ragg_runtime.survey.journal import sha256
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 
 @pytest.mark.parametrize("option", ["--duration", "--rate", "--noise", "--sheet-error"])
@@ -36,6 +40,27 @@ def test_a_test_sheet_that_never_ends(tmp_path: Path) -> None:
     for source in (tmp_path / "pipe", Path("/dev/zero")):
         with pytest.raises(UserError, match="not a pipe or a device"):
             loop.new(tmp_path / "m", source)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices of Unix")
+def test_no_digest_of_what_never_ends(tmp_path: Path) -> None:
+    """A survey takes a digest of every file at its end, of those that it could not read too."""
+    os.mkfifo(tmp_path / "flight.csv")
+    assert sha256(tmp_path / "flight.csv") is None
+    assert sha256(Path("/dev/zero")) is None
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices of Unix")
+def test_completion_waits_for_no_pipe(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "model.toml")
+    context = click.Context(click.Command("remove"))
+    context.params["model_dir"] = str(tmp_path)
+    assert completion.present(context, click.Argument(["effect"]), "") == []
+
+
+def test_a_flight_longer_than_memory(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="too long to be simulated"):
+        simulated(loop.new(tmp_path / "m").instrument, [], duration=1e18)
 
 
 @pytest.mark.parametrize("suffix", [".parquet", ".nc", ".csv"])

@@ -135,15 +135,23 @@ def test_channels_that_are_defined_otherwise_are_named(monkeypatch: pytest.Monke
 def test_another_demodulator_is_named_with_its_order_and_corner(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(identify, "mistakes", lambda *_, **__: iter(()))
     monkeypatch.setattr(identify, "searches", lambda *_: [])
-    own = [m for m in other_demodulator.FAMILIES if m.order in (0, 2, 3)]
+    own = [m for m in other_demodulator.FAMILIES if m(0.1).order == 3 and not m(0.1).delay]
     monkeypatch.setattr(other_demodulator, "FAMILIES", own)
+    monkeypatch.setattr(other_demodulator, "LATE_TRIED", 0)
+    monkeypatch.setattr(other_demodulator, "THINNED", ())
     s, x = flown(14)
     sections = signal.butter(3, 0.15, fs=x.rate, output="sos")
     wrong = demodulated(s, x, lambda z: signal.sosfilt(sections, z))
     found = likely_mistake(MODEL, s.sheet, picker(wrong, s.sheet))
     assert found is not None
     assert found.what.endswith("such as a causal Butterworth low-pass of order 3 at 0.15 Hz")
+    assert 'kind = "causal", cutoff = "0.15 Hz", order = 3;' in found.remedy
     assert found.factor > 1000.0
+    monkeypatch.setattr(other_demodulator, "LATE_TRIED", 1)
+    late = demodulated(s, x, lambda z: np.roll(signal.sosfilt(sections, z), 8))
+    made = other_demodulator.best(MODEL, s.sheet, picker(late, s.sheet))
+    assert made is not None
+    assert (made.how.order, made.how.cutoff, made.how.delay) == pytest.approx((3, 0.15, 0.5), rel=1e-3)
 
 
 def test_outputs_that_are_recorded_more_seldom_than_the_motion() -> None:

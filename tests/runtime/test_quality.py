@@ -16,12 +16,14 @@ from ragg_runtime.cli.main import cli
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.flight.source import Column, Written
-from ragg_runtime.quality import galileo, galileo_lines
-from ragg_runtime.quality.crossovers import Repeat, crossings
-from ragg_runtime.quality.lines import SurveyLine
-from ragg_runtime.quality.qc import Quality, qc
-from ragg_runtime.quality.track import Track
+from ragg_runtime.report.quality_galileo import tables
 from ragg_runtime.report.quality_page import quality_html, quality_text
+from ragg_runtime.survey.quality import galileo, galileo_lines
+from ragg_runtime.survey.quality.crossovers import Repeat, crossings
+from ragg_runtime.survey.quality.lines import SurveyLine
+from ragg_runtime.survey.quality.qc import Quality, qc
+from ragg_runtime.survey.quality.track import Track
+from ragg_runtime.wording import numbers
 
 SIGMA = 6.0  # Eo: noise of a sample of UV and NE of every disc
 SPEED = 50.0  # m/s
@@ -226,6 +228,21 @@ def test_the_same_bytes(tmp_path: Path, three: Quality) -> None:
     assert quality_html(again, title="t", command="c") == quality_html(three, title="t", command="c")
     assert quality_text(again) == quality_text(three)
     assert json.dumps(again.as_json()) == json.dumps(three.as_json())
+
+
+def test_the_report_has_galileos_figures(three: Quality) -> None:
+    """Every table that the survey gives rise to, with the figures that the JSON holds."""
+    found = {t.title.split(" (")[0]: t for t in tables(three)}
+    assert list(found) == ["By line", "Crossovers", "Repeat lines"]
+    line = three.lines[3]
+    (row,) = [r for r in found["By line"].rows if r[0] == line.line.name]
+    assert row[1] == numbers.number(line.galileo["in_line_sum_Eo"])
+    first = three.galileo["crossovers"][0]
+    (row,) = [r for r in found["Crossovers"].rows if r[0] == first["line"]]
+    assert row[1:4] == (str(first["count"]), numbers.number(first["rms"]), numbers.number(first["largest"]))
+    assert all(len(r) == len(t.heads) for t in found.values() for r in t.rows)
+    page = quality_html(three, title="t", command="c")
+    assert all(t.title in page for t in found.values())
 
 
 def test_a_single_disc_without_positions(tmp_path: Path) -> None:

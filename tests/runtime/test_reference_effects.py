@@ -31,6 +31,10 @@ AUXILIARIES = {
     "B_x": lambda t: 2e-5 + 0 * t,
     "B_y": lambda t: 3e-5 + 0 * t,
     "B_z": lambda t: -4e-5 + 0 * t,
+    "yaw": lambda t: 0.7 + 0 * t,
+    "fuel_mass": lambda t: 400.0 + 0 * t,
+    "vibration_rms": lambda t: 0.5 + 0 * t,
+    "angular_vibration_rms": lambda t: 0.01 + 0 * t,
 }
 
 
@@ -80,6 +84,7 @@ SIZES = {
     "rad/s^0.5": 1e-6,
     "m": 1e-3,
     "1/s^2/rad": 1e-7,
+    "1/s^2/kg": 1e-9,
     "1/(m s^2)": 1e-7,
     "1/m^2/s^2": 1e-7,
     "(m/s^2)^2": 1e-2,
@@ -95,8 +100,9 @@ SIZES = {
 }
 RECORD_ONLY = {
     "time-offset", "clock-drift", "imu-lever-arm", "imu-misalignment", "gyro-scale", "gyro-delay",
-    "gyro-bias", "motion-saturation",
+    "gyro-bias",
     "gyro-g-sensitivity", "imu-acceleration-scale", "imu-acceleration-bias", "imu-acceleration-misalignment",
+    "imu-saturation",
 }  # fmt: skip
 OUTPUT_ONLY = {"saturation", "quantisation"}
 PER_ACCELEROMETER = [
@@ -112,6 +118,8 @@ def _some(effect: str) -> dict[str, object]:
         values[name] = [0, size, 0, 0] if parameter.per_accelerometer else size
     if effect == "vibration-rectification":
         values |= {"P_xy": 0.0, "P_xz": 0.0, "P_yz": 1e-3}
+    if effect == "vibration-level":
+        values |= {"L_xy": 0.0, "L_xz": 0.0, "L_yz": 0.0}
     return values
 
 

@@ -151,13 +151,18 @@ def test_results_of_a_survey(here: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         assert record == old[record["flight"]] | {"file": str(here / record["flight"])}
 
 
+def twelve_digits(x: object) -> object:
+    """As JSON reads it, its numbers to twelve digits: logarithms differ in the last one from library to library."""
+    return json.loads(json.dumps(x), parse_float=lambda text: float(f"{float(text):.12g}"))
+
+
 def test_a_survey_told_as_json() -> None:
     """The same records are summed up to the same table."""
     old = then("survey.json")
     found = summary.summarised(old["flights"]).as_json()
     assert missing({k: old[k] for k in found}, json.loads(json.dumps(found))) == []
     assert found["counts"] == old["counts"]
-    assert json.loads(json.dumps(found["recommendation"])) == old["recommendation"]
+    assert twelve_digits(found["recommendation"]) == twelve_digits(old["recommendation"])
     assert found["median_error"] == pytest.approx(old["median_error"])
 
 

@@ -25,6 +25,7 @@ from ragg_runtime.diagnosis import comparison as compare
 from ragg_runtime.diagnosis import diagnose, result
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.lack_of_fit.dictionary import harmonics
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
@@ -439,7 +440,7 @@ def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> Non
 
 def test_clean_residual_has_the_noise_of_the_bars_at_every_harmonic(clean: Case) -> None:
     f = clean.comparison.fitted
-    expected = series.harmonic_noise(f)
+    expected = series.harmonic_noise(f, harmonics())
     assert len(expected) == 9
     for row in compare.harmonic_errors(f, np.zeros(f.size)):
         assert float(str(row["rms_Eo"])) == pytest.approx(expected[str(row["harmonic"])], rel=0.3)
@@ -512,7 +513,7 @@ def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.Mo
     monkeypatch.setattr(panels, "FLIGHTS", 1)
     text = report.compare_html(c, **ORIGIN)
     assert "The 1 worst of 3 flights are drawn" in text
-    assert series.worst(c.fitted, c.residual_nominal, 3) == [0, 1, 2]
+    assert series.worst(c.fitted, c.residual, 3) == [0, 1, 2]
 
 
 def test_four_voltages_see_every_accelerometer() -> None:

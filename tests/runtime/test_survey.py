@@ -23,8 +23,9 @@ from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
 from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.report.survey_text import surveyed
-from ragg_runtime.survey import Survey, local
+from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
 

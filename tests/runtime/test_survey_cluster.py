@@ -18,7 +18,8 @@ import pytest
 from flights_of_a_survey import lines_of, make, without_effect
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.survey import Survey, cluster
+from ragg_runtime.survey import cluster
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Record, job
 from ragg_runtime.workflow import loop
 

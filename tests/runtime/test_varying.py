@@ -110,7 +110,7 @@ def test_what_varies_beyond_all_doubt_has_a_finite_logarithm() -> None:
     assert -1e9 < best.log_p < -1e3
 
 
-def test_a_record_shorter_than_its_spells() -> None:
+def test_a_record_shorter_than_its_stretches() -> None:
     time: Any = np.arange(30) / RATE
     s = BlockScores(1, time)
     rng = np.random.default_rng(6)

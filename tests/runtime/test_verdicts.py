@@ -66,6 +66,9 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
     assert d.ranking[0].log_p < -20.0  # an effect alone would be beyond doubt
     if own:
         assert d.verdict == "missing-effect"
+        said = str(d.as_json()["reason"])
+        assert f"what {d.found[0]} explains is a constant term at twice the spin rate" in said
+        assert "gradient-offset" in said  # of those that would do as well
         return
     assert (d.verdict, d.found) == ("unexplained", ())
     said = re.search(r"the output has a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))

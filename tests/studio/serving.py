@@ -54,10 +54,10 @@ def new(model: Path) -> None:
     loop.new(model)
 
 
-def brief(flight: Path) -> None:
-    """The first two minutes of the shipped flight: for what is about the server, not about the flight."""
+def brief(flight: Path, start: int = 0) -> None:
+    """Two minutes of the shipped flight from this sample on: for what is about the server, not about the flight."""
     table = pq.read_table(DEMO)
-    pq.write_table(table.slice(0, 2 * 60 * 16), flight)
+    pq.write_table(table.slice(start, 2 * 60 * 16), flight)
 
 
 def foreign(path: Path) -> None:

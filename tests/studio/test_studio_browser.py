@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -13,7 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from serving import DEMO, Served, foreign, new, served
+from serving import DEMO, Served, brief, foreign, new, served
 
 from ragg_runtime.model_dir.directory import load_model_dir
 
@@ -273,6 +274,33 @@ def test_10_compensated_channels_and_their_quality(page: Page) -> None:
     changes(page, ".channels figure:first-child .plot", picture)
 
 
+def test_10_a_folder_is_surveyed(page: Page, server: Served) -> None:
+    days = server.folder / "days"  # type: ignore[attr-defined]
+    days.mkdir()
+    brief(days / "monday.parquet")
+    brief(days / "tuesday.parquet", start=2 * 60 * 16)
+    (days / "wednesday.csv").write_text("a,b\n1,2\n")
+    (days / "away").symlink_to("/etc")
+    page.keyboard.press("7")
+    page.get_by_role("button", name="days", exact=True).click()
+    expect(page.get_by_label("flights in")).to_have_value(str(days))
+    page.get_by_role("button", name="Survey", exact=True).last.click()
+    expect(page.locator(".view-survey .headline")).to_contain_text("3 flights: ", timeout=PATIENCE)
+    expect(page.locator(".view-survey .headline")).to_contain_text("1 in error")
+    expect(page.locator(".view-survey .channels .u-over")).to_have_count(2)
+    rows = page.locator(".view-survey tbody tr[id]")
+    expect(rows).to_have_count(2)
+    assert [float(t) < 10.0 for t in rows.locator("td").nth(7).all_text_contents()] == [True]
+    picture = shown(page, ".channels figure .plot >> nth=1")
+    page.get_by_label("Parameter", exact=True).select_option(index=1)
+    changes(page, ".channels figure .plot >> nth=1", picture)
+    with page.expect_download() as got:
+        page.get_by_role("link", name="As JSON").click()
+    told = json.loads(Path(got.value.path()).read_text())
+    assert [x["flight"] for x in told["flights"]] == ["monday.parquet", "tuesday.parquet", "wednesday.csv"]
+    idle(page)
+
+
 def test_11_of_foreign_columns_only_what_the_file_leaves_open_is_asked(page: Page) -> None:
     page.keyboard.press("5")
     page.get_by_role("button", name="Say what the columns of foreign.csv are").click()
@@ -297,7 +325,7 @@ def test_12_every_view_opens_and_a_screen_reader_has_no_serious_complaint(page: 
     idle(page)
     for scheme in ("light", "dark"):
         page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
-        for key in "1234567":
+        for key in "12345678":
             page.locator("#main").focus()
             page.keyboard.press(key)
             expect(page.locator("#main h2").first).to_be_visible()
@@ -330,7 +358,7 @@ def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
             page.locator("figure.spectrum").hover()
             page.locator("figure.spectrum").get_by_role("button", name=name).click()
         assert Path(got.value.path()).read_bytes().startswith(begin)
-    page.keyboard.press("7")
+    page.keyboard.press("8")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
     commands = Path(got.value.path()).read_text()

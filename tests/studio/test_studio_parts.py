@@ -21,8 +21,10 @@ from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session
 from ragg_runtime.studio.maths import mathml
+from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.session import branches
+from ragg_runtime.studio.surveys import flights_below
 from ragg_runtime.workflow import loop
 
 
@@ -173,6 +175,21 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
         assert mapping.tried(m, path, bad)["error"]
         with pytest.raises(UserError):
             mapping.keep(m, path, bad, replace=True)
+
+
+def test_a_survey_takes_the_flights_of_a_folder_and_nothing_beside(tmp_path: Path) -> None:
+    root, beside = tmp_path / "root", tmp_path / "beside"
+    for place in (root / "a" / "b", beside):
+        place.mkdir(parents=True)
+        (place / "flight.csv").write_text("time [s]\n")
+    (root / "link").symlink_to(beside)
+    (root / "flight.csv").symlink_to(beside / "flight.csv")
+    (root / "notes.txt").write_text("")
+    (root / ".hidden.csv").write_text("")
+    places = Places((root.resolve(),))
+    assert flights_below(root, places) == [root / "a" / "b" / "flight.csv"]
+    with pytest.raises(UserError, match="a survey needs flights"):
+        flights_below(root / "link", places)
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

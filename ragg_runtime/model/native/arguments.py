@@ -7,13 +7,14 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Protocol, TypeGuard
+from typing import TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import Layout
+from ragg_runtime.model.model import Chain
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
@@ -30,24 +31,6 @@ WORTH_A_THREAD = 1 << 16
 def address(x: Array) -> int:
     """Where an array begins."""
     return x.ctypes.data
-
-
-class Module(Protocol):
-    """What is needed of a generated chain in NumPy."""
-
-    INPUTS: tuple[str, ...]
-    ROWS: tuple[tuple[str, bool], ...]
-    SIZE: int
-
-    def accelerometer(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def derivatives(
-        self, j: int, time: Array, cos_phi: Array, sin_phi: Array, inputs: Array, q: Array
-    ) -> Array: ...
-
-    def values_of(self, j: int, p: Array) -> Array: ...
 
 
 @dataclass(frozen=True)
@@ -84,7 +67,7 @@ class Case:
 class Base:
     """What both backends share: arguments are checked, series cut, parts put together."""
 
-    chain: Module
+    chain: Chain
     layout: Layout
 
     @property
@@ -155,7 +138,7 @@ def _series(x: ArrayLike, name: str, length: int | None = None) -> Array:
         raise UserError(
             f"{name} is no series of samples",
             found=f"shape {found.shape}",
-            expected="one number a sample" if length is None else f"shape ({length},)",
+            expected="one number per sample" if length is None else f"shape ({length},)",
         )
     return found
 

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.native.arguments import Base, Case, Module, Series, cut, in_parts, into
+from ragg_runtime.model.model import Chain
+from ragg_runtime.model.native.arguments import Base, Case, Series, cut, in_parts, into
 from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 from ragg_runtime.model.native.library import Library
 
@@ -75,7 +76,7 @@ class Evaluator(Protocol):
 
 @dataclass(frozen=True)
 class Compiled(Base):
-    """A model in machine code; ``folded``: the library also holds the folded form of the base model.
+    """A model in machine code; ``folded``: the library also holds the folded form, for outputs.
 
     ``name`` is the generated module's.
     """
@@ -152,7 +153,7 @@ class Compiled(Base):
 
 @dataclass(frozen=True)
 class Interpreted(Base):
-    """A model in NumPy, in blocks that stay in cache; ``folded``: the folded form of the base model."""
+    """A model in NumPy, in blocks that stay in cache; ``folded``: its folded form, if it has one."""
 
     folded: ModuleType | None
     backend: str = "numpy"
@@ -175,9 +176,10 @@ class Interpreted(Base):
             return G
         c = self._case(t, inputs, p, angle)
         G = into(out, len(c.t))
+        of_several = {"which": which} if self.several else {}
         for first, last in cut(len(G), len(G)):
             b = c.part(first, last)
-            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle)
+            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle, **of_several)
         return G
 
     def voltages(
@@ -232,7 +234,7 @@ _said: list[str] = []
 
 
 def evaluator(
-    chain: Module,
+    chain: Chain,
     sources: Mapping[str, str],
     folded: ModuleType | None,
     backend: Backend = "auto",
@@ -263,7 +265,7 @@ def evaluator(
 
 
 def for_fits(
-    modules: Mapping[str, Module], sources: Mapping[str, str], layout: Layout = PAPER
+    modules: Mapping[str, Chain], sources: Mapping[str, str], layout: Layout = PAPER
 ) -> dict[str, Evaluator]:
     """Evaluators of generated modules (name -> module) for their derivatives.
 

@@ -100,9 +100,17 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
         *(f"T_{k}" for k in ["xxxx", "xxxy", "xxxz", "xxyy", "xxyz", "xyyy", "xyyz", "yyyy", "yyyz"]),
     ),
     "vibration-rectification": _shared("(m/s^2)^2", "P_xx", "P_xy", "P_xz", "P_yy", "P_yz", "P_zz"),
-    "motion-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
-    | _shared("rad/s", "omega_max", neutral=np.inf),
+    "vibration-level": _shared("1", "L_xx", "L_xy", "L_xz", "L_yy", "L_yz", "L_zz"),
+    "angular-jitter": _shared("1", "W_xx", "W_xy", "W_xz", "W_yy", "W_yz", "W_zz"),
+    "fuel-gradient": _shared("1/s^2/kg", "G_xx", "G_xy", "G_xz", "G_yy", "G_yz"),
+    "self-gradient-yaw": _shared("1/s^2", "G_d", "G_xy", "G_xz", "G_yz"),
+    "spin-servo": _shared("s^2", "c"),
+    "bearing-run-out": _shared("m", *(f"{a}_{k}{n}" for n in (1, 2) for k in "xyz" for a in "cs")),
+    "adc-nonlinearity": _each("m/s^2", "h"),
+    "second-order-loop": _each("s^2", "b"),
     "saturation": _shared("V", "V_max", neutral=np.inf),
+    "imu-saturation": _shared("m/s^2", "a_max", neutral=np.inf)
+    | _shared("rad/s", "omega_max", neutral=np.inf),
     "quantisation": _shared("V", "q"),
 }
 """Every effect and its parameters."""
@@ -154,6 +162,10 @@ def channels_needed(effect: str, parameters: Values) -> tuple[str, ...]:
         "thermal-lag": ("temperature",),
         "pressure-bias": ("pressure",),
         "magnetic-bias": ("B_x", "B_y", "B_z"),
+        "vibration-level": ("vibration_rms",),
+        "angular-jitter": ("angular_vibration_rms",),
+        "fuel-gradient": ("fuel_mass",),
+        "self-gradient-yaw": ("yaw",),
     }.get(effect, ())
 
 

@@ -25,6 +25,12 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
     if standing := effects.get("gradient-offset"):
         xx, xy, xz, yy, yz = (standing[f"G_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
         total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r)
+    if tanks := effects.get("fuel-gradient"):
+        xx, xy, xz, yy, yz = (tanks[f"G_{c}"] for c in ("xx", "xy", "xz", "yy", "yz"))
+        fuel = auxiliaries["fuel_mass"]
+        total = total + contract(np.array([xx, xy, xz, yy, yz, -(xx + yy)]), r) * fuel
+    if carrier := effects.get("self-gradient-yaw"):
+        total = total + _yawed(carrier, r, auxiliaries["yaw"]) - _yawed(carrier, r, np.zeros(r.shape[1]))
     if near := effects.get("near-mass"):
         total = total + np.einsum("ijk,jn,kn->in", third_order_tensor(near), r, r) / 2
         total = total + np.einsum("ijkl,jn,kn,ln->in", fourth_order_tensor(near), r, r, r) / 6
@@ -34,6 +40,34 @@ def attraction(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) ->
 def _turned(masses: Values, axis: str) -> Array:
     xx, xy, xz, yy, yz = (masses[f"G_{c}_{axis}"] for c in ("xx", "xy", "xz", "yy", "yz"))
     return np.array([xx, xy, xz, yy, yz, -(xx + yy)])
+
+
+def _yawed(carrier: Values, r: Array, yaw: Array) -> Array:
+    """Attraction (3, N) m/s^2 of masses that turn with the carrier: r is looked at from there, and the answer turned back."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    x, y, z = c * r[0] + s * r[1], c * r[1] - s * r[0], r[2]
+    d, xy, xz, yz = (carrier[f"G_{k}"] for k in ("d", "xy", "xz", "yz"))
+    u, v, w = d * x + xy * y + xz * z, xy * x - d * y + yz * z, xz * x + yz * y
+    return np.stack([c * u - s * v, s * u + c * v, w])
+
+
+def jittered(r: Array, auxiliaries: Mapping[str, Array], effects: Injected) -> Array | float:
+    """Mean centrifugal acceleration (3, N), m/s^2, of unrecorded angular jitter at r (3, N): to and fro about each principal axis."""
+    jitter = effects.get("angular-jitter")
+    if jitter is None:
+        return 0.0
+    W = {name.removeprefix("W_"): float(value) for name, value in jitter.items()}
+    shares, axes = np.linalg.eigh(_matrix(W))
+    level = auxiliaries["angular_vibration_rms"]
+    total = np.zeros_like(r)
+    for share, axis in zip(shares, axes.T, strict=True):
+        inward = np.cross(axis[:, None], np.cross(axis[:, None], r, axis=0), axis=0)
+        total += share * level**2 * inward
+    return total
+
+
+def _matrix(of: Mapping[str, float]) -> list[list[float]]:
+    return [[of["xx"], of["xy"], of["xz"]], [of["xy"], of["yy"], of["yz"]], [of["xz"], of["yz"], of["zz"]]]
 
 
 def third_order_tensor(near: Values) -> Array:
@@ -73,19 +107,27 @@ def vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
     Averaging any polynomial of up to the fifth degree over them gives the expectation over a Gaussian
     vibration of covariance P exactly; abs(f_i) of ``odd-quadratic`` is averaged approximately.
     """
-    covariance = effects.get("vibration-rectification")
+    return _instances(effects, "vibration-rectification", "P")
+
+
+def louder(effects: Injected) -> tuple[tuple[Array, float], ...]:
+    """Instances of ``vibration-level`` at a level of 1 m/s^2, as those of :func:`vibration`."""
+    return _instances(effects, "vibration-level", "L")
+
+
+def _instances(effects: Injected, effect: str, letter: str) -> tuple[tuple[Array, float], ...]:
+    covariance = effects.get(effect)
     if covariance is None:
         return ((np.zeros((3, 1)), 1.0),)
-    P = {name.removeprefix("P_"): float(value) for name, value in covariance.items()}
-    variances, axes = np.linalg.eigh(
-        [[P["xx"], P["xy"], P["xz"]], [P["xy"], P["yy"], P["yz"]], [P["xz"], P["yz"], P["zz"]]]
-    )
+    P = {name.removeprefix(f"{letter}_"): float(value) for name, value in covariance.items()}
+    variances, axes = np.linalg.eigh(_matrix(P))
     floor = 1e-12 * max(abs(variances[0]), abs(variances[-1]))
     if variances[0] < -floor:
         raise UserError(
-            "the covariance P of vibration-rectification is not positive semidefinite",
-            found=f"eigenvalues {', '.join(f'{v:g}' for v in variances)} (m/s^2)^2",
-            remedy="P_xy^2 may not exceed P_xx P_yy, and so on",
+            f"the covariance {letter} of {effect} is not positive semidefinite",
+            found=f"eigenvalues {', '.join(f'{v:g}' for v in variances)}"
+            + (" (m/s^2)^2" if letter == "P" else ""),
+            remedy=f"{letter}_xy^2 may not exceed {letter}_xx {letter}_yy, and so on",
         )
     shaken = [axis * np.sqrt(v) for v, axis in zip(variances, axes.T, strict=True) if v > floor]
     return tuple(

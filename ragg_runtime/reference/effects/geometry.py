@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected
 from ragg_runtime.reference.rotation import by_vector
-from ragg_runtime.reference.taylor import Taylor
+from ragg_runtime.reference.taylor import Taylor, stacked
 
 Array = NDArray[np.float64]
 Kinematics: TypeAlias = Literal["platform", "full"]
@@ -29,6 +29,32 @@ def disc_angle(nominal: Taylor, time: Array, error: Array, effects: Injected) ->
             turned = nominal * float(n)
             phi = phi + turned.cosine() * encoder[f"c_{n}"] + turned.sine() * encoder[f"s_{n}"]
     return phi + error
+
+
+def yields(effects: Injected) -> bool:
+    """Whether the disc falls behind where the platform is turned about its axis."""
+    return "spin-servo" in effects
+
+
+def fallen_behind(phi: Taylor, turning: Taylor, effects: Injected) -> Taylor:
+    """The angle (N,) where ``turning`` (N,) rad/s^2 is the platform's angular acceleration about the spin axis."""
+    return phi + turning * -float(effects["spin-servo"]["c"])
+
+
+def run_out(phi: Taylor, effects: Injected) -> Taylor | None:
+    """Where the disc's centre is, (3, N) m along axes that do not turn with it, or None."""
+    path = effects.get("bearing-run-out")
+    if path is None:
+        return None
+    waves = {(a, n): w for n in (1, 2) for a, w in (("c", (phi * n).cosine()), ("s", (phi * n).sine()))}
+
+    def along(k: str) -> Taylor:
+        total = Taylor.constant(np.zeros(phi.value.shape))
+        for (a, n), wave in waves.items():
+            total = total + wave * float(path[f"{a}_{k}{n}"])
+        return total
+
+    return stacked((along("x"), along("y"), along("z")))
 
 
 def random_angle(rng: np.random.Generator, size: int, rate: float, effects: Injected) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.reference.effects.catalogue import Injected, Values
 from ragg_runtime.reference.motion import Motion, MotionState
 from ragg_runtime.reference.rotation import by_vector
@@ -49,9 +50,14 @@ def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState
         a = (1 + _vector(scale, "s")) * a
     if offset := effects.get("imu-acceleration-bias"):
         a = a + _vector(offset, "b")
-    if ends := effects.get("motion-saturation"):
-        a = np.clip(a, -ends["a_max"], ends["a_max"])
-        omega = np.clip(omega, -ends["omega_max"], ends["omega_max"])
+    if ends := effects.get("imu-saturation"):
+        a_max, omega_max = float(ends["a_max"]), float(ends["omega_max"])
+        if min(a_max, omega_max) <= 0:
+            raise UserError(
+                "the range of imu-saturation must be positive", found=f"{a_max:g} m/s^2, {omega_max:g} rad/s"
+            )
+        omegadot = np.where(np.abs(omega) > omega_max, 0.0, omegadot)  # a gyroscope at its end stands still
+        a, omega = np.clip(a, -a_max, a_max), np.clip(omega, -omega_max, omega_max)
     return MotionState(a, omega, omegadot)
 
 

@@ -127,6 +127,25 @@ def further_terms(
     return total
 
 
+def converted(j: int, bracket: Array, effects: Injected) -> Array:
+    """What the converter of accelerometer j makes of its current, m/s^2."""
+    uneven = effects.get("adc-nonlinearity")
+    return bracket if uneven is None else bracket + uneven["h"][j] * np.sign(bracket)
+
+
+def widths(effects: Injected, count: int) -> Array:
+    """How far the loops of the accelerometers reach, (count,) s: before and after, where their delay is allowed for."""
+    b = effects["second-order-loop"]["b"] if "second-order-loop" in effects else np.zeros(count)
+    if np.any(b < 0):
+        raise UserError("b of second-order-loop must not be negative", found=f"{float(np.min(b)):g} s^2")
+    return np.sqrt(b)
+
+
+def loop_quadrature(width: float) -> tuple[tuple[float, float], ...]:
+    """Delays (s) and weights of 1/(1 - w^2 s^2): the past and the future, weighed by exp(-|x|/w)/(2 w)."""
+    return tuple((side * d, w / 2) for d, w in lag_quadrature(width) for side in (1.0, -1.0))
+
+
 LONGEST_LAG = 0.03
 """Time constant (s) up to which the quadrature is good to 1e-10 for forces below 2.5 Hz."""
 

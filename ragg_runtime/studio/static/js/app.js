@@ -14,6 +14,7 @@ import { sheetView } from "./views/sheet.js";
 import { historyView } from "./views/history.js";
 import { filesView } from "./views/files.js";
 import { applyView } from "./views/apply.js";
+import { surveyView } from "./views/survey.js";
 import { takeView } from "./views/take.js";
 import { help } from "./views/help.js";
 
@@ -24,6 +25,7 @@ const VIEWS = [
   ["history", "History", historyView],
   ["files", "Files", filesView],
   ["apply", "Apply", applyView],
+  ["survey", "Survey", surveyView],
   ["take", "Take away", takeView],
 ];
 const $ = (id) => document.getElementById(id);

@@ -87,8 +87,7 @@ export function applyView(main) {
         q.refused.map(([name, lines]) => h("p.note", {}, h("b", {}, name), ` ${lines.join(" ")}`)),
         q.limits.length ? h("div.wide", {}, h("table.numbers", {}, head(["limit", "allowed", "median", "worst", "lines beyond"]), h("tbody", {}, q.limits.map((x) => h("tr", {}, h("th", { scope: "row", title: x.what }, x.name), [x.value, x.median, x.worst, String(x.failed)].map((t) => h("td.n", {}, t))))))) : null,
         h("div.wide", {}, h("table.numbers", {}, head(["line", ...q.heads.map(([name, unit]) => `${name}, ${unit}`), "beyond"]), h("tbody", {}, q.rows.map((r) => h("tr", {}, h("th", { scope: "row" }, r.name), r.cells.map((t) => h("td.n", {}, t)), h("td.n", {}, r.failed)))))),
-      ] : null,
-      h("p.note", {}, "Hundreds of flights, on this machine or a Dask cluster: ", h("code", {}, "ragg survey")));
+      ] : null);
   };
 
   const known = () => {

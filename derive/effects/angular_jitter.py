@@ -1,0 +1,50 @@
+"""Unrecorded angular jitter of the platform: its squares are a centrifugal gradient."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.stages import Motion
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
+
+
+def sensing(m: Motion, p: Values, c: Context) -> Motion:
+    W = sp.Matrix(3, 3, lambda i, k: p[f"W_{''.join(sorted('xyz'[i] + 'xyz'[k]))}"])
+    # the mean of w x (w x r) is (W - tr W) r, and M holds -Gamma
+    return m._replace(Gamma=m.Gamma - c.channel("angular_vibration_rms") ** 2 * (W - W.trace() * sp.eye(3)))
+
+
+EFFECT = Effect(
+    id="angular-jitter",
+    title="Unrecorded angular jitter",
+    physics=(
+        "Angular vibration faster than the recorded rate averages to nothing, but its squares do not: the centrifugal "
+        "force of the jitter is a gradient that grows with the square of its level."
+    ),
+    source="paper, Eq. 9: the square of the angular rate; levels of 1e-4 rad/s, 10 Eo, on stabilised platforms",
+    equation=r"\langle[\bm\omega]_\times^2\rangle \mathrel{+}= (\bm W - \operatorname{tr}\bm W)\, w(t)^2",
+    limits=(
+        "Zero mean, fast against the turn of the disc, with constant directions; the level is recorded. A level that does "
+        "not change looks like gradient-offset."
+    ),
+    channels=("angular_vibration_rms",),
+    parameters=tuple(
+        EffectParameter(
+            f"W_{k}",
+            f"W_{{{k}}}",
+            "1",
+            f"covariance {k} of the rate over the square of the level",
+            1.0,
+            shared=True,
+        )
+        for k in COMPONENTS
+    ),
+    sensing=sensing,
+)

@@ -1,0 +1,46 @@
+"""Unrecorded vibration whose level is recorded, rectified by the second-order coefficients."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+from derive.rectified import rectified
+from derive.stages import SensedForce
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
+
+
+def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
+    level = c.channel("vibration_rms")
+    L = sp.Matrix(3, 3, lambda m, n: p[f"L_{''.join(sorted('xyz'[m] + 'xyz'[n]))}"])
+    return i + level**2 * rectified(L, c)
+
+
+EFFECT = Effect(
+    id="vibration-level",
+    title="Rectified vibration of a recorded level",
+    physics=(
+        "Vibration above the recorder's bandwidth comes and goes with power and air; its level is recorded, and "
+        "second-order coefficients leave of it a force that follows the square of that level."
+    ),
+    source="IEEE Std 1293, vibration rectification; a vibration meter's root mean square",
+    equation=r"\bm P(t) = \bm L\, v(t)^2, \text{ in the place of the constant } \bm P \text{ of vibration-rectification}",
+    limits=(
+        "As vibration-rectification; the vibration keeps its directions and shares while its level changes. What is "
+        "constant is vibration-rectification."
+    ),
+    channels=("vibration_rms",),
+    parameters=tuple(
+        EffectParameter(
+            f"L_{k}", f"L_{{{k}}}", "1", f"covariance {k} over the square of the level", 1.0, shared=True
+        )
+        for k in COMPONENTS
+    ),
+    transducer=transducer,
+)

@@ -1,0 +1,32 @@
+"""Recogniser of imu-saturation."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from generated.output_effects import saturation
+
+Array = NDArray[np.float64]
+
+CHANNELS = ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z")
+"""Columns that it is looked for in."""
+
+LATTICE = 5
+"""So many times as often as the next smaller value occurs the extreme one, or the channel is but coarsely quantised."""
+
+
+def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+    """Of a channel of the motion, (N,); the noise of the output does not matter."""
+    return bool(np.any(clipped(values, valid)))
+
+
+def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(N,): the samples at the end of the sensor's range, if it was reached."""
+    usable = valid & np.isfinite(values)
+    found = saturation.clipped(values, usable)
+    below = np.where(usable & ~found, np.abs(values), 0.0)
+    top = float(np.max(below))
+    if top == 0.0 or np.sum(found) < LATTICE * np.sum(below >= top * (1 - 1e-12)):
+        return np.zeros(len(values), dtype=np.bool_)
+    return found

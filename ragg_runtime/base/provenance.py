@@ -1,0 +1,55 @@
+"""What makes a result again: versions, digests of what was read, the command. No times: same input, same bytes."""
+
+from __future__ import annotations
+
+import platform
+import shlex
+import sys
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from ragg_runtime.base.form_version import VERSION, Form, installed
+
+LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
+"""What the numbers of a result depend on, beside this package."""
+
+RESULT = Form("the result")
+"""The JSON of a command; who wrote it stands in its ``provenance``."""
+
+
+def versioned(result: Mapping[str, Any]) -> dict[str, Any]:
+    """A JSON result with its version in front."""
+    return {VERSION: RESULT.version, **result}
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Name -> version of this package, Python and the libraries that results depend on."""
+    found = {"ragg": installed("ragg"), "python": platform.python_version()}
+    return found | {name: installed(name) for name in LIBRARIES}
+
+
+def command() -> str:
+    """The command line of this process, as a shell would read it again."""
+    return shlex.join(["ragg", *sys.argv[1:]])
+
+
+def provenance(
+    made_by: str,
+    model: Mapping[str, object] | None = None,
+    files: Sequence[tuple[str, str | None]] = (),
+) -> dict[str, object]:
+    """The object ``provenance`` of a JSON result.
+
+    Parameters
+    ----------
+    made_by
+        The command line.
+    model
+        What tells the model apart (:func:`ragg_runtime.model_dir.identity.identity`), where there is one.
+    files
+        The flights: path and SHA-256, ``None`` where there is no such file.
+    """
+    flights = [{"path": path, "digest": digest} for path, digest in files]
+    return {**versions(), **(model or {}), "flights": flights, "command": made_by}

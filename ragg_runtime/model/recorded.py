@@ -1,0 +1,172 @@
+"""What of an output a flight holds: its voltages, the output itself, or what a demodulator has made of it.
+
+Three classes with one protocol. Whoever fits, screens or reports a flight asks them; nobody asks which of the three it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from ragg_runtime.flight import Flight
+from ragg_runtime.flight.record import DEMODULATED
+from ragg_runtime.instrument.layout import Layout, Output
+from ragg_runtime.model.record import Record
+from ragg_runtime.signals.demodulators import Demodulator
+
+Array = NDArray[np.float64]
+
+
+class Recorded(Protocol):
+    """What of an output a flight holds, as m series over N samples."""
+
+    @property
+    def kind(self) -> str:
+        """One word for it, for programs."""
+
+    @property
+    def words(self) -> str:
+        """For people."""
+
+    @property
+    def separate(self) -> bool:
+        """Whether each accelerometer's voltage is a series of its own; else m = 1."""
+
+    @property
+    def demodulated(self) -> bool:
+        """Whether the recorder has demodulated it: then neighbouring samples are not independent, and the mean is lost."""
+
+    def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
+        """The columns that hold it, among those that a flight has; ``None`` if not all are there."""
+
+    def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
+        """What is fitted, m series (N,), V, made of its columns in SI; ``k_ggi`` in V s^2."""
+
+    def signs(self, o: Output) -> Array:
+        """(m,): how each series counts in the output."""
+
+    def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
+        """(m, N), V, before demodulation: of the members' voltages (members, N), or of one accelerometer's (N,)."""
+
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
+        """What the recorder lets pass of the output (..., N) before demodulation, by its low-pass or another one."""
+
+    def noise_share(self, r: Record) -> float:
+        """Variance of white noise of unit variance after :meth:`through`."""
+
+
+class _BeforeDemodulation:
+    """What the two forms have in common that no recorder has demodulated."""
+
+    demodulated = False
+
+    def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
+        return tuple(columns)
+
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
+        return G
+
+    def noise_share(self, r: Record) -> float:
+        return 1.0
+
+
+class _Sum:
+    """What the two forms have in common in which voltages are added up."""
+
+    separate = False
+
+    def signs(self, o: Output) -> Array:
+        return np.ones(1)
+
+    def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
+        signs = np.array(o.signs, dtype=np.float64)
+        G = signs @ v if accelerometer is None else signs[o.members.index(accelerometer - 1)] * v
+        return np.asarray(G[None])
+
+
+@dataclass(frozen=True)
+class Voltages(_BeforeDemodulation):
+    """The voltage of every accelerometer of the output: m = 4 in the paper's instrument."""
+
+    kind = "voltages"
+    words = "V_1 … V_4, each by itself"
+    separate = True
+
+    def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
+        return layout.voltages(o, held)
+
+    def signs(self, o: Output) -> Array:
+        return np.array(o.signs, dtype=np.float64)
+
+    def of_voltages(self, o: Output, v: Array, accelerometer: int | None) -> Array:
+        if accelerometer is None:
+            return v
+        full = np.zeros((len(o.members), v.shape[-1]))
+        full[o.members.index(accelerometer - 1)] = v
+        return full
+
+
+@dataclass(frozen=True)
+class Summed(_BeforeDemodulation, _Sum):
+    """The output itself, G_out: the sum of voltages with their signs (Eq. 15)."""
+
+    kind = "G_out"
+    words = "G_out"
+
+    def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
+        return (o.name,) if o.name in held else None
+
+
+@dataclass(frozen=True)
+class Channels(_Sum):
+    """Inline and cross alone, of an instrument's only output.
+
+    The data are the channels put back on their carriers, and every column passes through the same demodulator.
+    """
+
+    kind = "channels"
+    words = "inline and cross, put back on their carriers"
+    demodulated = True
+
+    def columns(self, layout: Layout, o: Output, held: Container[str]) -> tuple[str, ...] | None:
+        return DEMODULATED if len(layout.outputs) == 1 and all(n in held for n in DEMODULATED) else None
+
+    def series(self, columns: Sequence[Array], r: Record, k_ggi: float) -> tuple[Array, ...]:
+        inline, cross = columns
+        return (carried(inline, cross, r, k_ggi),)
+
+    def through(self, G: Array, r: Record, low: Demodulator | None = None) -> Array:
+        """Demodulated and put back on the carriers."""
+        taps = (low or r.low_pass).centred.reshape((1,) * (G.ndim - 1) + (-1,))
+        cosine, sine = r.quadratures
+        in_phase = signal.oaconvolve(2 * G * sine, taps, mode="same", axes=-1)
+        quadrature = signal.oaconvolve(2 * G * cosine, taps, mode="same", axes=-1)
+        cosine, sine = r.carriers
+        return np.asarray(in_phase * sine + quadrature * cosine)
+
+    def noise_share(self, r: Record) -> float:
+        return float(2 * np.sum(r.low_pass.taps**2))
+
+
+FORMS: tuple[Recorded, ...] = (Voltages(), Summed(), Channels())
+"""The most telling first."""
+
+
+def recorded(flight: Flight, layout: Layout, place: int) -> Recorded | None:
+    """What of an output a flight holds, the most telling; ``None``: nothing."""
+    o = layout.outputs[place]
+    return next((form for form in FORMS if form.columns(layout, o, flight.outputs) is not None), None)
+
+
+def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
+    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
+
+    ``k_ggi`` in V per unit of the channels.
+    """
+    cosine, sine = r.carriers
+    return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))

@@ -1,0 +1,79 @@
+"""`ragg simulate --spin`: discs that swing, go to and fro, turn backwards or stand still, against the derived model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight import read_flight, write_flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.workflow.spin import turning_of
+from tests.layouts import sheets
+from tests.layouts.test_layouts_physics import instrument, worst
+from tests.runtime.commands import ragg
+
+SPINS = {"varies": "0.25,0.4@0.05@0.3", "reverses": "0,9@0.02", "backwards": "-0.25", "stands still": "0"}
+LIMIT = 0.1
+"""Eo, nominal: what issues promise of a noise-free simulated instrument of the model's own order."""
+
+
+def of_paper() -> Instrument:
+    discs = '[disc]\nradius = "0.1 m"\nspin_frequency = "0.25 Hz"\ng0 = "9.8 m/s^2"\n'
+    return parse_instrument(sheets.sheet([discs], 4, sheets.EXACT).replace('g0 = "9.8 m/s^2"\n', "", 1))
+
+
+@pytest.mark.parametrize("spin", SPINS.values(), ids=SPINS)
+@pytest.mark.parametrize("layout", ["paper", "complements"])
+def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str, spin: str) -> None:
+    i = of_paper() if layout == "paper" else instrument(layout, sheets.EXACT)
+    flight = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=[spin])
+    assert "spin_angle" in flight.channels
+    assert worst(i, flight) < LIMIT
+    steady = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0)
+    name = i.layout.output_names[0]
+    away = np.std(flight.outputs[name] - steady.outputs[name])
+    assert away > 0.1 * np.std(steady.outputs[name])  # it does matter how the disc turns
+
+
+def test_each_disc_turns_as_it_is_told() -> None:
+    i = instrument("umbrella", sheets.EXACT)
+    flight = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=["A:0.2", "C:0,3@0.02"])
+    assert {"spin_angle_A", "spin_angle_C"} == {n for n in flight.channels if n.startswith("spin_angle")}
+    found = np.unwrap(flight.channels["spin_angle_A"])
+    assert found == pytest.approx(2 * np.pi * 0.2 * flight.time, abs=1e-12)
+    assert flight.channels["spin_angle_C"] == pytest.approx(
+        3 * np.sin(2 * np.pi * 0.02 * flight.time), abs=1e-12
+    )
+    assert worst(i, flight) < LIMIT
+
+
+def test_the_encoder_of_a_record_is_flown(tmp_path: Path) -> None:
+    i = instrument("complements", sheets.EXACT)
+    first = simulated(i, (), duration=60.0, noise=0.0, sheet_error=0.0, spin=[SPINS["varies"]])
+    write_flight(first, tmp_path / "first.csv")
+    again = simulated(i, (), noise=0.0, sheet_error=0.0, motion=tmp_path / "first.csv")
+    read = read_flight(tmp_path / "first.csv", i.g0, accelerometers=i.layout).channels["spin_angle"]
+    n = len(again.time)
+    gap = np.angle(np.exp(1j * (again.channels["spin_angle"] - read[:n])))
+    assert np.max(np.abs(gap)) < 1e-11
+    assert worst(i, again) < LIMIT
+    stated = turning_of(["0.3"], i.layout, first)["A"]
+    assert (stated.frequency, stated.recorded) == (0.3, None)  # what is asked for goes before
+
+
+@pytest.mark.parametrize("text", ["", "a", "0.25,1", "0.25,1@-2", "nan", "0.25,1@2@3@4", "B:0.25"])
+def test_what_is_no_turning_is_said(text: str) -> None:
+    with pytest.raises(UserError, match="disc"):
+        turning_of([text], instrument("complements").layout)
+
+
+def test_the_option(tmp_path: Path) -> None:
+    assert ragg("new", tmp_path / "m").returncode == 0
+    out = tmp_path / "flight.csv"
+    assert ragg("simulate", tmp_path / "m", "-o", out, "--duration", 5, "--spin", "-0.25").returncode == 0
+    assert np.all(np.diff(np.unwrap(read_flight(out, 9.8).channels["spin_angle"])) < 0)
