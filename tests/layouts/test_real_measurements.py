@@ -75,7 +75,6 @@ def test_misalignments_that_are_left_out_are_found() -> None:
     """By a sheet that is sure of its angles: the two sides are turned against each other by some milliradians."""
     d = story.diagnosed(story.LEFT_OUT["misalignments"])
     assert "imu-acceleration-misalignment" in d.found
-    assert {x.name for x in d.off_sheet} & {"beta_z", "vartheta_y", "vartheta_z"}
     first = next(r for r in d.ranking if r.effect == "imu-acceleration-misalignment")
     m = {q.name: q.value for q in first.parameters}
     assert m["m_xy"] == pytest.approx(-m["m_yx"], abs=5e-4)  # a turn about z
