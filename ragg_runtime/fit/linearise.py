@@ -12,7 +12,8 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.instrument.units import EOTVOS, Units, units
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import Record
 
 Array = NDArray[np.float64]

@@ -16,8 +16,8 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.model import Chain
 from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate

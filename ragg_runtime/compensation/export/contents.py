@@ -16,8 +16,9 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings, gain, sees
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import named, scale_factor
-from ragg_runtime.model.model import Chain, Model
+from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS, SPIN, Record, phase
 
 Array = NDArray[np.float64]

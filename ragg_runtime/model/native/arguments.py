@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.chain import Chain
 
 Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.layout import PAPER, Layout
-from ragg_runtime.model.model import Chain
+from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.native.arguments import Base, Case, Series, cut, in_parts, into
 from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 from ragg_runtime.model.native.library import Library
