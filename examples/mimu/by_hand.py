@@ -1,4 +1,4 @@
-"""What the record of the array shows without any model: clocks of the chips, and whose the residual is.
+"""What the record of the array shows without any model: clocks of the chips, whose the residual is, sensitivity to gravity.
 
 python -m examples.mimu.by_hand RAW.bin.gz
 """
@@ -10,55 +10,30 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
-from scipy.ndimage import binary_dilation
 
-from examples.mimu.record import PLACES, RATE, REST, read
+from examples.mimu.clocks import at_one_instant, clocks, slope
+from examples.mimu.record import CORNERS, HALF, PLACES, RATE, REST, Array, read
+from examples.mimu.variants import tangents, trusted
 
-Array = NDArray[np.float64]
+THICK = 1e-3
+"""Half the distance of the two sides of the board, m."""
 
-BESIDE = 7
-"""Samples about a saturated one that are left out."""
+ROUNDS = 3
+"""Times that the chips' own errors are taken out beside the rigid body."""
 
-SWIFT = 500.0
-"""rad/s^2 from which an age can be told from what a gyroscope reads."""
-
-
-def ages(rate: Array, good: NDArray[np.bool_]) -> tuple[float, Array]:
-    """How old what a chip's gyroscopes read is, against the mean of all, s: standard deviation and quantiles (5).
-
-    Of each chip first its own gains, axes, delay and bias are taken out.
-    """
-    omega = rate.mean(axis=1)
-    t = np.arange(len(omega)) / RATE
-    alpha = make_interp_spline(t, omega, k=5).derivative()(t)
-    swift = good & (np.linalg.norm(alpha, axis=1) > SWIFT)
-    found = []
-    for k in range(rate.shape[1]):
-        left = np.empty_like(omega)
-        for i in range(3):
-            X = np.column_stack([omega, alpha[:, i], np.ones(len(t))])
-            p = np.linalg.lstsq(X[good], rate[good, k, i], rcond=None)[0]
-            left[:, i] = rate[:, k, i] - X @ p
-        found.append(-np.sum(left * alpha, axis=1)[swift] / np.sum(alpha**2, axis=1)[swift])
-    every = np.concatenate(found)
-    return float(np.std(every)), np.quantile(every, [0.05, 0.25, 0.5, 0.75, 0.95])
+WRONG = 17.0
+"""s by which ages are shifted as a counter-check."""
 
 
 def shared(force: Array, rate: Array, good: NDArray[np.bool_]) -> tuple[float, float]:
     """rms of what specific force and rotation leave of the front's G_out, m/s^2; and with the back's G_out as well."""
     omega = rate.mean(axis=1)
-    t = np.arange(len(omega)) / RATE
-    alpha = make_interp_spline(t, omega, k=5).derivative()(t)
     sums = []
     for side in (0, 1):
-        total = np.zeros(len(t))
-        for (corner, degrees), sign in zip(PLACES, (1, 1, -1, -1), strict=True):
-            angle = np.deg2rad(degrees)
-            total += sign * force[:, 2 * corner + side] @ np.array([-np.sin(angle), np.cos(angle), 0.0])
-        sums.append(total)
+        each = [force[:, 2 * corner + side] @ t for (corner, _), t in zip(PLACES, tangents(), strict=True)]
+        sums.append(each[0] + each[1] - each[2] - each[3])
     squares = [omega[:, i] * omega[:, k] for i in range(3) for k in range(i, 3)]
-    X = np.column_stack([force[:, 1::2].mean(axis=1), alpha, *squares, np.ones(len(t))])
+    X = np.column_stack([force[:, 1::2].mean(axis=1), slope(omega), *squares, np.ones(len(omega))])
     moving = good & (np.linalg.norm(omega, axis=1) > REST)
     left = []
     for columns in (X, np.column_stack([X, sums[1]])):
@@ -67,13 +42,74 @@ def shared(force: Array, rate: Array, good: NDArray[np.bool_]) -> tuple[float, f
     return left[0], left[1]
 
 
+def rigid(force: Array, omega: Array, good: NDArray[np.bool_]) -> tuple[Array, Array]:
+    """(N, 24) m/s^2: what one rigid body leaves of all accelerometers of the array; and (24, 6), what such a body does to them.
+
+    ``force`` (N, 8, 3) m/s^2, ``omega`` (N, 3) rad/s. The body has three accelerations and three angular ones a sample; the chips'
+    gains, axes, places and biases are taken out.
+    """
+    corners = [(HALF * x, HALF * y, z) for x, y in CORNERS for z in (THICK, -THICK)]
+    lever = [np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]) for x, y, z in corners]
+    H = np.concatenate([np.hstack([np.eye(3), m]) for m in lever])
+    places = np.array(corners)
+    x = (force - np.cross(omega[:, None], np.cross(omega[:, None], places))).reshape(len(force), 24)
+    squares = np.stack([omega[:, i] * omega[:, k] for i in range(3) for k in range(i, 3)], axis=1)
+    P = np.linalg.pinv(H)
+    for _ in range(ROUNDS):
+        body = x @ P.T
+        X = np.column_stack([body, squares, slope(squares), omega, np.ones(len(x))])
+        x = x - X @ np.linalg.lstsq(X[good], (x - body @ H.T)[good], rcond=None)[0]
+    return x - x @ P.T @ H.T, H
+
+
+def explained(left: Array, H: Array, age: Array) -> float:
+    """Share of the power of what a rigid body leaves, (n, 24), that one jerk a sample takes, times the age (n, 8) of each chip.
+
+    Three numbers of the eighteen that are free: of ages that say nothing it would be a sixth.
+    """
+    Q = np.eye(24) - H @ np.linalg.pinv(H)
+    A = Q @ (np.repeat(age, 3, axis=1)[:, :, None] * H[:, :3])
+    U, _, _ = np.linalg.svd(A, full_matrices=False)
+    return float(np.sum(np.einsum("nik,ni->nk", U, left) ** 2) / np.sum(left**2))
+
+
+def of_clocks(force: Array, rate: Array, saturated: NDArray[np.bool_]) -> tuple[float, float]:
+    """The share of :func:`explained` by the clocks that the gyroscopes tell, and by ages of another time."""
+    good = trusted(saturated)
+    t = np.arange(len(rate)) / RATE
+    age = np.stack([c.age(t) for c in clocks(rate, good)], axis=1)
+    omega = at_one_instant(rate, age).mean(axis=1)
+    left, H = rigid(force, omega, good)
+    use = good & (np.linalg.norm(omega, axis=1) > REST)
+    other = np.roll(age, round(WRONG * RATE), axis=0)
+    return explained(left[use], H, age[use]), explained(left[use], H, other[use])
+
+
+def gravity_on_rates(force: Array, rate: Array) -> tuple[float, float]:
+    """What gravity does to the gyroscopes, by what they read at rest, deg/s per g: largest of nine coefficients of their mean,
+    and what chance makes of it, 3 sigma.
+
+    ``force``, ``rate`` (n, 3): mean of each rest.
+    """
+    X = np.column_stack([force / 9.81, np.ones(len(force))])
+    p, *_ = np.linalg.lstsq(X, rate, rcond=None)
+    scatter = np.std(rate - X @ p, axis=0, ddof=4)
+    std = np.sqrt(np.diag(np.linalg.inv(X.T @ X)))[:3, None] * scatter
+    return float(np.rad2deg(np.max(np.abs(p[:3])))), float(np.rad2deg(3.0 * np.max(std)))
+
+
 def main(raw: str) -> None:
     force, rate, saturated = read(Path(raw))
-    good = ~binary_dilation(saturated, np.ones(2 * BESIDE + 1))
-    good[:20] = good[-20:] = False
-    std, quantiles = ages(rate, good)
-    print(f"age of a gyroscope's sample: standard deviation {1e3 * std:.2f} ms (evenly over 1 ms: 0.29)")
-    print("  quantiles 5, 25, 50, 75, 95 %:", " ".join(f"{1e3 * q:+.2f}" for q in quantiles), "ms")
+    good = trusted(saturated)
+    for k, c in enumerate(clocks(rate, good)):
+        print(
+            f"chip {k + 1}: clock slips at {c.slip:.3f} Hz, which explains {100 * c.share:.0f} % of its ages' scatter"
+        )
+    here, other = of_clocks(force, rate, saturated)
+    print(
+        "What one rigid body leaves of all accelerometers while it moves: one jerk a sample, times the age of each chip, is "
+        f"{100 * here:.0f} % of it ({100 * other:.0f} % with the ages of another time)"
+    )
     alone, together = shared(force, rate, good)
     print(
         f"G_out of the front, moving: {alone:.2f} m/s^2 left by the motion, {together:.2f} with that of the back as well"

@@ -1,4 +1,4 @@
-"""From the raw packets of the array to two flights: its rests, and its motion.
+"""From the raw packets of the array to two flights: its rests, and its motion; and the packets of that.
 
     python -m examples.mimu.record RAW.bin.gz FOLDER
 
@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import gzip
 import sys
+from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -53,19 +55,23 @@ LENGTH = 45.0
 """Length of the second record, which begins there, s: as small as serves."""
 
 
-def packets(raw: bytes) -> NDArray[np.int16]:
-    """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis; broken packets are left out."""
-    found, at = [], 0
+def whole_packets(raw: bytes) -> Iterator[slice]:
+    """Where the whole packets of a recording stand; broken ones are left out."""
+    at = 0
     while at + 106 <= len(raw):
-        length = raw[at + 3]
-        body = raw[at : at + 4 + length]
-        whole = raw[at] == 0xAA and length == 100
-        if not whole or sum(body) & 0xFFFF != int.from_bytes(raw[at + 4 + length : at + 6 + length], "big"):
+        end = at + 6 + raw[at + 3]
+        whole = raw[at] == 0xAA and raw[at + 3] == 100
+        if whole and sum(raw[at : end - 2]) & 0xFFFF == int.from_bytes(raw[end - 2 : end], "big"):
+            yield slice(at, end)
+            at = end
+        else:
             at += 1
-            continue
-        found.append(np.frombuffer(body[8:104], ">i2").reshape(8, 2, 3).astype(np.int16))
-        at += 6 + length
-    return np.array(found)
+
+
+def packets(raw: bytes) -> NDArray[np.int16]:
+    """(N, 8, 2, 3) counts: sensor, accelerometer or gyroscope, axis."""
+    bodies = (raw[p][8:104] for p in whole_packets(raw))
+    return np.array([np.frombuffer(b, ">i2").reshape(8, 2, 3).astype(np.int16) for b in bodies])
 
 
 def read(path: Path) -> tuple[Array, Array, NDArray[np.bool_]]:
@@ -146,6 +152,9 @@ def main(raw: str, folder: str) -> None:
     write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")
     moving = [x[start:end] for x in (force, rate, saturated)]
     write_flight(motion(*moving), there / "motion.parquet")
+    plain = gzip.decompress(Path(raw).read_bytes())
+    kept = b"".join(plain[p] for p in islice(whole_packets(plain), start, end))
+    (there / "motion.bin.gz").write_bytes(gzip.compress(kept, mtime=0))
 
 
 if __name__ == "__main__":

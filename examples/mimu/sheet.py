@@ -5,8 +5,10 @@ from __future__ import annotations
 PLACES = (("A1", 45, 1), ("A2", 225, 1), ("A3", 135, -1), ("A4", 315, -1))
 
 
-def sheet(height: str = "2 mm", radius: str = "13.364 mm", lift: str = "5", arm: str = "0.5") -> str:
-    """The sheet; ``lift`` deg and ``arm`` mm say how sure it is of beta_x and dR."""
+def sheet(
+    height: str = "2 mm", radius: str = "13.364 mm", lift: str = "5", arm: str = "0.5", bias: str = "60"
+) -> str:
+    """The sheet; ``lift`` deg, ``arm`` mm and ``bias`` mg say how sure it is of beta_x, dR and K0."""
     text = [
         "# Four of eight MEMS accelerometers on a board, along the tangents of the circle through them: a gradiometer",
         "# that stands still. The measurement frame's origin is amidst the four on the back, 2 mm below.",
@@ -38,7 +40,7 @@ def sheet(height: str = "2 mm", radius: str = "13.364 mm", lift: str = "5", arm:
             f'{n} = {{ value = 0, sigma = 3, unit = "deg" }}'
             for n in ("beta_z", "vartheta_x", "vartheta_y", "vartheta_z")
         ),
-        'K0 = { value = 0, sigma = 60, unit = "mg" }',
+        f'K0 = {{ value = 0, sigma = {bias}, unit = "mg" }}',
         'K1 = { value = 1, sigma = 0.03, unit = "A/g" }',
         *(f'K{n} = {{ value = 0, sigma = 2, unit = "mg/g^2" }}' for n in (2, 4, 5, 6, 7, 8)),
         'k_VI = { value = 1, unit = "ohm" }',

@@ -51,11 +51,15 @@ class Found:
     effect: dict[str, tuple[float, float]]
 
 
-UNLIFTED = sheet(height="0 mm", lift="10")
+LOUD = "5000"
+"""mg that a sheet must leave open of K0 for the diagnosis to take what is left in motion for noise: far more than the bias of
+such accelerometers. By itself it says that the noise is more than they can have, and concludes nothing; why that is, tells the page."""
+
+UNLIFTED = sheet(height="0 mm", lift="10", bias=LOUD)
 """A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not."""
 
 LEFT_OUT: Mapping[str, str] = {
-    "lever arm": sheet(height="0 mm", lift="0.3"),
+    "lever arm": sheet(height="0 mm", lift="0.3", bias=LOUD),
     "misalignments": re.sub(r"((?:beta_z|vartheta_.) = .*?sigma = )3", r"\g<1>0.02", UNLIFTED),
     "gyro scale": UNLIFTED,
 }
@@ -66,22 +70,23 @@ MISREAD = 1.03
 
 
 def flights(i: Instrument, motion: Path, misread: float = 1.0) -> list[Flight]:
-    """Rests and motion, the rates times a factor."""
-    read = (read_flight(p, i.g0, accelerometers=i.layout) for p in (HERE / "rests.parquet", motion))
+    """Rests and motion, the rates times a factor; channels of the motion alone are zero at rest."""
+    rests, moved = (read_flight(p, i.g0, accelerometers=i.layout) for p in (HERE / "rests.parquet", motion))
+    still = {n: np.zeros(len(rests)) for n in moved.channels if n not in rests.channels}
+    rests = replace(rests, channels={**rests.channels, **still})
     return [
         replace(x, channels={n: v * misread if n in ANGULAR_RATE else v for n, v in x.channels.items()})
-        for x in read
+        for x in (rests, moved)
     ]
 
 
 def calibrated(
     text: str, effects: tuple[str, ...] = (), motion: Path = HERE / "motion.parquet", misread: float = 1.0
 ) -> Found:
-    """Calibrate a sheet, with these effects in the model."""
+    """Calibrate a sheet, with these effects in the model beside its own."""
     i = parse_instrument(text)
-    k = derive.known(i)
-    model, _ = derive.derived(tuple(k.get(e) for e in effects), (), i.form, i.layout)
-    i = i.with_effects(tuple(EffectSetting(e) for e in effects))
+    i = i.with_effects((*i.effects, *(EffectSetting(e) for e in effects)))
+    model = derive.without_signatures(i, i.form)
     f = fit(model, i, observations_of(flights(i, motion, misread), i))
     c = f.calibration
     std = np.sqrt(np.diag(c.covariance)) * np.array([q.scale for q in c.columns])
@@ -107,10 +112,10 @@ def calibrated(
     )
 
 
-def diagnosed(text: str, misread: float = 1.0) -> Diagnosis:
+def diagnosed(text: str, misread: float = 1.0, motion: Path = HERE / "motion.parquet") -> Diagnosis:
     """What ``ragg diagnose`` says of rests and motion."""
     i = parse_instrument(text)
-    both = flights(i, HERE / "motion.parquet", misread)
+    both = flights(i, motion, misread)
 
     def extended(model: Model, ids: object, /, *, candidates: bool = False) -> Model:
         return derive.with_effects(i, model, tuple(ids), candidates=candidates)  # type: ignore[call-overload]
@@ -225,8 +230,8 @@ def ranked(d: Diagnosis, most: int = 4) -> str:
     rows = [
         (
             f"`{r.effect}`",
-            f"{r.log_p / np.log(10.0):.0f}",
-            ", ".join(f"{q.name} = {q.value:.3g} ± {q.std:.1g} {q.unit}" for q in r.parameters[:3]),
+            f"{r.log_p / np.log(10.0):.0f}" if np.isfinite(r.log_p) else "certain",
+            ", ".join(f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit}" for q in r.parameters[:3]),
         )
         for r in d.ranking[:most]
     ]
@@ -234,6 +239,19 @@ def ranked(d: Diagnosis, most: int = 4) -> str:
     left = [f"{x['harmonic']} × `{x['term']}`" for x in d.terms()[:3]] if d.verdict == "unexplained" else []
     more = [f"left over: {', '.join(left)}"] if left else []
     return table(("effect", "log10 p", "parameters"), rows) + "; ".join([said, *more]) + "."
+
+
+def left_over(d: Diagnosis, most: int = 6) -> str:
+    """What a diagnosis finds left, term by term."""
+    rows = [
+        (
+            f"{x['harmonic']} × `{x['term']}`",
+            f"{x['coefficient']:+.3f} V/(m/s²)",
+            f"{abs(float(str(x['z']))):.0f}",
+        )
+        for x in d.terms()[:most]
+    ]
+    return table(("left over", "coefficient", "sigma"), rows) + f"\n\nVerdict: `{d.verdict}`."
 
 
 def treatments(cases: Mapping[str, Found]) -> str:

@@ -16,6 +16,7 @@ from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit import off_sheet
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error, least
 from ragg_runtime.flight import Flight
@@ -48,10 +49,12 @@ def _error(e: Error) -> str:
     return " ".join(f"{x:{w}.{d}g}" if np.isfinite(x) else f"{'-':>{w}}" for x, w, d in values)
 
 
-def _missing(errors: Sequence[Error], flights: Sequence[Flight]) -> list[str]:
+def _missing(errors: Sequence[Error], flights: Sequence[Flight], f: Fitted) -> list[str]:
     """Why some demodulated channels have no value, if any lack one."""
     if all(np.isfinite((e.inline_Eo, e.cross_Eo)).all() for e in errors) or not flights:
         return []
+    if not any(o.record.turning for o in f.observations):
+        return ["-: of a disc that stands still nothing is demodulated"]
     longest = max(least(x.rate) for x in flights)
     return [
         f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
@@ -71,13 +74,15 @@ def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
 
 
-def errors_table(rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight]) -> list[str]:
+def errors_table(
+    rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight], f: Fitted
+) -> list[str]:
     """Errors, the first before anything was done, above the noise floor; why some have no value."""
     return [
         _HEAD,
         *(f"{label:12} {_error(e)}" for label, e in rows),
         f"{'noise floor':12} {noise:12.5g}",
-        *_missing([e for _, e in rows[1:]], flights),
+        *_missing([e for _, e in rows[1:]], flights, f),
     ]
 
 
@@ -118,6 +123,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
             (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
             c.noise_floor,
             flights,
+            f,
         ),
         "",
         *_not_converged(c.complaint),
@@ -209,7 +215,7 @@ def added(a: Added, flights: Sequence[Flight] = (), mapping: Path | None = None)
     if a.before is not None and a.after is not None:
         rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            *errors_table(rows, a.after.noise_floor, flights),
+            *errors_table(rows, a.after.noise_floor, flights, a.after.fitted),
             "",
             *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,

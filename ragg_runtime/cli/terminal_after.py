@@ -27,7 +27,7 @@ def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
     lines = [
         f"{', '.join(x.name for x in flights)}: {c.fitted.calibration.rows} samples, effects in the model: "
         f"{', '.join(found['effects']) or 'none'}",
-        *errors_table(rows, floor, flights),
+        *errors_table(rows, floor, flights, c.fitted),
         "" if c.converged else "\nThe fit has NOT converged: do not rely on these values.",
         f"the record determines {seen} of {of} directions of the parameters; the sheet alone says the others:",
         *(f"  {notebook.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),

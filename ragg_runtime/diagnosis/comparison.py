@@ -28,7 +28,7 @@ from ragg_runtime.lack_of_fit.dictionary import carrier, harmonics
 from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.fir import convolved
 from ragg_runtime.wording import notebook
 
@@ -164,6 +164,8 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
     counted = 0
     for x, k_ggi in zip(f.prepared, f.scales, strict=True):
         rate = x.observation.record.rate
+        if not demodulable(rate):
+            continue
         taps = low_pass(rate)
         if len(x.observation.record.time) < 2 * len(taps):
             continue

@@ -56,8 +56,9 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     root = _root(f, x.edges, samples, places)
     exact: dict[str, float] = {}
     for n, (e, (step, given)) in enumerate(scans.items()):
-        so_far = list(samples)[: n + 1]
-        field = _with_penalty(f, [*available, *so_far], _picked(root, f, so_far, places))
+        so_far = {e: samples[e] for e in list(samples)[: n + 1]}
+        begun = [_stepped(t, k, so_far, places) for t, k in zip(triangles, x.edges[:-1], strict=True)]
+        field = _with_penalty(f, [*available, *so_far], _picked(root, f, list(so_far), places), begun)
         if e in selection.choose(field).chosen:
             step = special.refined(x, step, f.n_base, given, owned[e], f.to_nominal)
             projector = prepared_flight.projector(triangles, f.n_base, given)
@@ -121,7 +122,9 @@ def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, S
     return below(root, f.n_base, column)
 
 
-def _with_penalty(f: Fitted, effects: Sequence[str], T: Array | None = None) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
+def _with_penalty(
+    f: Fitted, effects: Sequence[str], T: Array | None = None, blocks: Sequence[Array] | None = None
+) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant; on other triangles if they are given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(field_of(f, effects, T), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(field_of(f, effects, T, blocks), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import likelihood_ratio
+from ragg_runtime.evidence import likelihood_ratio, uneven
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
@@ -54,6 +54,8 @@ class Field:
         Whitened norm of every candidate column before projection.
     freedom
         Degrees of freedom from which the noise is known.
+    blocks
+        Triangles of the blocks of time, where the noise is uneven: they temper the tests (``uneven``).
     """
 
     T: Array
@@ -62,6 +64,7 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
+    blocks: tuple[Array, ...] = ()
     norms: Array = field(init=False)
     P: Array = field(init=False)
 
@@ -97,11 +100,22 @@ class Field:
         P, floor = self.P, self.floor
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
-        return {
+        found = {
             e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
             if e not in given
         }
+        return {e: self._tempered(t, given, floor) for e, t in found.items()} if self.blocks else found
+
+    def _tempered(self, t: Test, given: Sequence[str], floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are; those that say nothing anyway stay as they are."""
+        if not t.rank or t.log_p > np.log(FAMILY):
+            return t
+        n = self.n_base
+        before = [*range(n), *(n + k for e in given for k, _ in self.candidates[e])]
+        tested = [n + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        by = uneven.inflation(self.T, self.blocks, before, tested)
+        return uneven.tempered(t, by, self.freedom, len(uneven.telling(self.blocks)))
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -201,12 +215,27 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Field:
-    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
+def field_of(
+    f: Fitted, available: Sequence[str], T: Array | None = None, blocks: Sequence[Array] | None = None
+) -> Field:
+    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns.
+
+    ``blocks`` are the triangles of the blocks of time that belong to it.
+    """
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    return Field(f.whole if T is None else T, f.n_base, kept, f.calibration.rows, freedom=freedom)
+    loud = any(n.level.parts for n in f.calibration.noise)
+    if blocks is None:
+        blocks = [t for own in f.triangles for t in own]
+    return Field(
+        f.whole if T is None else T,
+        f.n_base,
+        kept,
+        f.calibration.rows,
+        freedom=freedom,
+        blocks=tuple(blocks) if loud else (),
+    )
 
 
 def testable_effects(f: Fitted) -> list[str]:

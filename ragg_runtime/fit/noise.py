@@ -18,7 +18,7 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
-from ragg_runtime.flight.record import SPECIFIC_FORCE
+from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import noise_level
 from ragg_runtime.signals.fir import filtered
@@ -161,6 +161,9 @@ def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
 def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
     """How loud the noise is from sample to sample, bursts left out: they have been said."""
     names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in o.record.wide)]
+    names += [
+        f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(o.record.wide)
+    ]
     names += ["phi"] if o.record.turning else []
     names += [] if o.record.valid.all() else ["gap"]
     quiet = np.array(o.record.valid)

@@ -55,7 +55,7 @@ def channels(
     residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
 ) -> tuple[Array, Array, Array]:
     """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass has :func:`heard` the selection."""
-    if len(residual) < shortest_demodulated(r.rate) or not r.turning:
+    if not r.turning or len(residual) < shortest_demodulated(r.rate):
         return np.empty(0), np.empty(0), np.empty(0)
     e = np.where(selected & r.valid, residual, 0.0)
     d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi) + r.phase / 2, r.rate, k_ggi / EOTVOS)
@@ -154,7 +154,7 @@ class Tally:
 
     def __init__(self, k: int, groups: int, rate: float, *, turning: bool = True) -> None:
         self._turning = turning  # of a disc that stands still there is nothing to demodulate
-        self._taps = low_pass(rate)
+        self._taps = low_pass(rate) if turning else np.ones(1)
         self.samples = np.zeros(groups)
         self.squares = np.zeros((groups, k))
         self.demodulated = np.zeros(groups)

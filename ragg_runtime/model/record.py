@@ -145,7 +145,7 @@ class Record:
 
     def quantity(self, name: str) -> Array:
         """(N,): what a level of noise may follow: ``time``, ``phi`` (from 0 to 2 pi), ``gap`` (samples from the next that is
-        not valid), or ``abs(CHANNEL)``.
+        not valid), ``abs(CHANNEL)``, or ``abs(VECTOR)``, its length.
         """
         if name == "time":
             return self.time
@@ -153,7 +153,10 @@ class Record:
             return _from_gap(self.valid)
         if name == "phi":
             return np.asarray(np.mod(self.phi, 2 * np.pi))
-        return np.abs(self.channels[name[4:-1]])
+        inner = name[4:-1]
+        if inner in self.channels:
+            return np.abs(self.channels[inner])
+        return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
 
     def part(self, rows: slice) -> Record:
         """Some of the samples, copied, with what derivatives need of their neighbours."""

@@ -13,7 +13,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.plausibility.quick_fit import Explained, explain
 from ragg_runtime.plausibility.subsample import Picker
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.demodulate import demodulable, low_pass
 
 Array = NDArray[np.float64]
 
@@ -175,7 +175,7 @@ def _lags(instrument: Instrument, p: Picker) -> Sequence[int]:
     """Samples by which the motion may be late: where the demodulated output resembles a_x + i a_y most."""
     x = p.flight
     f = abs(p.disc.spin_frequency)
-    if p.recorded.demodulated or (f > 0 and x.duration < 3 / f):
+    if p.recorded.demodulated or not demodulable(x.rate) or (f > 0 and x.duration < 3 / f):
         return ()
     n = min(len(x), LONGEST)
     whole = p.pick(np.arange(n))

@@ -135,7 +135,7 @@ def channel_noise(f: Fitted) -> tuple[float, float]:
     values = [
         [demodulated_noise(w, k, abs(w.observation.record.spin_frequency), 2, a) for a in (4.0, 2.0)]
         for w, k in zip(f.prepared, f.scales, strict=True)
-        if _long(w) and w.observation.record.turning
+        if w.observation.record.turning and _long(w)
     ]
     if not values:
         return float("nan"), float("nan")

@@ -86,6 +86,11 @@ def low_pass(
     return np.asarray(taps / np.sum(taps), dtype=np.float64)
 
 
+def demodulable(rate: float) -> bool:
+    """Whether a record of this rate, Hz, has room for the low-pass: of a disc that stands still it need not."""
+    return rate / 2 > CUTOFF + WIDTH / 2
+
+
 def demodulate(
     G_out: ArrayLike,
     phi: ArrayLike,

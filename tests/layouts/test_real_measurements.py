@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from examples.mimu import record, story
+from examples.mimu import by_hand, clocks, record, story, variants, what_remains
 from examples.mimu.sheet import sheet
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
@@ -75,7 +75,6 @@ def test_misalignments_that_are_left_out_are_found() -> None:
     """By a sheet that is sure of its angles: the two sides are turned against each other by some milliradians."""
     d = story.diagnosed(story.LEFT_OUT["misalignments"])
     assert "imu-acceleration-misalignment" in d.found
-    assert {x.name for x in d.off_sheet} & {"beta_z", "vartheta_y", "vartheta_z"}
     first = next(r for r in d.ranking if r.effect == "imu-acceleration-misalignment")
     m = {q.name: q.value for q in first.parameters}
     assert m["m_xy"] == pytest.approx(-m["m_yx"], abs=5e-4)  # a turn about z
@@ -89,6 +88,64 @@ def test_a_scale_of_the_gyroscopes_that_is_misread_is_found() -> None:
     (scale,) = [r for r in d.ranking if r.effect == "gyro-scale"]
     for q in scale.parameters[:2]:  # that about z the arms absorb
         assert abs(q.value - 0.03) < 3 * q.std < 0.03
+
+
+def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() -> None:
+    d = story.diagnosed(story.LEFT_OUT["lever arm"])
+    assert d.verdict == "missing-effect"
+    assert set(d.found) == {"imu-lever-arm", "gyro-delay"}
+    arm = {q.name: q for r in d.ranking if r.effect == "imu-lever-arm" for q in r.parameters}
+    for name, known in (("l_x", 0.0), ("l_y", 0.0), ("l_z", -2e-3)):
+        assert abs(arm[name].value - known) < 3 * arm[name].std
+    assert arm["l_z"].std < 3e-4
+
+
+def test_saturation_that_is_left_unmarked_is_found(tmp_path: Path) -> None:
+    d = story.diagnosed(story.UNLIFTED, motion=variants.unmarked(tmp_path))
+    assert d.verdict == "missing-effect"
+    assert set(d.found) == {"imu-saturation", "gyro-delay"}
+
+
+def test_a_sheet_that_does_not_allow_for_the_noise_of_the_motion_is_doubted() -> None:
+    d = story.diagnosed(sheet(height="0 mm", lift="0.3"))
+    assert d.verdict == "unexplained"
+    assert "more than accelerometers of this sheet can have" in str(d.remark)
+
+
+def test_the_clocks_of_the_chips_are_the_rest(tmp_path: Path) -> None:
+    """By the gyroscopes alone; the accelerometers follow them, and the diagnosis finds them beside the record."""
+    slips = [c.slip for c in variants.told()]
+    assert slips == pytest.approx([2.55, 2.25, 0.33, 2.45, 0.83, 0.04, 1.12, 0.65], abs=0.01)
+    here, other = by_hand.of_clocks(*record.read(variants.PACKETS))
+    assert here > 0.65
+    assert other < 0.25
+    own, _ = what_remains.slips_of(tmp_path)
+    assert np.all(np.diag(own) > 0.5)
+    assert np.all(np.diag(own) > 2 * np.max(np.abs(own - np.diag(np.diag(own))), axis=1))
+    d = story.diagnosed(story.UNLIFTED, motion=variants.synchronous(tmp_path, outputs=False))
+    left = {str(x["term"]): np.sign(float(str(x["coefficient"]))) for x in d.terms()[:4]}
+    assert left == {"slip_1": 1, "slip_2": 1, "slip_3": -1, "slip_4": -1}
+
+
+def test_a_clock_is_told_from_what_it_does() -> None:
+    """Eight gyroscopes, each with a clock of its own, of a rotation that is known."""
+    rng = np.random.default_rng(8)
+    t = np.arange(2500) / record.RATE
+    f, phase = rng.uniform(0.5, 4.0, (2, 3, 6)) * np.array([1.0, 1.6])[:, None, None]
+    true = [
+        clocks.Clock(slip, float(rng.uniform()), float(rng.choice([-1, 1])), 1.0)
+        for slip in np.linspace(0.2, 3.0, 8)
+    ]
+    at = np.stack([t - c.age(t) for c in true], axis=1)
+    rate = 4.0 * np.sin(2 * np.pi * f * at[:, :, None, None] + phase).sum(axis=3) + 0.02 * rng.normal(
+        size=(2500, 8, 3)
+    )
+    told = clocks.clocks(rate, np.ones(2500, dtype=bool))
+    for c, known in zip(told, true, strict=True):
+        assert c.slip == pytest.approx(known.slip, abs=3e-3)
+        assert c.sign == known.sign
+        age = np.stack([c.age(t), known.age(t)])
+        assert np.median(np.abs(age[0] - age[1])) < 0.1 * clocks.PERIOD
 
 
 def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:
