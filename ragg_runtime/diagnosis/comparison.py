@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
-from ragg_runtime.diagnosis.doubts import doubts
+from ragg_runtime.diagnosis.doubts import spoiled, too_loud
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
@@ -233,7 +233,7 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    doubt = doubts(f, output_explained)
+    doubt = spoiled(f, output_explained) or too_loud(f)
     quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
     adequate = quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(

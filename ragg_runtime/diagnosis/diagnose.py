@@ -22,7 +22,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
-from ragg_runtime.diagnosis.doubts import doubts
+from ragg_runtime.diagnosis.doubts import spoiled, too_loud
 from ragg_runtime.diagnosis.explained import explained
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
@@ -106,7 +106,7 @@ def diagnose_fitted(
     after, held_out = target.score([v, half])
     noise = fitted_.noise_floor(target)
     output_explained = explained(target, after)
-    doubt = doubts(target, output_explained)
+    doubt, noisy = spoiled(target, output_explained), too_loud(target)
     complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
     # noise that follows the motion is louder where the motion is: a random effect says so itself
     loud = comparison.loud(target, after, noise) and not random_found
@@ -114,7 +114,7 @@ def diagnose_fitted(
         verdict, found = "unexplained", []
     else:
         found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
-        verdict = "missing-effect" if found else "adequate"
+        verdict = "missing-effect" if found else "adequate" if noisy is None else "unexplained"
     by_terms = sum(s.chi2 for s in rem.searches) if remains else 0.0
     whitened = sum(s.square for s in rem.searches)
     ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
@@ -143,7 +143,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=_remark(doubt, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
+        remark=_remark(doubt or noisy, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),

@@ -39,13 +39,16 @@ SIDELOBES = ("kaiser", 30.0)
 """Window of that spectrum: the output is ten million eotvos where the spectrum must see one."""
 
 
-def doubts(f: Fitted, e: Explained) -> str | None:
-    """Why neither the model nor an effect is confirmed by a fit, in words; ``None`` if nothing speaks against it."""
-    return e.complaint or thinned(f) or too_loud(f)
+def spoiled(f: Fitted, e: Explained) -> str | None:
+    """Why a fit confirms neither the model nor an effect, in words; ``None`` if nothing speaks against it."""
+    return e.complaint or thinned(f)
 
 
 def too_loud(f: Fitted) -> str | None:
-    """Noise of which a hundredth would be much for accelerometers like the sheet's."""
+    """Noise that is more than accelerometers like the sheet's have, in words: a model that leaves it is not adequate.
+
+    It hides effects and feigns none: what is sure in spite of it may be claimed.
+    """
     k = f.instrument.accelerometers
     slope, bias = k["k_VI"] * k["K1"], f.instrument.sigma("K0")
     for x, k_ggi, digits in zip(f.prepared, f.scales, f.rounding, strict=True):
@@ -57,8 +60,8 @@ def too_loud(f: Fitted) -> str | None:
         if density > most:
             return (
                 f"what is taken for noise, {density / k_ggi:.3g} Eo/sqrt(Hz) before demodulation, is more than"
-                f" accelerometers of this sheet can have, {most / k_ggi:.3g} Eo/sqrt(Hz): the model does not explain"
-                " the output; if they are that noisy, say so by the sigma of their K0 in model.toml"
+                f" accelerometers of this sheet can have, {most / k_ggi:.3g} Eo/sqrt(Hz): something in"
+                " the output is not explained; if they are that noisy, say so by the sigma of their K0 in model.toml"
             )
     return None
 
