@@ -143,7 +143,9 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
         ),
         complaint=complaint,
-        remark=_remark(doubt or noisy, line, [s for s in steady if s.effect in found], comparison.disturbed(target)),
+        remark=_remark(
+            doubt or noisy, line, [s for s in steady if s.effect in found], comparison.disturbed(target)
+        ),
         explained=output_explained,
         credible_set=credence.credible,
         holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
