@@ -12,7 +12,6 @@ import warnings
 from dataclasses import dataclass, replace
 from functools import cache
 from html.parser import HTMLParser
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from hypothesis import strategies as st
 from ragg_runtime import report
 from ragg_runtime.diagnosis import comparison as compare
 from ragg_runtime.diagnosis import diagnose, result
+from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.lack_of_fit.dictionary import harmonics
@@ -97,13 +97,10 @@ def flight(
         true = true.with_effects((effect,))
         model = derive.with_effects(true, model, [effect.id])
     time, channels = motion(samples, seed)
-    made = SimpleNamespace(
-        time=time, channels=channels, outputs={}, rate=RATE, valid=np.ones(samples, bool), name=name
-    )
+    made = Flight(time=time, channels=channels, outputs={}, name=name)
     G = output(model.chain, record(made, true), vector(model, true))
     noise = np.random.default_rng(seed + 1000).normal(0, math.sqrt(8.0) * true.scale_factor * 1e-9, samples)
-    made.outputs["G_out"] = G + noise
-    return made
+    return replace(made, outputs={"G_out": G + noise})
 
 
 CUBIC = EffectSetting("cubic-input", {"K_iii": RawQuantity((0.0, 0.0, 4.0, 0.0), "ug/g^3")})
@@ -508,7 +505,7 @@ def test_short_record_has_no_channels_but_a_report() -> None:
 def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     made = [flight(samples=640, seed=s, name=f"leg {s}") for s in (1, 2, 3)]
     ramp = np.linspace(0, 1, 640) * np.random.default_rng(9).normal(0, 0.02, 640)
-    made[1].outputs["G_out"] = made[1].outputs["G_out"] + ramp
+    made[1] = replace(made[1], outputs={"G_out": made[1].outputs["G_out"] + ramp})
     c = compare.compare(load.packaged(), instrument(), made)
     monkeypatch.setattr(panels, "FLIGHTS", 1)
     text = report.compare_html(c, **ORIGIN)
@@ -521,7 +518,8 @@ def test_four_voltages_see_every_accelerometer() -> None:
     known, model = instrument(), load.packaged()
     V = voltages(model.chain, record(made, known), vector(model, known))
     rng = np.random.default_rng(2)
-    made.outputs = {f"V_{j + 1}": V[j] + rng.normal(0, 4e-4, V.shape[1]) for j in range(4)}
+    noisy = {f"V_{j + 1}": V[j] + rng.normal(0, 4e-4, V.shape[1]) for j in range(4)}
+    made = replace(made, outputs=noisy)
     c = compare.compare(model, known, [made])
     v = parameters.visibility(c.fitted)
     assert not v.patterns
