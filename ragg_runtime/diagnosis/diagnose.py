@@ -13,28 +13,38 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
-from ragg_runtime.diagnosis.confirm import confirmed
+from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.doubts import spoiled, too_loud
-from ragg_runtime.diagnosis.explained import explained
+from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
-from ragg_runtime.diagnosis.ranking import _not_testable, _place, _ranked_random, _ranking, _sizes, staged
+from ragg_runtime.diagnosis.ranking import (
+    Ranked,
+    _not_testable,
+    _place,
+    _ranked_random,
+    _ranking,
+    _sizes,
+    staged,
+)
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
 from ragg_runtime.evidence import selection, sequential
+from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
-from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.fitted import Fitted, Scored, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
+from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import omnibus
@@ -82,14 +92,66 @@ def diagnose_fitted(
     first = Stage.of(f)
     steps, last = strong.taken(first, extend)
     c = confirmed(last, extend)
-    f, field, choice, final = last.fitted, c.field, c.choice, c.final
-    chosen = list(choice.chosen)
-    given = [n for e in chosen for n, _ in field.candidates[e]]
+    chosen = [*(t.effect for t in steps), *c.choice.chosen]
+    left = _left(steps, last, c)
+    end = _end(last.fitted, c)
+    verdict, found = _verdict(left, end, chosen, output)
+    by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
+    whitened = sum(s.square for s in left.remainder.searches)
+    ranking, before = _ranked(first, steps, last, c, end.target, left, output)
+    credence = weighed(last.field, steps)
+    groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
+    steady = [s for s in left.steady if s.effect in found]
+    return Diagnosis(
+        verdict=verdict,
+        fitted=first.fitted,
+        ranking=tuple(sorted((with_probability(r, credence) for r in ranking), key=_place(chosen))),
+        found=tuple(found),
+        not_testable=tuple(_not_testable(first.fitted, first.field)),
+        remainder=left.remainder if left.remains else _without_terms(left.remainder),
+        remainder_share=by_terms / whitened if whitened else 0.0,
+        before=before,
+        scored=end.scored,
+        noise_floor=end.noise_floor,
+        sizes=tuple(_sizes(first.fitted, first.field)),
+        target=end.target,
+        coefficients=end.coefficients,
+        next_motion=tuple(
+            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
+        ),
+        complaint=end.complaint,
+        remark=_remark(end.doubt or end.noisy, left.line, steady, comparison.disturbed(end.target)),
+        explained=end.explained,
+        credible_set=credence.credible,
+        holds=_followed(end.target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
+        staged=bool(steps),
+        off_sheet=tuple(off_sheet(end.target.model, end.target.instrument, end.target.calibration)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Left:
+    """What the chosen effects leave: a remainder, a line of the output, random effects; ``remains``: more than chance does.
+
+    ``random_found`` are (log p, effect) of the significant ones, the surest first; ``steady`` are the chosen effects
+    that act as a constant term.
+    """
+
+    remainder: Remainder
+    line: LineRival | None
+    steady: Sequence[Steady]
+    random: Mapping[str, Test]
+    random_found: Sequence[tuple[float, str]]
+    remains: bool
+
+
+def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
+    field, choice = c.field, c.choice
     random = {e: v.test() for e, v in c.random.items()}
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     rem = c.remainder
-    simpler = None if rem.significant else _simpler(f, field, choice)
+    simpler = None if rem.significant else _simpler(last.fitted, field, choice)
     rem = rem if simpler is None else simpler
     line, steady = line_rival(steps, replace(last, field=field, choice=choice))
     if line is not None and not line.better(rem, alone=simpler is not None):
@@ -99,59 +161,80 @@ def diagnose_fitted(
     remains = line is not None or (rem.beside(uneven) and not _truncated(rem, steps))
     if remains:
         random, random_found = {}, []
-    target = f if final is None else final
-    v = f.vector(f.coefficients(given)[0], given) if final is None else np.zeros(target.size)
-    extra = given if final is None else ()
+    return _Left(
+        remainder=rem,
+        line=line,
+        steady=steady,
+        random=random,
+        random_found=random_found,
+        remains=remains,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _End:
+    """The flights with the chosen effects in, how they fit, and what speaks against the fit (in words, or ``None``)."""
+
+    target: Fitted
+    coefficients: Array
+    scored: Scored
+    noise_floor: float
+    explained: Explained
+    complaint: str | None
+    doubt: str | None
+    noisy: str | None
+
+
+def _end(f: Fitted, c: Confirmed) -> _End:
+    given = [n for e in c.choice.chosen for n, _ in c.field.candidates[e]]
+    target = f if c.final is None else c.final
+    v = f.vector(f.coefficients(given)[0], given) if c.final is None else np.zeros(target.size)
+    extra = given if c.final is None else ()
     half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
     after, held_out = target.score([v, half])
-    noise = fitted_.noise_floor(target)
     output_explained = explained(target, after)
-    doubt, noisy = spoiled(target, output_explained), too_loud(target)
-    complaint = convergence.complaint(target.calibration, after.held_out, held_out.held_out)
-    # noise that follows the motion is louder where the motion is: a random effect says so itself
-    loud = comparison.loud(target, after, noise) and not random_found
-    if complaint is not None or doubt is not None or remains or loud:
-        verdict, found = "unexplained", []
-    else:
-        found = [*(t.effect for t in steps), *chosen, *(e for _, e in random_found[:1]), *output]
-        verdict = "missing-effect" if found else "adequate" if noisy is None else "unexplained"
-    by_terms = sum(s.chi2 for s in rem.searches) if remains else 0.0
-    whitened = sum(s.square for s in rem.searches)
-    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
-    ranking += _ranked_random(f, random, before)
-    if steps:
-        later, _ = _ranking(f, field, choice, last.instants, ())
-        ranking = staged(steps, [r for r in later if r.effect in chosen], ranking, target)
-    credence = weighed(last.field, steps)
-    ranking = [with_probability(r, credence) for r in ranking]
-    groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
-    return Diagnosis(
-        verdict=verdict,
-        fitted=first.fitted,
-        ranking=tuple(sorted(ranking, key=_place([*(t.effect for t in steps), *chosen]))),
-        found=tuple(found),
-        not_testable=tuple(_not_testable(first.fitted, first.field)),
-        remainder=rem if remains else _without_terms(rem),
-        remainder_share=by_terms / whitened if whitened else 0.0,
-        before=before,
-        scored=after,
-        noise_floor=noise,
-        sizes=tuple(_sizes(first.fitted, first.field)),
+    return _End(
         target=target,
         coefficients=v,
-        next_motion=tuple(
-            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
-        ),
-        complaint=complaint,
-        remark=_remark(
-            doubt or noisy, line, [s for s in steady if s.effect in found], comparison.disturbed(target)
-        ),
+        scored=after,
+        noise_floor=fitted_.noise_floor(target),
         explained=output_explained,
-        credible_set=credence.credible,
-        holds=_followed(target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
-        staged=bool(steps),
-        off_sheet=tuple(off_sheet(target.model, target.instrument, target.calibration)),
+        complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
+        doubt=spoiled(target, output_explained),
+        noisy=too_loud(target),
     )
+
+
+def _verdict(
+    left: _Left, end: _End, chosen: Sequence[str], output: Sequence[str]
+) -> tuple[str, Sequence[str]]:
+    """The verdict, and the effects that are claimed."""
+    # noise that follows the motion is louder where the motion is: a random effect says so itself
+    loud = comparison.loud(end.target, end.scored, end.noise_floor) and not left.random_found
+    if end.complaint is not None or end.doubt is not None or left.remains or loud:
+        return "unexplained", []
+    found = [*chosen, *(e for _, e in left.random_found[:1]), *output]
+    if found:
+        return "missing-effect", found
+    return ("adequate" if end.noisy is None else "unexplained"), found
+
+
+def _ranked(
+    first: Stage,
+    steps: Sequence[Taken],
+    last: Stage,
+    c: Confirmed,
+    target: Fitted,
+    left: _Left,
+    output: Sequence[str],
+) -> tuple[list[Ranked], Error]:
+    """The effects as they stand in the ranking, and the error before any is added."""
+    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
+    ranking += _ranked_random(last.fitted, left.random, before)
+    if steps:
+        later, _ = _ranking(last.fitted, c.field, c.choice, last.instants, ())
+        ranking = staged(steps, [r for r in later if r.effect in c.choice.chosen], ranking, target)
+    return ranking, before
 
 
 def _remark(

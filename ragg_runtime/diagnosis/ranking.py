@@ -110,7 +110,7 @@ def _ranking(
     return ranked, before
 
 
-def _ranked_random(f: Fitted, random: dict[str, Test], before: Error) -> list[Ranked]:
+def _ranked_random(f: Fitted, random: Mapping[str, Test], before: Error) -> list[Ranked]:
     rows = np.log(f.calibration.rows)
     return [
         Ranked(e, t.log_p, t.chi2, t.rank, float(t.chi2 - rows), before, before, before, (), (), ())
