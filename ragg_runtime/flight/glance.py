@@ -73,6 +73,9 @@ def _parquet(path: Path) -> tuple[Any, Any]:
 def _netcdf(path: Path) -> tuple[Any, Any]:
     import h5py
 
+    from ragg_runtime.flight.hdf5_self_contained import refuse_elsewhere
+
+    refuse_elsewhere(path)
     with h5py.File(path, "r") as file:
         found = []
         for name in ("time", "G_out"):

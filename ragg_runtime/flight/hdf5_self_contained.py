@@ -12,6 +12,7 @@ from pathlib import Path
 import h5py
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.hdf5_trial import refuse_endless
 from ragg_runtime.flight.source import MOST_COLUMNS, too_many_columns
 
 MOST = 200_000
@@ -19,7 +20,8 @@ MOST = 200_000
 
 
 def refuse_elsewhere(path: Path) -> None:
-    """UserError if anything in the file stands in another one; OSError etc. if it is damaged."""
+    """UserError if anything in the file stands in another one, or if it leads in circles; OSError etc. if it is damaged."""
+    refuse_endless(path, leads_elsewhere)
     found = leads_elsewhere(path)
     if found is not None:
         raise UserError(

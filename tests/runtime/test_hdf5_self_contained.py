@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -12,11 +13,13 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import hdf5_self_contained, read_flight, write_flight
+from ragg_runtime.flight import hdf5_self_contained, hdf5_trial, read_flight, write_flight
+from ragg_runtime.flight.glance import glance
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
 G0 = 9.8
+ENDLESS = Path(__file__).parents[1] / "fixtures" / "endless.nc"
 
 
 @pytest.fixture(scope="module")
@@ -117,3 +120,29 @@ def test_a_whole_file_with_groups_and_links_is_read(whole: Path, tmp_path: Path)
 
     path = copy(whole, tmp_path / "f.nc", change)
     assert np.array_equal(read_flight(path, G0).channels["a_x"], read_flight(whole, G0).channels["a_x"])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="tried in a child")
+def test_tables_that_lead_in_circles_are_given_up(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, whole: Path
+) -> None:
+    """A file that fuzzing found: the HDF5 library never comes back from the dimensions of one of its columns."""
+    monkeypatch.setattr(hdf5_trial, "PATIENCE", 1.0)
+    with pytest.raises(UserError, match="cannot be read to their end"):
+        read_flight(ENDLESS, G0)
+    assert glance(ENDLESS, G0) is None
+    read_flight(whole, G0)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="tried in a child")
+def test_a_library_that_crashes_takes_nobody_along(monkeypatch: pytest.MonkeyPatch, whole: Path) -> None:
+    monkeypatch.setattr(hdf5_trial, "_visit", lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+    with pytest.raises(UserError, match="cannot be read to their end"):
+        read_flight(whole, G0)
+
+
+def test_a_first_look_reads_no_other_file_either(tmp_path: Path, whole: Path) -> None:
+    np.arange(10_000.0).tofile(tmp_path / "other")
+    path = copy(whole, tmp_path / "x.nc", lambda f: external(f, str(tmp_path / "other"), "G_out"))
+    assert glance(whole, G0) is not None
+    assert glance(path, G0) is None
