@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.scheduler_options import scheduler_options
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
@@ -157,18 +157,15 @@ def survey(
     report_file: str | None,
 ) -> None:
     """Diagnose many flights, each by itself, and sum them up."""
-    from ragg_runtime.cli import terminal
     from ragg_runtime.report import survey_text as text
     from ragg_runtime.survey import progress
-    from ragg_runtime.survey.journal import sha256
-    from ragg_runtime.survey.tls import tls_of, unproven
+    from ragg_runtime.survey.tls import say_unproven, tls_of
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow.origin import of_survey
 
     tls = tls_of(tls_ca, tls_cert, tls_key)
     m = load(model_dir)
-    warning = None if scheduler is None else unproven(scheduler)
-    if warning is not None:
-        click.echo(printable(f"note: {warning}"), err=True)
+    say_unproven(scheduler)
     with progress.results_file(resume) as file, progress.shown() as show:
         s = loop.survey(
             m,
@@ -180,19 +177,14 @@ def survey(
             progress=show,
             mapping=mapping,
         )
-    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
-    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
-    sources = [*loop.sources(m, []), *read]
+    origin, about_page = of_survey(m, s, command_line())
 
     def page() -> str:
         from ragg_runtime.report.survey_page import survey_html
 
-        title = f"{m.name} and {len(s.records)} flights"
-        return survey_html(s, title=title, command=command_line(), digest=m.model.digest, sources=sources)
+        return survey_html(s, **about_page)
 
     write_report(report_file, page)
-    origin = terminal.origin(m, [], command_line(), files=files)
-    origin |= {"sources": [{"name": n, "sha256": d} for n, d in sources]}
     emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
 
 

@@ -57,8 +57,9 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
     exact: dict[str, float] = {}
     for n, (e, (step, given)) in enumerate(scans.items()):
         so_far = {e: samples[e] for e in list(samples)[: n + 1]}
-        begun = [_stepped(t, k, so_far, places) for t, k in zip(triangles, x.edges[:-1], strict=True)]
-        field = _with_penalty(f, [*available, *so_far], _picked(root, f, list(so_far), places), begun)
+        # only uneven noise is judged by the blocks of time
+        begun = replace(f, triangles=(_stepped(triangles, x.edges, so_far, places),)) if f.uneven else f
+        field = _with_penalty(begun, [*available, *so_far], _picked(root, f, list(so_far), places))
         if e in selection.choose(field).chosen:
             step = special.refined(x, step, f.n_base, given, owned[e], f.to_nominal)
             projector = prepared_flight.projector(triangles, f.n_base, given)
@@ -77,19 +78,24 @@ def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[s
         sums = f.sums[0].copy()
         for e, k in samples.items():
             sums[np.ix_(x.edges[:-1] < k, np.array(places[e]))] = 0.0
-        starts = x.edges[:-1]
-        triangles = tuple(_stepped(t, k, samples, places) for t, k in zip(triangles, starts, strict=True))
+        triangles = _stepped(triangles, x.edges, samples, places)
         x = x.with_steps(instants, places)
     f = replace(f, prepared=(x,), triangles=(triangles,), sums=(sums,))
     return _with_penalty(f, [*available, *instants]), f, instants
 
 
-def _stepped(T: Array, start: int, samples: Mapping[str, int], places: Mapping[str, Sequence[int]]) -> Array:
-    """The triangle of a block of time, with the columns of steps put to zero that come on a later edge than its ``start``."""
-    found = T.copy()
-    for e, sample in samples.items():
-        if start < sample:
-            found[:, list(places[e])] = 0.0
+def _stepped(
+    triangles: Sequence[Array],
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> tuple[Array, ...]:
+    """The triangles of blocks of time, in each the columns of steps put to zero that come after its first edge."""
+    found = tuple(t.copy() for t in triangles)
+    for t, start in zip(found, edges[:-1], strict=True):
+        for e, sample in samples.items():
+            if start < sample:
+                t[:, list(places[e])] = 0.0
     return found
 
 
@@ -122,9 +128,7 @@ def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, S
     return below(root, f.n_base, column)
 
 
-def _with_penalty(
-    f: Fitted, effects: Sequence[str], T: Array | None = None, blocks: Sequence[Array] | None = None
-) -> Field:
-    """The field of effects, steps among them charged for the choice of their instant; on other triangles if they are given."""
+def _with_penalty(f: Fitted, effects: Sequence[str], T: Array | None = None) -> Field:
+    """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(field_of(f, effects, T, blocks), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(field_of(f, effects, T), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

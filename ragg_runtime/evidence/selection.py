@@ -215,27 +215,14 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def field_of(
-    f: Fitted, available: Sequence[str], T: Array | None = None, blocks: Sequence[Array] | None = None
-) -> Field:
-    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns.
-
-    ``blocks`` are the triangles of the blocks of time that belong to it.
-    """
+def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Field:
+    """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    loud = any(n.level.parts for n in f.calibration.noise)
-    if blocks is None:
-        blocks = [t for own in f.triangles for t in own]
-    return Field(
-        f.whole if T is None else T,
-        f.n_base,
-        kept,
-        f.calibration.rows,
-        freedom=freedom,
-        blocks=tuple(blocks) if loud else (),
-    )
+    blocks = tuple(t for own in f.triangles for t in own) if f.uneven else ()
+    T = f.whole if T is None else T
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks)
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -129,6 +129,11 @@ class Fitted:
         """Number of columns, base and candidates."""
         return int(self.triangles[0][0].shape[1]) - 1
 
+    @property
+    def uneven(self) -> bool:
+        """Whether the noise changes its level in any observation."""
+        return any(n.level.parts for n in self.calibration.noise)
+
     @cached_property
     def rounding(self) -> tuple[Rounding, ...]:
         """What the digits of the files make in each observation."""

@@ -37,15 +37,13 @@ def refuse_endless(path: Path, wrong: Callable[[Path], object]) -> None:
         os._exit(0)
     os.close(mouth)
     try:
-        while select.select([ear], [], [], PATIENCE)[0] and os.read(ear, 1 << 16):
-            pass
-        ended, status = os.waitpid(child, os.WNOHANG)
-        if not ended:
-            # The pipe is closed just before the child ends; one that is silent is given up.
-            closed = bool(select.select([ear], [], [], 0.0)[0])
-            if not closed:
+        while True:
+            if not select.select([ear], [], [], PATIENCE)[0]:
                 os.kill(child, signal.SIGKILL)
-            _, status = os.waitpid(child, 0)
+                break
+            if not os.read(ear, 1 << 16):  # its end of the pipe is closed: it ends
+                break
+        _, status = os.waitpid(child, 0)
     finally:
         os.close(ear)
     if status != 0:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.scheduler_options import scheduler_options
 
 NEEDED = ("starlette", "uvicorn", "latex2mathml")
@@ -48,10 +48,8 @@ def studio(
         )
     from ragg_runtime.studio.serve import serve
     from ragg_runtime.studio.surveys import Workers
-    from ragg_runtime.survey.tls import tls_of, unproven
+    from ragg_runtime.survey.tls import say_unproven, tls_of
 
     workers = Workers(scheduler=scheduler, tls=tls_of(tls_ca, tls_cert, tls_key))
-    warning = None if scheduler is None else unproven(scheduler)
-    if warning is not None:
-        click.echo(printable(f"note: {warning}"), err=True)
+    say_unproven(scheduler)
     serve(model_dir, flights, port, click.echo, browser=not no_browser, workers=workers)

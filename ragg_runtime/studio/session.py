@@ -315,11 +315,11 @@ class Session:
     def survey(self, folder: Path) -> None:
         """Diagnose every flight of a folder, each by itself."""
         m = self.state.model
-        flights_below(folder, self.places)
+        files = flights_below(folder, self.places)
 
         def work(part: Part) -> None:
             part("starting the survey", 1.0)
-            self._put(survey=surveyed(m, folder, self.places, self.workers, part))
+            self._put(survey=surveyed(m, folder, files, self.workers, part))
 
         self.jobs.start("surveying", work)
 

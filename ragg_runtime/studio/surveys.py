@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
 from ragg_runtime.flight.formats import ending_of
-from ragg_runtime.report.survey_page import shown, survey_html
+from ragg_runtime.report.survey_page import shown
 from ragg_runtime.studio.places import Places
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Record, fingerprint
@@ -40,28 +40,27 @@ class Workers:
 
 @dataclass(frozen=True)
 class Surveyed:
-    """A survey, the folder of its flights, and the text of the model that it was made with."""
+    """A survey, the folder of its flights, and the model that it was made with."""
 
     folder: Path
-    text: str
+    model: Loaded
     survey: Survey
 
 
 def surveyed(
-    m: Loaded, folder: Path, places: Places, workers: Workers, part: Callable[[str, float], None]
+    m: Loaded, folder: Path, files: Sequence[Path], workers: Workers, part: Callable[[str, float], None]
 ) -> Surveyed:
-    """Diagnose every flight in ``folder`` and below it; what is done is kept, and is taken when it is asked for again."""
+    """Diagnose the flights of ``folder``; what is done is kept, and is taken when it is asked for again."""
 
     def show(done: int, total: int, record: Record | None) -> None:
         if record is None:
             part(f"surveying {total} flights", float(total))
         progress.step(float(done) if record is None else 1.0)
 
-    files = flights_below(folder, places)
     found = loop.survey(
         m, files, scheduler=workers.scheduler, tls=workers.tls, resume=_results(m, folder), progress=show
     )
-    return Surveyed(folder=folder, text=m.directory.text, survey=found)
+    return Surveyed(folder=folder, model=m, survey=found)
 
 
 def flights_below(folder: Path, places: Places) -> list[Path]:
@@ -98,20 +97,10 @@ def shown_survey(x: Surveyed, m: Loaded) -> dict[str, Any]:
     s = x.survey
     return shown(s) | {
         "folder": str(x.folder),
-        "of_this_model": x.text == m.directory.text,
+        "of_this_model": x.model.directory.text == m.directory.text,
         "files": [r["file"] for r in s.done],
         "drawn": [
             {"label": t.label, "unit": t.unit, "mean": t.mean, "values": list(t.values), "stds": list(t.stds)}
             for t in s.summary.trends
         ],
     }
-
-
-def survey_page(x: Surveyed, m: Loaded, command: str) -> bytes:
-    """The report of ``ragg survey``."""
-    title = f"{m.name} and {len(x.survey.records)} flights"
-    read = [(r["flight"], r["sha256"]) for r in x.survey.records if r.get("sha256")]
-    sources = [("model.toml", hashlib.sha256(x.text.encode()).hexdigest()), *read]
-    return survey_html(
-        x.survey, title=title, command=command, digest=m.model.digest, sources=sources
-    ).encode()

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
+from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State
-from ragg_runtime.studio.surveys import Surveyed, survey_page
+from ragg_runtime.survey.result import Survey
 from ragg_runtime.workflow import loop, origin
 
 File = tuple[str, str, bytes]
@@ -35,8 +37,11 @@ def _common(s: State) -> dict[str, object]:
 
 
 def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
-    whole = versioned(result | origin.origin(s.model, s.flights, command))
-    return (json.dumps(whole, indent=1, allow_nan=False) + "\n").encode()
+    return _json(result | origin.origin(s.model, s.flights, command))
+
+
+def _json(result: dict[str, object]) -> bytes:
+    return (json.dumps(versioned(result), indent=1, allow_nan=False) + "\n").encode()
 
 
 def _command(s: State, name: str) -> str:
@@ -94,18 +99,22 @@ def _quality(s: State) -> File:
     return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights))
 
 
-def _survey(s: State) -> Surveyed:
+def _survey(s: State) -> tuple[Survey, dict[str, object], dict[str, Any]]:
+    """The survey, and where it comes from: the model that it was made with, and its own flights."""
     if s.survey is None:
         raise UserError("there is no survey yet", remedy="do it under Survey")
-    return s.survey
+    x = s.survey
+    return x.survey, *origin.of_survey(x.model, x.survey, _command(s, "survey"))
 
 
 def _survey_json(s: State) -> File:
-    return "survey.json", JSON, _dumped(s, _survey(s).survey.as_json(), _command(s, "survey"))
+    survey, told, _ = _survey(s)
+    return "survey.json", JSON, _json(survey.as_json() | told)
 
 
 def _survey_report(s: State) -> File:
-    return "survey.html", HTML, survey_page(_survey(s), s.model, _command(s, "survey"))
+    survey, _, about = _survey(s)
+    return "survey.html", HTML, survey_html(survey, **about).encode()
 
 
 def _model(s: State) -> File:

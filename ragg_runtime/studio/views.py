@@ -23,6 +23,7 @@ from ragg_runtime.studio import apply, maths
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State, branches
 from ragg_runtime.studio.surveys import shown_survey
+from ragg_runtime.survey.task import divided
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow.loop import errors_of
 
@@ -379,6 +380,7 @@ def commands(s: State) -> list[str]:
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
     if s.survey is not None:
-        found.append(f"ragg survey {model} {shlex.quote(str(s.survey.folder))}/*")
+        files = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
+        found.append(f"ragg survey {model} {' '.join(map(shlex.quote, files))}")
     cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*cut, *found]

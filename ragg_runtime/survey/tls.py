@@ -13,7 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.base.errors import UserError
+import click
+
+from ragg_runtime.base.errors import UserError, printable
 
 
 @dataclass(frozen=True)
@@ -84,6 +86,13 @@ def security(address: str, tls: Tls | None) -> Any:
             remedy="give --tls-ca, --tls-cert and --tls-key, or distributed.comm.tls in Dask's configuration",
         )
     return made
+
+
+def say_unproven(address: str | None) -> None:
+    """On stderr what to know of the address of a scheduler, if there is one."""
+    warning = None if address is None else unproven(address)
+    if warning is not None:
+        click.echo(printable(f"note: {warning}"), err=True)
 
 
 def unproven(address: str) -> str | None:

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.flight import Flight
 from ragg_runtime.model_dir.identity import identity
+from ragg_runtime.survey.journal import sha256
+from ragg_runtime.survey.result import Survey
+from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.loop import Loaded
 
 
@@ -26,6 +31,19 @@ def origin(
     model = identity(m.directory, m.model.digest, None if before is None else before.directory)
     read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
     return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
+
+
+def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
+    """The same of a survey that was made with ``m``, and what its report says about itself.
+
+    Flights that could not be read are among the files, too.
+    """
+    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
+    sources = [*loop.sources(m, []), *read]
+    told = origin(m, [], command, files=files) | {"sources": [{"name": n, "sha256": d} for n, d in sources]}
+    title = f"{m.name} and {len(s.records)} flights"
+    return told, {"title": title, "command": command, "digest": m.model.digest, "sources": sources}
 
 
 def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:

@@ -297,7 +297,11 @@ def test_10_a_folder_is_surveyed(page: Page, server: Served) -> None:
     with page.expect_download() as got:
         page.get_by_role("link", name="As JSON").click()
     told = json.loads(Path(got.value.path()).read_text())
-    assert [x["flight"] for x in told["flights"]] == ["monday.parquet", "tuesday.parquet", "wednesday.csv"]
+    names = ["monday.parquet", "tuesday.parquet", "wednesday.csv"]
+    assert [x["flight"] for x in told["flights"]] == names
+    made = told["provenance"]  # of the survey, not of the flight that is open
+    assert [Path(x["path"]).name for x in made["flights"]] == names
+    assert all(str(days / n) in made["command"] for n in names)
     idle(page)
 
 
