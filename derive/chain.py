@@ -28,6 +28,7 @@ from derive.symbols import (
     SPIN_RATE,
     Channel,
     symbol,
+    symmetric,
 )
 from derive.tape import Tape
 
@@ -36,8 +37,7 @@ def recorded_motion() -> Motion:
     """The motion as it is recorded: one symbol a channel."""
     v = {c.name: c.symbol for c in MOTION}
     vector = {n: sp.Matrix([v[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega", "omegadot")}
-    G = sp.Matrix(3, 3, lambda i, k: v["Gamma_" + "".join(sorted("xyz"[i] + "xyz"[k]))])
-    return Motion(vector["a"], vector["omega"], vector["omegadot"], G)
+    return Motion(vector["a"], vector["omega"], vector["omegadot"], symmetric(v, "Gamma"))
 
 
 @dataclass(frozen=True)

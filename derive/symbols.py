@@ -6,6 +6,7 @@ so the scale factor ``K1`` is in A/(m/s^2) and the second-order coefficients in 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
@@ -58,6 +59,15 @@ def symbol(name: str) -> sp.Symbol:
 
 _AXES = "xyz"
 
+COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
+"""Of a symmetric tensor, as the names of its columns and parameters end."""
+
+
+def symmetric(values: Mapping[str, sp.Expr], name: str) -> sp.Matrix:
+    """(3 x 3) of ``name_xx``, ``name_xy`` ... ``name_zz``."""
+    return sp.Matrix(3, 3, lambda i, k: values[f"{name}_{''.join(sorted(_AXES[i] + _AXES[k]))}"])
+
+
 MOTION: tuple[Channel, ...] = (
     *(Channel(f"a_{k}", f"a_{k}", "m/s^2", f"specific force of the disc centre, {k} (f_cmm)") for k in _AXES),
     *(
@@ -70,7 +80,7 @@ MOTION: tuple[Channel, ...] = (
     ),
     *(
         Channel(f"Gamma_{k}", rf"\Gamma_{{{k}}}", "s^-2", f"gravity gradient {k} at the disc centre")
-        for k in ("xx", "xy", "xz", "yy", "yz", "zz")
+        for k in COMPONENTS
     ),
 )
 

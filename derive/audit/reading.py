@@ -15,7 +15,7 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS
-from derive.symbols import SECOND_ORDER, symbol
+from derive.symbols import COMPONENTS, SECOND_ORDER, symbol
 
 _TOKEN = re.compile(r"\s*(\d+(?:\.\d+)?|\\[A-Za-z]+|\S)")
 
@@ -153,7 +153,7 @@ RATE_RING = ring_of(
         *(f"omega_{k}" for k in "xyz"),
         "omega_im",
         *(f"omegadot_{k}" for k in "xyz"),
-        *(f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz")),
+        *(f"Gamma_{k}" for k in COMPONENTS),
     )
 )
 """Ring of Eq. 16; omega_im is the magnitude of the angular rate."""
@@ -194,5 +194,5 @@ def motion_reader(sign_of_gradient: int = 1) -> Reader:
     table = {rf"\omega_im{k}": g[f"omega_{k}"] for k in "xyz"}
     table |= {r"\omega_im": g["omega_im"], r"\omega_i\max": g["omegadot_x"]}
     table |= {rf"\omega_ima{k}": g[f"omegadot_{k}"] for k in "yz"}
-    table |= {f"T_{k}": sign_of_gradient * g[f"Gamma_{k}"] for k in ("xx", "xy", "xz", "yy", "yz", "zz")}
+    table |= {f"T_{k}": sign_of_gradient * g[f"Gamma_{k}"] for k in COMPONENTS}
     return Reader(RATE_RING, table)

@@ -8,15 +8,14 @@ import sympy as sp
 
 from derive.effect import Effect, EffectParameter, Values
 from derive.stages import Motion
+from derive.symbols import COMPONENTS, symmetric
 
 if TYPE_CHECKING:
     from derive.context import Context
 
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
-
 
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
-    W = sp.Matrix(3, 3, lambda i, k: p[f"W_{''.join(sorted('xyz'[i] + 'xyz'[k]))}"])
+    W = symmetric(p, "W")
     # the mean of w x (w x r) is (W - tr W) r, and M holds -Gamma
     return m._replace(Gamma=m.Gamma - c.channel("angular_vibration_rms") ** 2 * (W - W.trace() * sp.eye(3)))
 

@@ -9,15 +9,14 @@ import sympy as sp
 from derive.effect import Effect, EffectParameter, Values
 from derive.rectified import rectified
 from derive.stages import SensedForce
+from derive.symbols import COMPONENTS, symmetric
 
 if TYPE_CHECKING:
     from derive.context import Context
 
-COMPONENTS = ("xx", "xy", "xz", "yy", "yz", "zz")
-
 
 def transducer(i: sp.Expr, f: SensedForce, p: Values, c: Context) -> sp.Expr:
-    P = sp.Matrix(3, 3, lambda m, n: p[f"P_{''.join(sorted('xyz'[m] + 'xyz'[n]))}"])
+    P = symmetric(p, "P")
     return i + rectified(P, c)
 
 
