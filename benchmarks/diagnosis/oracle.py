@@ -19,6 +19,7 @@ from benchmarks.diagnosis.inject import Hidden
 from ragg_runtime.base import false_alarms
 from ragg_runtime.fit import calibrate, observation
 from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.significance import log_sf
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
@@ -39,6 +40,22 @@ def seen(p: fly.Prepared) -> list[dict[str, float] | None]:
     ]
 
 
+def gain(
+    f: Fitted, hidden: Sequence[str], instants: Mapping[str, float], effect: str
+) -> dict[str, float] | None:
+    """The same of a flight that is fitted, with the noise that was estimated there: no candidate is in that."""
+    known = {e.id: e.kind for e in f.model.candidates}
+    if known[effect] not in MODELLED or any(known[e] not in MODELLED for e in hidden):
+        return None
+
+    def fitted(ids: Sequence[str]) -> Calibration:
+        sheet = fly._with_instants(f.instrument, {e: t for e, t in instants.items() if e in ids})
+        model = derive.with_effects(sheet, f.model, ids) if ids else replace(f.model, candidates=())
+        return calibrate.fit(model, sheet, f.observations, noise=f.calibration.noise)
+
+    return _gain(fitted(hidden), fitted([e for e in hidden if e != effect]), effect)
+
+
 def _fitted(p: fly.Prepared, hidden: Sequence[Hidden]) -> Calibration:
     model, sheet = load.packaged(), p.scenario.sheet
     ids = [h.effect for h in hidden]
@@ -49,7 +66,9 @@ def _fitted(p: fly.Prepared, hidden: Sequence[Hidden]) -> Calibration:
 
 def _gain(with_it: Calibration, without: Calibration, effect: str) -> dict[str, float]:
     own = [n for n, q in enumerate(with_it.columns) if q.effect == effect]
-    information = np.linalg.inv(with_it.covariance[np.ix_(own, own)]) - np.eye(len(own))  # without the prior's
+    information = np.linalg.inv(with_it.covariance[np.ix_(own, own)]) - np.eye(
+        len(own)
+    )  # without the prior's
     rank = max(1, int(np.sum(np.linalg.eigvalsh(information) > 1.0)))
     chi2 = max(0.0, without.chi2 - with_it.chi2)
     return {"chi2": chi2, "rank": rank, "log_p": max(log_sf(chi2, rank), -1e9)}

@@ -110,7 +110,9 @@ def cases(kinds: Sequence[str], most: int | None, sample: int) -> list[Case]:
                     replace(world, kind=kind, index=index, seed=seed, trim=drawn.trim, sensor_noise=0.0),
                 )
             )
-    order = np.random.default_rng(sample).permutation(len(found))  # a run cut short says something of every kind
+    order = np.random.default_rng(sample).permutation(
+        len(found)
+    )  # a run cut short says something of every kind
     return [found[k] for k in order]
 
 
