@@ -80,5 +80,5 @@ def detectable(x: Mapping[str, object], catalogue: int) -> bool:
     if not isinstance(found, list):
         return True
     levels = (false_alarms.CATALOGUE, *(false_alarms.COMPANION,) * len(found))
-    ordered = sorted((g["log_p"] for g in found if g is not None))
+    ordered = sorted(g["log_p"] for g in found if g is not None)
     return all(p + np.log(catalogue) < np.log(level) for p, level in zip(ordered, levels, strict=False))

@@ -295,7 +295,8 @@ def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     o = piece.observation
     predicted = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
     e = np.where(o.record.valid, o.data - predicted, 0.0)
-    return as_output(o, unknown_gradient.without(e[None], piece.windows, o.record.valid))[0]
+    (left,) = as_output(o, unknown_gradient.without(e[None], piece.windows, o.record.valid))
+    return np.asarray(left)
 
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:
