@@ -34,7 +34,7 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 
 
 WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says."""
+"""Most times that a sheet is taken to be less sure than it says, and that effects are given more room."""
 
 
 @dataclass(frozen=True)
