@@ -276,6 +276,8 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         "limits": e.limits,
         "channels": list(e.channels),
         **({"either": True} if e.either else {}),
+        **({} if e.common_of is None else {"common_of": e.common_of}),
+        **({"told_from": list(e.told_from)} if e.told_from else {}),
         "kind": e.kind,
         "parameters": [
             {

@@ -189,7 +189,7 @@ class Chain:
         """Eq. 49-52 for accelerometer j, counted from 0, (N,) V."""
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
         place = self.instrument.layout.places[j]
-        radius = place.radius + k["dR"]
+        radius = place.radius + k["dR"] + geometry.arm_error(self.effects)
         actual = mount(place, k["beta_x"], k["beta_z"], self.rotations)
         nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
