@@ -179,6 +179,7 @@ def _complete(
 def _told(form: Form) -> Mapping[str, object]:
     """A form in the manifest; the paper's layout is not worth a word."""
     described = dataclasses.asdict(form)
+    del described["layout"]["put_in"]
     if form.layout.is_paper:
         del described["layout"]
     return described

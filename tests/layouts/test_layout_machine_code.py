@@ -59,7 +59,7 @@ INSTANTS = 4
 FEW = 3.0
 """Times the unavoidable: rotated channels are rounded, too, and added in some order."""
 
-BALANCED = ("two", "complements", "umbrella")
+BALANCED = ("two", "complements", "umbrella", "vertical")
 """Layouts whose accelerometers' places leave nothing of a specific force."""
 
 
