@@ -47,46 +47,39 @@ CACHED = 2048
 
 @dataclass(frozen=True)
 class _Rows:
-    """Which rows of a generated module's derivatives make which columns, and their scales."""
+    """Which row of a generated module's derivatives makes which column, times what.
 
-    column: NDArray[np.intp]
-    row: NDArray[np.intp]
-    accelerometer: NDArray[np.intp]
-    scale: Array
+    ``own`` are parameters of one accelerometer, by its place; ``shared`` have one value for the instrument.
+    """
+
+    own: Mapping[int, Sequence[tuple[int, int, float]]]
+    shared: Sequence[tuple[int, int, float]]
 
     @staticmethod
-    def of(chain: Chain, columns: Sequence[Column], first: int, shared: bool) -> _Rows:
-        """Those of parameters with one value for the instrument, or with one for each accelerometer."""
+    def of(chain: Chain, columns: Sequence[Column], first: int) -> _Rows:
+        """Of columns that are put from the place ``first`` on."""
         place = {name: k for k, (name, _) in enumerate(chain.ROWS)}
-        found = [(first + n, c) for n, c in enumerate(columns) if (c.accelerometer is None) == shared]
-        return _Rows(
-            np.array([n for n, _ in found], dtype=np.intp),
-            np.array([place[c.name] for _, c in found], dtype=np.intp),
-            np.array([(c.accelerometer or 1) - 1 for _, c in found], dtype=np.intp),
-            np.array([c.scale for _, c in found]),
-        )
-
-    def put(
-        self,
-        target: Array,
-        at: slice,
-        rows: Sequence[Array],
-        shared: bool,
-        members: Sequence[int],
-        signs: Array | None,
-    ) -> None:
-        """Put derivatives, of each accelerometer of an output (rows, n), into columns (columns, m, N) at some samples.
-
-        ``signs`` combine them.
-        """
-        for k, j in enumerate(members):
-            sign = 1.0 if signs is None else signs[k]
-            output = k if signs is None else 0
-            if shared:
-                target[self.column, output, at] += rows[k][self.row] * (sign * self.scale[:, None])
+        own: dict[int, list[tuple[int, int, float]]] = {}
+        shared = []
+        for n, c in enumerate(columns):
+            made = (first + n, place[c.name], c.scale)
+            if c.accelerometer is None:
+                shared.append(made)
             else:
-                own = self.accelerometer == j
-                target[self.column[own], output, at] = rows[k][self.row[own]] * (sign * self.scale[own, None])
+                own.setdefault(c.accelerometer - 1, []).append(made)
+        return _Rows(own=own, shared=shared)
+
+    def put(self, target: Array, output: int, at: slice, rows: Array, j: int, sign: float) -> None:
+        """Put derivatives of accelerometer j (rows, n), times its sign, into columns (columns, m, N) at some samples.
+
+        Row by row, into their places: copies of many rows at a time would leave the cache.
+        """
+        for column, row, scale in self.own.get(j, ()):
+            np.multiply(rows[row], sign * scale, out=target[column, output, at])
+        part = np.empty(rows.shape[1])
+        for column, row, scale in self.shared:
+            place = target[column, output, at]
+            np.add(place, np.multiply(rows[row], sign * scale, out=part), out=place)
 
 
 def linearised(at: Point, o: Observation) -> Array:
@@ -105,13 +98,13 @@ def linearised(at: Point, o: Observation) -> Array:
     columns = np.zeros((len(base) + len(candidates) + 1, m, n))
     for chain, evaluator, wanted, first, p in modules:
         x = r.inputs(chain)
-        own, shared = (_Rows.of(chain, wanted, first, s) for s in (False, True))
+        places = _Rows.of(chain, wanted, first)
         for start in range(0, n, CACHED):
             some = slice(start, min(start + CACHED, n))
             case = (r.time[some], x[:, some], p, r.phi[some], 1)
-            rows = [evaluator.derivatives(j, *case) for j in members]
-            own.put(columns, some, rows, False, members, signs)
-            shared.put(columns, some, rows, True, members, signs)
+            for k, j in enumerate(members):
+                sign, output = (1.0, k) if signs is None else (float(signs[k]), 0)
+                places.put(columns, output, some, evaluator.derivatives(j, *case), j, sign)
             if first == 0:
                 V = evaluator.voltages(*case, members=members)
                 columns[-1, :, some] = V if signs is None else signs @ V
