@@ -35,6 +35,7 @@ from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
@@ -70,6 +71,7 @@ def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False, mapping:
 
     With them the ``mapping`` by which the flights were read, if one is given.
     """
+    distinct(flights)
     text = None if mapping is None else mapping_text(mapping)
     c = _calibrated.calibrated(m.model, m.instrument, flights)
     return Kept(loaded=_saved(m, c, flights, text) if save else m, calibrated=c, saved=save)
@@ -105,6 +107,7 @@ def saved_calibration(m: Loaded) -> Saved:
 
 def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    distinct(flights)
     return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
 
 
@@ -152,6 +155,8 @@ def compensate(
         A file for the series; without one they are in the result.
     """
     saved = saved_calibration(m) if calibration == "frozen" else None
+    if saved is None:
+        distinct(flights)
     p = prepared(m.model, m.instrument, flights, calibration, saved)
     each = [[Compensated(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
     table = _table(each, p.flights)

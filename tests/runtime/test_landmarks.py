@@ -12,7 +12,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.flight.landmarks import Landmarks, distinct, landmarks, overlap
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.workflow import loop
+from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.simulate import simulated
 
 G0 = 9.8
@@ -52,10 +52,20 @@ def test_as_csv_and_as_parquet_it_is_refused_everywhere(
     write_flight(flight, tmp_path / "x.csv")
     write_flight(flight, tmp_path / "y.parquet")
     both = loop.read_flights(model, [tmp_path / "x.csv", tmp_path / "y.parquet"])
-    for use in (loop.compare, loop.diagnose, lambda m, x: loop.add(m, "lag", x)):
+    assert loop.load(model.directory.path).directory.calibration is None
+    for use in (
+        loop.compare,
+        loop.diagnose,
+        lambda m, x: loop.add(m, "lag", x),
+        lambda m, x: after.calibrate(m, x, save=True),
+        after.compensate,
+        lambda m, x: after.compensate(m, x, "crossed"),
+        after.compare_frozen,
+    ):
         with pytest.raises(UserError, match=r"the same record as .*as evidence it would count twice"):
             use(model, both)
-    assert loop.load(model.directory.path).model.effects == ()
+    kept = loop.load(model.directory.path)
+    assert (kept.model.effects, kept.directory.calibration) == ((), None)
 
 
 def test_overlapping_cuts_with_times_of_their_own(flight: Flight) -> None:
