@@ -100,7 +100,9 @@ def compensate(
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, out)
-    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    origin = terminal.origin(m, read, command_line()) | {
+        "notes": [*c.as_json().get("notes", ()), *odd, *terminal.notes(m, read)]
+    }
     emit(c.as_json() | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
 
 
