@@ -113,8 +113,10 @@ class LayoutHarmonics:
 
 def layout_harmonics(title: str, order: Order, kinematics: Kinematics, layout: Layout) -> LayoutHarmonics:
     """Derive the harmonics of an instrument's outputs."""
-    values = _place(order, layout)
-    generic = _generic(tuple((n, v) for n, v in values.items() if v.is_Integer), order.second_order_angles)
+    values = numbers_of_place(order, layout)
+    generic = generic_series(
+        tuple((n, v) for n, v in values.items() if v.is_Integer), order.second_order_angles
+    )
     plain = {symbol(n): v for n, v in values.items() if n in _Q and v.as_coeff_Mul()[1].is_Symbol}
     if plain:  # of nominal axes K_2 and the like stand by themselves
         generic = {key: {m: e.xreplace(plain) for m, e in of.items()} for key, of in generic.items()}
@@ -135,7 +137,7 @@ def layout_harmonics(title: str, order: Order, kinematics: Kinematics, layout: L
     )
 
 
-def _place(order: Order, layout: Layout) -> dict[str, sp.Expr]:
+def numbers_of_place(order: Order, layout: Layout) -> dict[str, sp.Expr]:
     """The numbers of an accelerometer at its place: k1, K0, its input axis i, its place r, and Q of second-order terms.
 
     Where these terms do not see the angles, their place is another one: q.
@@ -174,7 +176,7 @@ def _second_order(axes: sp.Matrix) -> list[sp.Expr]:
 
 
 @cache
-def _generic(constants: tuple[tuple[str, sp.Integer], ...], one_place: bool) -> Generic:
+def generic_series(constants: tuple[tuple[str, sp.Integer], ...], one_place: bool) -> Generic:
     """The series of one accelerometer; ``one_place``: second-order terms see the same place as the linear one."""
     fixed = {symbol(n): v for n, v in constants}
     names = ("k1", "K0", *_I, *_R, *_Q, *(() if one_place else _QR))

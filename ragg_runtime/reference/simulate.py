@@ -144,10 +144,9 @@ def simulate(
     noise, seed
         Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
     rotations
-        ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles. ``second-order`` keeps the squares of
-        mounting angles, with Eq. 2.
+        ``first-order`` is the paper (Eq. 2), ``second-order`` keeps squares of mounting angles, ``exact`` turns by the full ones.
     misalignment
-        ``first-order`` or ``exact``, where misalignment angles are counted otherwise than mounting angles.
+        ``first-order`` or ``exact``; by itself exact with exact ``rotations``.
     kinematics
         ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
@@ -163,22 +162,32 @@ def simulate(
         On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
     """
     time = instants(duration, rate, start)
+    counted = misalignment or _of_misalignment(rotations)
+    injected = resolve(effects, instrument.layout.size)
+    world = _world(auxiliaries, injected, seed)
+    given = _turning(turning or {}, instrument.layout)
+    discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
+    share = spin_share(kinematics, injected)
+    chain = Chain(instrument, motion, gravity, rotations, injected, world, discs, share, counted)
+    clean = _clean(chain, time, rate, seed)
+    voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
+    return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))
+
+
+def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:
+    """The auxiliary channels, plausible ones where none are given; UserError if an effect lacks one."""
+    found = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if given is None else given
+    _require_channels(injected, found)
+    return found
+
+
+def _of_misalignment(rotations: Rotations) -> Literal["first-order", "exact"]:
+    """How misalignment angles turn where nothing else is said."""
     if rotations not in get_args(Rotations):
         raise UserError(
             "unknown kind of rotations", found=rotations, expected="first-order, second-order or exact"
         )
-    counted = misalignment or ("exact" if rotations == "exact" else "first-order")
-    injected = resolve(effects, instrument.layout.size)
-    if auxiliaries is None:
-        auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
-    _require_channels(injected, auxiliaries)
-    share = spin_share(kinematics, injected)
-    given = _turning(turning or {}, instrument.layout)
-    discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
-    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share, counted)
-    clean = _clean(chain, time, rate, seed)
-    voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
-    return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))
+    return "exact" if rotations == "exact" else "first-order"
 
 
 def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
