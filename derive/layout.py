@@ -55,12 +55,15 @@ class Layout:
     rest
         What the exact cosines and sines of the angles have beyond ``constants``: of places that balance each other
         the sum vanishes as it should, and a specific force of 1 g leaves nothing of their rounding.
+    own
+        Whether each accelerometer has a radius and a spin frequency of its own, even where all stand as the paper's do.
     """
 
     names: tuple[str, ...]
     constants: Mapping[str, tuple[float, ...]] = field(hash=False)
     outputs: tuple[Output, ...]
     rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
+    own: bool = False
 
     @property
     def size(self) -> int:

@@ -55,7 +55,7 @@ class Field:
     freedom
         Degrees of freedom from which the noise is known.
     blocks
-        Triangles of the blocks of time, where the noise is uneven: they temper the tests (``uneven``).
+        Triangles of the blocks of time that have samples, where the noise is uneven: they temper the tests (``uneven``).
     """
 
     T: Array
@@ -115,7 +115,7 @@ class Field:
         before = [*range(n), *(n + k for e in given for k, _ in self.candidates[e])]
         tested = [n + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
         by = uneven.inflation(self.T, self.blocks, before, tested)
-        return uneven.tempered(t, by, self.freedom, len(uneven.telling(self.blocks)))
+        return uneven.tempered(t, by, self.freedom, len(self.blocks))
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -220,7 +220,7 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    blocks = tuple(t for own in f.triangles for t in own) if f.uneven else ()
+    blocks = uneven.telling([t for own in f.triangles for t in own]) if f.uneven else ()
     T = f.whole if T is None else T
     return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks)
 
