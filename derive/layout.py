@@ -58,6 +58,8 @@ class Layout:
     put_in
         Constants that stand in the expressions already (``common``): four quarter turns on a vertical disc have no
         others than the paper's, and are another instrument.
+    own
+        Whether each accelerometer has a radius and a spin frequency of its own, even where all stand as the paper's do.
     """
 
     names: tuple[str, ...]
@@ -65,6 +67,7 @@ class Layout:
     outputs: tuple[Output, ...]
     rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
     put_in: tuple[str, ...] = ()
+    own: bool = False
 
     @property
     def size(self) -> int:

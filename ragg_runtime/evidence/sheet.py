@@ -25,21 +25,22 @@ has a quarter in common with all, two have the half."""
 
 def doubtful(f: Fitted, e: Effect) -> str | None:
     """Why an effect is not offered on these flights, in words: the sheet would do as well if it was wrong."""
-    own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == e.id]
-    for name in e.told_from:
-        if _size(f, f.freed(name), own) < MOST * _size(f, f.whole, own):
-            return f"only the sheet's word about {name} tells it from an error of {name}"
-    if e.common_of is None:
+    if not e.told_from and e.common_of is None:
         return None
+    own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == e.id]
     P = likelihood_ratio.project(f.whole, f.n_base)
-    by_each = float(np.sum(P[:, -1] ** 2))
-    by_each -= float(np.sum(likelihood_ratio.project(f.freed(e.common_of), f.n_base)[:, -1] ** 2))
-    by_all, _ = likelihood_ratio.explained(P, own, np.zeros(P.shape[1]))
-    if by_all < MOST * by_each:
-        return f"what the record says of {e.common_of} is not what all accelerometers have in common"
+    known = float(np.linalg.norm(P[:, own]))
+    for name in e.told_from:
+        if float(np.linalg.norm(_freed(f, name, own)[:, :-1])) < MOST * known:
+            return f"only the sheet's word about {name} tells it from an error of {name}"
+    if e.common_of is not None:
+        by_each = float(np.sum(P[:, -1] ** 2) - np.sum(_freed(f, e.common_of, own)[:, -1] ** 2))
+        by_all, _ = likelihood_ratio.explained(P, own, np.zeros(P.shape[1]))
+        if by_all < MOST * by_each:
+            return f"what the record says of {e.common_of} is not what all accelerometers have in common"
     return None
 
 
-def _size(f: Fitted, T: Array, own: list[int]) -> float:
-    """Norm of columns once the base is projected out."""
-    return float(np.linalg.norm(likelihood_ratio.project(T, f.n_base)[:, own]))
+def _freed(f: Fitted, name: str, own: list[int]) -> Array:
+    """Columns and residual once a base is projected out of which the sheet does not know that parameter."""
+    return likelihood_ratio.project(f.freed(name, own), f.n_base)

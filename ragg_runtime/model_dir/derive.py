@@ -240,6 +240,7 @@ def _placed(layout: Layout) -> SymbolicLayout:
         constants=constants,
         outputs=outputs,
         rest=rest_of_angles(stations.degrees(layout), constants["cos_j"], constants["sin_j"]),
+        own=True,
     )
 
 
