@@ -88,7 +88,8 @@ def headline(d: Diagnosis) -> str:
     )
 
 
-def lead(d: Diagnosis) -> list[str]:
+def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
+    """What the verdict rests on; ``sizes`` says where those stand that this record would show."""
     said = []
     for r in d.ranking:
         if r.effect in d.found:
@@ -109,7 +110,7 @@ def lead(d: Diagnosis) -> list[str]:
         )
     if d.verdict == "adequate":
         said.append(
-            "An effect smaller than the sizes listed at the end may still be there: this record would not show it."
+            f"An effect smaller than the sizes {sizes} may still be there: this record would not show it."
         )
     return said
 
