@@ -264,7 +264,8 @@ def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
 
 
 def _shown(d: Diagnosis) -> Shown:
-    return Shown(fitted=d.target, residual=d.residual_after, diagnosis=d)
+    before = d.residual if d.after != d.before else None
+    return Shown(fitted=d.target, residual=d.residual_after, before=before, diagnosis=d)
 
 
 def _sections(d: Diagnosis) -> list[dict[str, Any]]:
