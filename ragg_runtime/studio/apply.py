@@ -152,5 +152,5 @@ def _output(x: Mapping[str, Any], meaning: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
-def quality_page(q: Quality, title: str) -> bytes:
-    return quality_html(q, title=title, command="ragg qc").encode()
+def quality_page(q: Quality, title: str, command: str) -> bytes:
+    return quality_html(q, title=title, command=command).encode()

@@ -15,7 +15,7 @@ from ragg_runtime.model.record import Record
 from ragg_runtime.report import series as reported
 from ragg_runtime.report.spectrogram import spectrogram
 from ragg_runtime.studio import apply
-from ragg_runtime.studio.pyramid import HEAD, Pyramid
+from ragg_runtime.studio.pyramid import HEAD, Pyramid, pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -49,10 +49,8 @@ class Asked:
 
 def series(s: State, a: Asked) -> bytes:
     """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
-    if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.glances):
-        look = s.glances[a.flight]
-        if look is not None:
-            return look[1].window(a.first, a.last, a.points)
+    if s.compared is None and a.what == "measured" and (found := _unexamined(s, a.flight)) is not None:
+        return found.window(a.first, a.last, a.points)
     if a.what.startswith("compensated:"):
         c, what = s.compensated, a.what.partition(":")[2]
         how = () if c is None else (c.result["calibration"], c.result["demodulator"]["name"])
@@ -74,6 +72,20 @@ def _rows(r: Record, a: Asked) -> slice:
     if j - i < 64:
         raise UserError("the stretch is too short for a spectrum", found=f"{max(0, j - i)} samples")
     return slice(i, j)
+
+
+def _unexamined(s: State, flight: int) -> Pyramid | None:
+    """The output of a flight before it is compared: of a first look at the file, else of the flight as it was read."""
+    if 0 <= flight < len(s.glances) and (look := s.glances[flight]) is not None:
+        return look[1]
+    x = s.flights[flight] if 0 <= flight < len(s.flights) else None
+    if x is None or not x.outputs or not len(x):
+        return None
+    values = next(iter(x.outputs.values()))
+    make = lambda: pyramid(0.0, 1.0 / x.rate, len(x), lambda k: values[k])  # noqa: E731
+    made = s.tracks.cache.get(("read", flight), make)
+    assert isinstance(made, Pyramid)
+    return made
 
 
 def _place(s: State, a: Asked) -> tuple[int, Record, float]:

@@ -314,8 +314,9 @@ def _new(session: Session, body: Mapping[str, Any]) -> None:
 
 def _map(session: Session, body: Mapping[str, Any]) -> None:
     flight = session.places.inside(_text(body, "flight"))
-    mapping.keep(session.state.model, flight, _given(body), replace=body.get("replace") is True)
-    session.open(None, [flight])
+    m = session.state.model
+    mapping.keep(m, flight, _given(body), replace=body.get("replace") is True)
+    session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
 def _leave(session: Session, body: Mapping[str, Any]) -> None:

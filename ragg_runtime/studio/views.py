@@ -37,6 +37,7 @@ def overview(s: State, version: str) -> Json:
         "version": version,
         "model": None if s.loaded is None else _model(s),
         "flights": _flights(s),
+        "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
         "silent": [] if s.diagnosed is None else _silent(s.diagnosed),
@@ -148,7 +149,7 @@ def _banner(s: State) -> Json | None:
         "state": state,
         "verdict": None if d is None else d.verdict,
         "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
-        "lead": [] if d is None else diagnose_page.lead(d),
+        "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
         "errors": [
             {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
             {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},

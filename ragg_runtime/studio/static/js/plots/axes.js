@@ -69,6 +69,9 @@ function reading(plot, box, told) {
   (plot.hooks.setCursor ||= []).push(say);
 }
 
+/** A number as it is read off an axis. */
+export const plain = (v) => String(Number(v.toPrecision(6))).replace("-", "−");
+
 /** Least and greatest value of a series in words; once, where they are one sample. */
 export const span = (low, high) => (low === high || number(low, 4) === number(high, 4) ? number(low, 4) : `${number(low, 4)} … ${number(high, 4)}`);
 

@@ -6,7 +6,7 @@ const MOST = 7;
 /** steps: [{label, value, kind: "start" | "step" | "foreseen"}]; one more than was `seen` falls from the height of the one before it. */
 export function stepBars(steps, noise, seen = []) {
   const shown = steps.slice(-MOST);
-  const width = 96 * Math.max(shown.length, 3), height = 150, base = 106;
+  const width = 96 * Math.max(shown.length + 0.7, 3), height = 150, base = 106;
   const top = Math.max(...shown.map((b) => b.value), noise * 1.1);
   const log = top > 12 * noise;
   const bottom = log ? noise / 2 : 0;

@@ -1,6 +1,6 @@
 // Amplitude densities on logarithmic axes, the multiples of the spin marked; a band can be brushed.
 import { number } from "../dom.js";
-import { axis, colour, logValues, mounted, rem } from "./axes.js";
+import { axis, colour, logValues, mounted, plain, rem } from "./axes.js";
 
 const LINES = [
   { id: "beside", name: "model beside it", colour: "beside", width: 1.6 },
@@ -41,7 +41,7 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
     },
     [[0.1, 1], ...LINES.map(() => [null, null])],
     (u, k) => [
-      `${number(u.data[0][k], 4)} Hz${spin ? ` = ${number(u.data[0][k] / spin, 3)} Ω` : ""}`,
+      `${plain(Number(u.data[0][k].toPrecision(4)))} Hz${spin ? ` = ${number(u.data[0][k] / spin, 3)} Ω` : ""}`,
       ...LINES.map((l, i) => (u.data[1 + i][k] === null || u.data[1 + i][k] === undefined ? "" : `${l.short || l.name} ${number(u.data[1 + i][k])}`)),
     ].filter(Boolean).join(" · "),
   );

@@ -1,6 +1,5 @@
 // Series over time: envelopes where samples are many, the noise's one sigma, and what is laid over them.
-import { number } from "../dom.js";
-import { axis, colour, mounted, rem, span, wheel } from "./axes.js";
+import { axis, colour, mounted, plain, rem, span, wheel } from "./axes.js";
 
 const SYNC = "time";
 
@@ -52,7 +51,7 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
     },
     [[0, 1], ...series.slice(1).map(() => [null, null])],
     (u, k) => [
-      `${number(u.data[0][k], 6)} s`,
+      `${plain(u.data[0][k])} s`,
       ...lines.map((line, i) => {
         const [low, high] = [u.data[1 + 2 * i][k], u.data[2 + 2 * i][k]];
         return low === null || low === undefined ? "" : `${lines.length > 1 ? `${line.name} ` : ""}${span(low, high)} ${unit ? unit() : ""}`;

@@ -1,7 +1,7 @@
 // Choose or drop files: model directories, test sheets, flights, below the folders that were named at the start.
 import { ask, Refused, upload } from "../api.js";
 import { counted, fill, h, number } from "../dom.js";
-import { look, on, server } from "../store.js";
+import { look, on, server, view } from "../store.js";
 import { doing, trouble } from "../doing.js";
 import { mappingPane } from "./mapping.js";
 
@@ -75,6 +75,10 @@ export function filesView(main) {
   };
   fill(main, now, columns, drop, list);
   known();
+  if (view.columns) {
+    mappingPane(columns, view.columns, trouble);
+    look({ columns: "" }, true);
+  }
   show("");
   return on("server", known);
 }

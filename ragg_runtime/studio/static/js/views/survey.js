@@ -68,8 +68,9 @@ export function surveyView(main) {
     const select = h("select", { "aria-label": "Parameter", onchange: (e) => ((chosen = Number(e.target.value)), dropped(1), drifting(x)) }, x.drawn.map((d, k) => h("option", { value: String(k), selected: k === chosen }, `${d.label}, ${d.unit}${x.trends[k].varies ? " · varies" : ""}`)));
     const figure = frame({ id: "drift", title: "A parameter over the flights", kind: "figure", more: [select], name: () => fileName("survey", t.label), text: () => curvesText(plots[1].plot) });
     fill(drift, figure.element);
-    figure.say(`Mean ${trend.mean} ${trend.unit}, scatter ${trend.scatter}; χ² per degree of freedom ${trend.chi2} over ${trend.count} flights. Bars: one standard uncertainty. The least constant parameters come first.`);
-    plots.push(dotPlot(figure.body, { label: trend.unit, log: false, picked: marked, rows: [{ name: t.label, colour: "residual", values: t.values, stds: t.stds }] }));
+    const unit = trend.unit ? ` ${trend.unit}` : "";
+    figure.say(`Mean ${trend.mean}${unit}, scatter ${trend.scatter}${unit}; χ² per degree of freedom ${trend.chi2} over ${trend.count} flights. Bars: one standard uncertainty. The least constant parameters come first.`);
+    plots.push(dotPlot(figure.body, { label: trend.unit || t.label, log: false, picked: marked, rows: [{ name: t.label, colour: "residual", values: t.values, stds: t.stds }] }));
   };
   const marked = (k) => {
     list.querySelectorAll("tr.picked").forEach((r) => r.classList.remove("picked"));
