@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import likelihood_ratio, uneven
+from ragg_runtime.evidence import likelihood_ratio, sheet, uneven
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
@@ -226,8 +226,10 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
 
 
 def testable_effects(f: Fitted) -> list[str]:
-    """Deterministic candidates of which every flight has the channels."""
+    """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
     have = [set(o.record.wide) for o in f.observations]
     return [
-        e.id for e in f.model.candidates if e.kind == "deterministic" and not any(e.missing(h) for h in have)
+        e.id
+        for e in f.model.candidates
+        if e.kind == "deterministic" and not any(e.missing(h) for h in have) and sheet.doubtful(f, e) is None
     ]

@@ -33,8 +33,11 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
 
 
+FREE = 1e-3
+"""Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
+
 WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says."""
+"""Most times that a sheet is taken to be less sure than it says, and that effects are given more room."""
 
 
 @dataclass(frozen=True)
@@ -152,6 +155,13 @@ class Fitted:
     def _triangle(self, blocks: Sequence[int]) -> Array:
         sheet = prior(range(self.n_base), self.size + 1, self.to_nominal)
         return fold([*(t[b] for t in self.triangles for b in blocks), sheet])
+
+    def freed(self, name: str) -> Array:
+        """Triangle of all flights as if the sheet did not know one parameter of the accelerometers."""
+        sheet = prior(range(self.n_base), self.size + 1, self.to_nominal)
+        of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
+        sheet[of_it] *= FREE
+        return fold([*(t[b] for t in self.triangles for b in range(BLOCKS)), sheet])
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,6 +124,7 @@ def simulate(
     record_gradient: bool = True,
     noise: Noise | None = None,
     rotations: Rotations = "first-order",
+    misalignment: Literal["first-order", "exact"] | None = None,
     kinematics: Kinematics = "platform",
     effects: EffectValues | None = None,
     seed: int = 0,
@@ -143,7 +144,10 @@ def simulate(
     noise, seed
         Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
     rotations
-        ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles.
+        ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles. ``second-order`` keeps the squares of
+        mounting angles, with Eq. 2.
+    misalignment
+        ``first-order`` or ``exact``, where misalignment angles are counted otherwise than mounting angles.
     kinematics
         ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
@@ -159,8 +163,11 @@ def simulate(
         On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
     """
     time = instants(duration, rate, start)
-    if rotations not in ("first-order", "exact"):
-        raise UserError("unknown kind of rotations", found=rotations, expected="first-order or exact")
+    if rotations not in get_args(Rotations):
+        raise UserError(
+            "unknown kind of rotations", found=rotations, expected="first-order, second-order or exact"
+        )
+    counted = misalignment or ("exact" if rotations == "exact" else "first-order")
     injected = resolve(effects, instrument.layout.size)
     if auxiliaries is None:
         auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
@@ -168,7 +175,7 @@ def simulate(
     share = spin_share(kinematics, injected)
     given = _turning(turning or {}, instrument.layout)
     discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
-    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share)
+    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share, counted)
     clean = _clean(chain, time, rate, seed)
     voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
     return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))

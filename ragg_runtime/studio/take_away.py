@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
+import zipfile
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -13,7 +15,7 @@ from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.workflow import loop, origin
+from ragg_runtime.workflow import after, loop, origin
 
 File = tuple[str, str, bytes]
 HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
@@ -121,6 +123,17 @@ def _model(s: State) -> File:
     return "model.toml", "application/toml", s.model.directory.text.encode()
 
 
+def _exported(s: State, form: str) -> File:
+    """The model to run elsewhere, with the calibration that is kept: what ``ragg export`` writes, as one file."""
+    files = after.FORMS[form](after.contents(s.model))
+    name = f"model-{form}"
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:
+        for path, text in files.items():
+            z.writestr(zipfile.ZipInfo(f"{name}/{path}"), text, zipfile.ZIP_DEFLATED)
+    return f"{name}.zip", "application/zip", made.getvalue()
+
+
 def _commands(s: State) -> File:
     return "commands.sh", TEXT, ("#!/bin/sh\n" + "\n".join(views.commands(s)) + "\n").encode()
 
@@ -137,5 +150,7 @@ FILES: Mapping[str, Callable[[State], File]] = {
     "survey.html": _survey_report,
     "survey.json": _survey_json,
     "model.toml": _model,
+    "model-c.zip": lambda s: _exported(s, "c"),
+    "model-numpy.zip": lambda s: _exported(s, "numpy"),
     "commands.sh": _commands,
 }

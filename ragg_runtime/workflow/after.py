@@ -238,14 +238,19 @@ def _chain(m: Loaded) -> str:
 
 
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
     if form not in FORMS:
         raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 
+def _harmonics(c: Contents) -> Mapping[str, str]:
+    """The outputs as harmonics of their discs' angles, beside the values that go into them."""
+    return {**derive.harmonics_of(c.instrument), **json_files(c)}
+
+
 FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
-    {"c": c_program, "numpy": numpy_files, "json": json_files}
+    {"c": c_program, "numpy": numpy_files, "json": json_files, "harmonics": _harmonics}
 )
 """Form of an export -> its files."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,7 @@ from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.instruments import perturbed
+from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.workflow.spin import turning_of
 
@@ -54,7 +55,7 @@ def simulated(
     mapping: Mapped | None = None,
     spin: Sequence[str] = (),
 ) -> Flight:
-    """A flight with hidden effects, of model.toml's order (mounting angles squared: exactly) and kinematics.
+    """A flight with hidden effects, of model.toml's order and kinematics.
 
     Parameters
     ----------
@@ -74,7 +75,6 @@ def simulated(
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
-    first_order = (form.mounting, form.misalignment) == (1, 1)
     record = None
     if motion is None:
         flown = _drawn(seed, duration, rate, shape)
@@ -89,7 +89,8 @@ def simulated(
         gravity=draw_gradient(np.random.default_rng([seed, 13])),
         record_gradient=not no_gradient,
         noise=_noise(noise, instrument.radius),
-        rotations="first-order" if first_order else "exact",
+        rotations=_ROTATIONS[form.mounting],
+        misalignment="exact" if form.misalignment == "exact" else "first-order",
         kinematics="full" if form.kinematics == "full" else "platform",
         effects=effects,
         seed=seed,
@@ -97,6 +98,10 @@ def simulated(
         turning=turning_of(spin, instrument.layout, record),
     )
     return s.flight("simulated", voltages=voltages)
+
+
+_ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order", "exact": "exact"}
+"""How the mounting of ``[model] order`` turns in the simulator."""
 
 
 def _auxiliaries(seed: int, effects: EffectValues, count: int) -> dict[str, Auxiliary]:

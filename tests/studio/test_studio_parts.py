@@ -20,10 +20,10 @@ from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session
+from ragg_runtime.studio.branches import branches
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
-from ragg_runtime.studio.session import branches
 from ragg_runtime.studio.surveys import flights_below
 from ragg_runtime.workflow import loop
 

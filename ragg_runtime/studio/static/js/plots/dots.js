@@ -1,5 +1,6 @@
 // Values of many flights side by side: a dot each, its standard deviation as a bar, levels as dashed steps.
 import uPlot from "../../vendor/uPlot.esm.js";
+import { number } from "../dom.js";
 import { axis, colour, logValues, mounted, rem } from "./axes.js";
 
 /**
@@ -26,6 +27,7 @@ export function dotPlot(box, { label, rows, log, picked }) {
       hooks: { draw: [(u) => rows.forEach((r) => r.stds && bars(u, r))] },
     },
     [flights, ...rows.map((r) => r.values)],
+    (u, k) => [`flight ${k}`, ...rows.map((r) => (r.values[k] === null ? "" : `${r.name} ${number(r.values[k], 4)}${r.stds && r.stds[k] !== null ? ` ± ${number(r.stds[k], 2)}` : ""}`))].filter(Boolean).join(" · "),
   );
   made.plot.over.addEventListener("click", () => {
     const k = made.plot.cursor.idx;

@@ -2,8 +2,12 @@
 import { fill, h, number } from "../dom.js";
 import { on, server, view } from "../store.js";
 import { stepBars } from "../plots/bars.js";
+import { drawingText } from "../plots/export.js";
+import { fileName, saves } from "../plots/figure.js";
 import { foreseen } from "./foresee.js";
 import { doing } from "../doing.js";
+
+let seen = []; // the steps that were shown last: what has been added since is seen to fall
 
 export function banner(box) {
   const known = () => {
@@ -23,7 +27,7 @@ export function banner(box) {
         b.lead.map((t) => h("p.lead", {}, t)),
         h("p.flags", {},
           b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
-          h("span.flag", {}, times < 1.15 ? "down to the noise" : `${number(times, 2)} × the noise`),
+          h("span.flag", {}, b.adequate && b.verdict !== "unexplained" ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
           h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
       ),
       h("dl.errors", {},
@@ -42,7 +46,9 @@ export function banner(box) {
     if (now && view.ticked.length) {
       steps.push({ label: view.ticked.length > 1 ? `${view.ticked.length} effects?` : `${view.ticked[0]}?`, value: now.rms_Eo, kind: "foreseen" });
     }
-    place.replaceChildren(stepBars(steps, state.banner.noise.rms_Eo));
+    const made = stepBars(steps, state.banner.noise.rms_Eo, seen);
+    fill(place, made, saves("Error after every step", () => fileName(state.model.name, "steps"), () => drawingText(made.querySelector("svg"))));
+    if (!view.ticked.length) seen = steps;
   };
   const off = on("foreseen", bars);
   return { known, gone: off };
