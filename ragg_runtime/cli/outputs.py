@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import Target, pair
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
-"""Names of stdout where JSON is asked for: it is then all that stands there."""
+"""Names of stdout; where JSON is asked for there, it is all that stands there."""
 
 _KEY = f"{__name__}.outputs"
 _OF_A_MODEL = (
@@ -60,13 +60,15 @@ def _over(what: str, path: Path, found: str) -> UserError:
 class Outputs:
     """The files that a command was asked to write, ready to be written; :meth:`place` ends them all."""
 
-    def __init__(self, targets: Mapping[str, Target]) -> None:
+    def __init__(self, targets: dict[str, Target]) -> None:
         self._targets = targets
         self._written: list[Target] = []
 
-    def write(self, name: str, text: str) -> None:
-        """Write one of them; nothing stands in its place yet."""
-        self._targets[name].write(text.encode())
+    def write(self, name: str, content: str | bytes) -> None:
+        """Write one of them; nothing stands in its place yet, but what goes to stdout is said at once."""
+        if name in STDOUT:
+            self._targets[name] = Target(Path("/dev/stdout"))
+        self._targets[name].write(content.encode() if isinstance(content, str) else content)
         self._written.append(self._targets[name])
 
     def protect(self, inputs: Iterable[Path]) -> None:

@@ -50,6 +50,17 @@ def compensated(m: Loaded, flights: Sequence[Flight], kind: str, demodulator: st
     return after.compensate(m, bare, kind, demodulator)  # type: ignore[arg-type]
 
 
+def kept(m: Loaded) -> str | None:
+    """Where the calibration comes from that is kept with the model, or why it does not count; ``None``: there is none."""
+    if m.directory.calibration is None:
+        return None
+    try:
+        saved = after.saved_calibration(m)
+    except UserError as e:
+        return f"not used: {e.what}"
+    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.listed([numbers.clean(n) for n in saved.flights])}"
+
+
 def curve(c: Compensation | None, what: str, flight: int) -> Pyramid:
     """``inline`` and such, or ``inline:low`` and ``inline:high``: one standard uncertainty below and above it, Eo."""
     name, _, edge = what.partition(":")
@@ -141,5 +152,5 @@ def _output(x: Mapping[str, Any], meaning: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
-def quality_page(q: Quality, title: str) -> bytes:
-    return quality_html(q, title=title, command="ragg qc").encode()
+def quality_page(q: Quality, title: str, command: str) -> bytes:
+    return quality_html(q, title=title, command=command).encode()

@@ -23,7 +23,6 @@ from ragg_runtime.compensation.compensate import (
     Kind,
     meaning,
     prepared,
-    without_gradients,
 )
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.document import json_files
@@ -37,6 +36,7 @@ from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
 from ragg_runtime.model_dir.history import Step
@@ -188,8 +188,11 @@ def compensate(
         "flights": [x.as_json() for outputs in each for x in outputs],
         "quality": meaning(),
     }
-    if saved is not None:
-        result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+    if saved is not None and p.change is not None:
+        told = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+        result["frozen"] = told | p.change.as_json()
+        if not p.change.holds:
+            result["notes"] = [_frozen.warning(saved.time, p.change)]
     return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
 
 
@@ -243,14 +246,19 @@ def _chain(m: Loaded) -> str:
 
 
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
     if form not in FORMS:
         raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 
+def _harmonics(c: Contents) -> Mapping[str, str]:
+    """The outputs as harmonics of their discs' angles, beside the values that go into them."""
+    return {**derive.harmonics_of(c.instrument), **json_files(c)}
+
+
 FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
-    {"c": c_program, "numpy": numpy_files, "json": json_files}
+    {"c": c_program, "numpy": numpy_files, "json": json_files, "harmonics": _harmonics}
 )
 """Form of an export -> its files."""
 
@@ -259,7 +267,7 @@ def read_for_compensation(
     m: Loaded, paths: Sequence[Path | str], mapping: Path | None = None
 ) -> list[Flight]:
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
-    return read_flights(m, paths, mapping, first=without_gradients)
+    return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
 
 
 def calibration_notes(m: Loaded) -> list[str]:

@@ -18,6 +18,7 @@ from hypothesis.extra.numpy import arrays
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
+from ragg_runtime.flight import mat_file
 from ragg_runtime.flight.convert import convert
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.formats import ALL, open_file
@@ -84,6 +85,17 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     assert sorted(p.suffix for p in tmp_path.iterdir()) == (
         [".dat", ".dfn"] if ending == ".dat" else [path.suffix]
     )
+
+
+@pytest.mark.parametrize("lines", [(), ("10", "1030")])
+def test_matlab_73_with_units_of_any_length(
+    tmp_path: Path, lines: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mat_file, "_LARGE", 0)
+    tables = written(40, lines)
+    write_tables(tmp_path / "x.mat", lambda: tables)
+    assert (tmp_path / "x.mat").read_bytes().startswith(b"MATLAB 7.3")
+    same(expected(tables), content(tmp_path / "x.mat"), ordered=False)
 
 
 @settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))

@@ -179,6 +179,13 @@ def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Pa
     assert (status, "nobody reads from it" in said) == (2, True)
 
 
+def test_a_dash_is_stdout_for_what_is_text(
+    given: tuple[Path, Path], capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert commands.ragg("map", given[1], "-o", "-").returncode == 0
+    assert "[time]" in capfd.readouterr().out
+
+
 def test_a_link_is_written_through(given: tuple[Path, Path], tmp_path: Path) -> None:
     link, target = tmp_path / "latest.json", tmp_path / "of-today.json"
     link.symlink_to(target.name)
