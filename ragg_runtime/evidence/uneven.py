@@ -31,8 +31,8 @@ def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: S
     """How much more the scores vary than they should: at least 1.
 
     That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions.
-    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time (:func:`telling`); columns ``given`` are in the model, ``tested``
-    beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
+    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time (:func:`telling`); columns ``given`` are in
+    the model, ``tested`` beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
     """
     if len(blocks) < FEWEST:
         return 1.0
