@@ -55,7 +55,7 @@ class Field:
     freedom
         Degrees of freedom from which the noise is known.
     blocks
-        Triangles of the blocks of time that have samples, where the noise is uneven: they temper the tests (``uneven``).
+        Triangles of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
     freed
         Effect id -> the field as if the sheet did not know the parameter that the effect is the common part of (``sheet``).
     """
@@ -70,6 +70,8 @@ class Field:
     freed: Mapping[str, Field] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
+    _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
+    """Tests by what was given: a selection asks for the same again when it swaps and drops."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
@@ -98,8 +100,14 @@ class Field:
         floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
         return left, floor
 
-    def tests(self, given: Sequence[str] = ()) -> dict[str, Test]:
+    def tests(self, given: Sequence[str] = ()) -> Mapping[str, Test]:
         """The test of every effect that is not in ``given``, with those that are projected out."""
+        key = tuple(given)
+        if key not in self._known:
+            self._known[key] = self._tests(key)
+        return self._known[key]
+
+    def _tests(self, given: Sequence[str]) -> dict[str, Test]:
         P, floor = self.P, self.floor
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
@@ -236,7 +244,7 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    blocks = uneven.telling([t for own in f.triangles for t in own]) if f.uneven else ()
+    blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
     T = f.whole if T is None else T
     common = [e for e in f.model.candidates if e.id in kept and e.common_of is not None]
     free = {

@@ -9,7 +9,7 @@ That ratio is known from so many blocks: the test then follows Fisher's F, as on
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -31,8 +31,8 @@ def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: S
     """How much more the scores vary than they should: at least 1.
 
     That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions.
-    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time (:func:`telling`); columns ``given`` are in
-    the model, ``tested`` beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
+    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time with any sample; ``given`` are in the model, ``tested``
+    beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
     """
     if len(blocks) < FEWEST:
         return 1.0
@@ -50,7 +50,7 @@ def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: S
     return max(1.0, power / int(np.sum(known)))
 
 
-def telling(blocks: Sequence[Array]) -> tuple[Array, ...]:
+def telling(blocks: Iterable[Array]) -> tuple[Array, ...]:
     """Those in which there is any sample."""
     return tuple(t for t in blocks if np.any(t))
 

@@ -87,12 +87,14 @@ def lead(c: Comparison) -> list[str]:
     inline, cross = series.channel_noise(f)
     noise = panels.error_of_noise(c.noise_floor, inline, cross, f.k_ggi)
     said = []
+    alone = ""
+    if math.isfinite(noise.inline_Eo):
+        densities = (noise.inline_Eo_per_rtHz, noise.cross_Eo_per_rtHz)
+        alone = "; the noise alone would give {} and {}".format(*map(numbers.number, densities))
     if math.isfinite(c.calibrated.inline_Eo):
         said.append(
             f"In the demodulated channels the residual is {numbers.number(c.calibrated.inline_Eo_per_rtHz)} Eo/√Hz"
-            f" inline and {numbers.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross;"
-            f" the noise alone would give {numbers.number(noise.inline_Eo_per_rtHz)} and"
-            f" {numbers.number(noise.cross_Eo_per_rtHz)}."
+            f" inline and {numbers.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross{alone}."
         )
     found = c.terms()
     if found:

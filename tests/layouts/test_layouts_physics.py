@@ -24,6 +24,7 @@ LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
     "three": (sheets.three, 3),
     "complements": (sheets.complements, 8),
     "umbrella": (sheets.umbrella, 12),
+    "vertical": (sheets.vertical, 4),
     "odd": (sheets.odd, 4),
 }
 

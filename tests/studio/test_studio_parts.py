@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import struct
+import time
 import tomllib
 from pathlib import Path
 
@@ -20,11 +21,13 @@ from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session
+from ragg_runtime.studio.branches import branches, tree
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
-from ragg_runtime.studio.session import branches
+from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.surveys import flights_below
+from ragg_runtime.studio.timeline import missing
 from ragg_runtime.workflow import loop
 
 
@@ -114,6 +117,20 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     assert branches(steps[:7]) == ([0, 1, 6], [])
     assert branches(steps[:8]) == ([0, 1], [6])
     assert branches(steps) == ([0, 1, 6], [])
+    kept = [*steps[:2], Step("calibrate", "2026-01-01")]  # leaves the model as it is
+    assert branches([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
+    went = [*steps[:4], Step("add", "2026-01-01", text="4"), Step("restore", "2026-01-01", "2", text="2")]
+    assert tree(went) == {0: (None, 0), 1: (0, 0), 2: (1, 0), 4: (1, 1), 5: (2, 0)}
+
+
+def test_a_timeline_shows_gaps_and_lone_samples() -> None:
+    valid = np.ones(1000, dtype=bool)
+    valid[:20] = valid[500:504] = valid[700:703] = valid[999] = False
+    assert missing(valid, 10.0) == {"gaps": [[0.0, 2.0], [50.0, 50.4]], "alone": [70.0, 99.9]}
+    valid[np.arange(0, 1000, 5)[:, None] + np.arange(4)[None]] = False
+    many = missing(np.tile(valid, 4), 10.0)
+    assert len(many["gaps"]) == 300
+    assert many["gaps"] == sorted(many["gaps"])
 
 
 def test_modules_import_downwards_alone() -> None:
@@ -161,6 +178,16 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
     assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
+    (tmp_path / "model" / "mapping.toml").unlink()
+    page = session.Session(Places((tmp_path.resolve(),)))
+    page.open(tmp_path / "model", [])
+    while page.jobs.status.name:
+        time.sleep(0.05)
+    ACTIONS["map"](page, {"flight": str(path), "mapping": given})  # read by the mapping that it has just kept
+    while page.jobs.status.name and not page.state.flights:
+        time.sleep(0.05)
+    page.jobs.cancel()
+    assert page.state.flights[0].channels["a_z"] == pytest.approx(raw)
     given["rows"][0]["sign"] = -1
     with pytest.raises(UserError, match="mapping already"):
         mapping.keep(m, path, given, replace=False)

@@ -36,12 +36,16 @@ export const logValues = (u, found) => {
   });
 };
 
-/** A plot that fills its box and is drawn anew when that or the colours change. */
-export function mounted(box, options, data) {
+/**
+ * A plot that fills its box and is drawn anew when that or the colours change.
+ * `told(u, k)` says in words what stands at sample k below the pointer; it is shown in the figure's heading.
+ */
+export function mounted(box, options, data, told) {
   const size = () => ({ width: Math.max(200, box.clientWidth), height: Math.max(60, box.clientHeight) });
   const plot = new uPlot({ ...size(), ...options, legend: { show: false } }, data, box);
   const watcher = new ResizeObserver(() => plot.setSize(size()));
   watcher.observe(box);
+  if (told) reading(plot, box, told);
   const themed = () => plot.redraw(false);
   document.addEventListener("themed", themed);
   return {
@@ -53,6 +57,23 @@ export function mounted(box, options, data) {
     },
   };
 }
+
+function reading(plot, box, told) {
+  const place = () => box.closest("figure") && box.closest("figure").querySelector(".readout");
+  const say = () => {
+    const at = place(), { left, idx } = plot.cursor;
+    const text = left >= 0 && idx !== null && idx !== undefined ? told(plot, idx) : "";
+    if (at && at.textContent !== text) at.textContent = text;
+  };
+  // linked plots move their cursors together, and each says what stands there
+  (plot.hooks.setCursor ||= []).push(say);
+}
+
+/** A number as it is read off an axis. */
+export const plain = (v) => String(Number(v.toPrecision(6))).replace("-", "−");
+
+/** Least and greatest value of a series in words; once, where they are one sample. */
+export const span = (low, high) => (low === high || number(low, 4) === number(high, 4) ? number(low, 4) : `${number(low, 4)} … ${number(high, 4)}`);
 
 /** Wheel zooms about the pointer, Shift or a horizontal wheel pans; `moved` is given the new limits. */
 export function wheel(plot, moved) {
@@ -75,5 +96,3 @@ export function wheel(plot, moved) {
     { passive: false },
   );
 }
-
-

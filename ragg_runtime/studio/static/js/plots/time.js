@@ -1,5 +1,5 @@
 // Series over time: envelopes where samples are many, the noise's one sigma, and what is laid over them.
-import { axis, colour, mounted, rem, wheel } from "./axes.js";
+import { axis, colour, mounted, plain, rem, span, wheel } from "./axes.js";
 
 const SYNC = "time";
 
@@ -18,14 +18,14 @@ function aligned(base, other, which) {
  * @param lines [{name, colour, width, dash}] in the order in which they are drawn
  * @param moved is given the limits that the user wants
  */
-export function timePlot(box, { label, lines, moved, level, picked, limits }) {
+export function timePlot(box, { label, lines, moved, level, limits, unit }) {
   const series = [{}];
   const bands = [];
   for (const line of lines) {
     const stroke = () => colour(line.colour) + (line.dimmed && line.dimmed() ? "70" : "");
     const common = { stroke, width: line.width || 1, dash: line.dash, points: { show: false }, spanGaps: false };
     series.push({ ...common, label: line.name }, { ...common, label: `${line.name} ` });
-    bands.push({ series: [series.length - 1, series.length - 2], fill: () => `${colour(line.colour)}${line.dimmed && line.dimmed() ? "30" : line.alpha || "59"}` });
+    bands.push({ series: [series.length - 1, series.length - 2], fill: () => `${colour(line.colour)}${line.dimmed && line.dimmed() ? "30" : line.alpha || "a0"}` });
   }
   const made = mounted(
     box,
@@ -47,10 +47,16 @@ export function timePlot(box, { label, lines, moved, level, picked, limits }) {
             moved(a, b);
           },
         ],
-        setCursor: [(u) => picked && picked(u)],
       },
     },
     [[0, 1], ...series.slice(1).map(() => [null, null])],
+    (u, k) => [
+      `${plain(u.data[0][k])} s`,
+      ...lines.map((line, i) => {
+        const [low, high] = [u.data[1 + 2 * i][k], u.data[2 + 2 * i][k]];
+        return low === null || low === undefined ? "" : `${lines.length > 1 ? `${line.name} ` : ""}${span(low, high)} ${unit ? unit() : ""}`;
+      }),
+    ].filter(Boolean).join(" · "),
   );
   wheel(made.plot, moved);
   made.plot.over.addEventListener("dblclick", () => moved(null, null));
