@@ -61,7 +61,7 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
         y: { range: (u, low, high) => reach(low, high, level ? level() : 0) },
       },
       series, bands,
-      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.2 * rem() })],
+      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.6 * rem() })],
       cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {
         draw: [(u) => noise(u, level)],
