@@ -164,7 +164,7 @@ def diagnosed(
 ) -> str:
     """The result of ``diagnose``."""
     lines = [
-        notebook.verdict(d.verdict, d.found),
+        notebook.verdict(d.verdict, d.found, [g.as_json() for g in d.groups]),
         *_not_converged(d.complaint),
         *([] if d.remark is None else [f"note: {d.remark}"]),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",

@@ -94,6 +94,7 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
     lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
     if not r["converged"]:
         lines.append("The calibration has NOT converged: do not rely on these values.")
+    lines += [f"note: {text}" for text in r.get("notes", ())]
     for x in r["flights"]:
         lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
         lines.append(

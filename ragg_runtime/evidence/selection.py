@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import likelihood_ratio, uneven
+from ragg_runtime.evidence import likelihood_ratio, sheet, uneven
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
@@ -55,7 +55,7 @@ class Field:
     freedom
         Degrees of freedom from which the noise is known.
     blocks
-        Triangles of the blocks of time, where the noise is uneven: they temper the tests (``uneven``).
+        Triangles of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
     """
 
     T: Array
@@ -67,6 +67,8 @@ class Field:
     blocks: tuple[Array, ...] = ()
     norms: Array = field(init=False)
     P: Array = field(init=False)
+    _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
+    """Tests by what was given: a selection asks for the same again when it swaps and drops."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "norms", np.linalg.norm(self.T[:, self.n_base :], axis=0))
@@ -95,8 +97,14 @@ class Field:
         floor = np.maximum(self.floor, 1e-3 * np.linalg.norm(self.P, axis=0))
         return left, floor
 
-    def tests(self, given: Sequence[str] = ()) -> dict[str, Test]:
+    def tests(self, given: Sequence[str] = ()) -> Mapping[str, Test]:
         """The test of every effect that is not in ``given``, with those that are projected out."""
+        key = tuple(given)
+        if key not in self._known:
+            self._known[key] = self._tests(key)
+        return self._known[key]
+
+    def _tests(self, given: Sequence[str]) -> dict[str, Test]:
         P, floor = self.P, self.floor
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
@@ -115,7 +123,7 @@ class Field:
         before = [*range(n), *(n + k for e in given for k, _ in self.candidates[e])]
         tested = [n + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
         by = uneven.inflation(self.T, self.blocks, before, tested)
-        return uneven.tempered(t, by, self.freedom, len(uneven.telling(self.blocks)))
+        return uneven.tempered(t, by, self.freedom, len(self.blocks))
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -220,14 +228,16 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
     candidates = grouped(columns.candidate_columns(f.model, f.instrument))
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    blocks = tuple(t for own in f.triangles for t in own) if f.uneven else ()
+    blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
     T = f.whole if T is None else T
     return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks)
 
 
 def testable_effects(f: Fitted) -> list[str]:
-    """Deterministic candidates of which every flight has the channels."""
+    """Deterministic candidates of which every flight has the channels, and that are no error of the sheet."""
     have = [set(o.record.wide) for o in f.observations]
     return [
-        e.id for e in f.model.candidates if e.kind == "deterministic" and not any(e.missing(h) for h in have)
+        e.id
+        for e in f.model.candidates
+        if e.kind == "deterministic" and not any(e.missing(h) for h in have) and sheet.doubtful(f, e) is None
     ]

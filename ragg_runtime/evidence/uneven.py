@@ -9,7 +9,7 @@ That ratio is known from so many blocks: the test then follows Fisher's F, as on
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -31,11 +31,10 @@ def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: S
     """How much more the scores vary than they should: at least 1.
 
     That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions.
-    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time; columns ``given`` are in the model, ``tested``
+    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time with any sample; ``given`` are in the model, ``tested``
     beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
     """
-    told = telling(blocks)
-    if len(told) < FEWEST:
+    if len(blocks) < FEWEST:
         return 1.0
     B = np.linalg.lstsq(T[:, given], T[:, tested], rcond=None)[0]
     X = T[:, tested] - T[:, given] @ B
@@ -45,15 +44,15 @@ def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: S
     fitted = [*given, *tested]
     g = np.linalg.lstsq(T[:, fitted], T[:, -1], rcond=None)[0]
     power = 0.0
-    for t in told:
+    for t in blocks:
         score = W.T @ (t[:, tested] - t[:, given] @ B).T @ (t[:, -1] - t[:, fitted] @ g)
         power += float(score @ score)
     return max(1.0, power / int(np.sum(known)))
 
 
-def telling(blocks: Sequence[Array]) -> list[Array]:
+def telling(blocks: Iterable[Array]) -> tuple[Array, ...]:
     """Those in which there is any sample."""
-    return [t for t in blocks if np.any(t)]
+    return tuple(t for t in blocks if np.any(t))
 
 
 def tempered(t: Test, by: float, freedom: float, blocks: int) -> Test:

@@ -178,6 +178,6 @@ def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Arra
     k, m, _ = e.shape
     for w in found:
         inside = np.flatnonzero(valid[w.samples]) + w.samples.start
-        y = e[:, :, inside].reshape(k, -1)
-        left[:, :, inside] = (y - (y @ w.raw) @ w.raw.T).reshape(k, m, -1)
+        y = e[:, :, inside].reshape(k, m * len(inside))  # of no residual at all, too
+        left[:, :, inside] = (y - (y @ w.raw) @ w.raw.T).reshape(k, m, len(inside))
     return left

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import re
 import shutil
-import tempfile
 import zipfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -97,6 +96,7 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
                 remedy="write Parquet, CSV or NetCDF instead",
             )
         sheet = book.create_sheet(_title(table.line or "flight", number, taken))
+        _beside(sheet, path, number)
         names = []
         for c, _ in table.columns:
             cell = WriteOnlyCell(sheet, f"{c.name} [{c.unit}]" if c.unit else c.name)
@@ -120,6 +120,19 @@ def _number(sheet: Any, value: float) -> Any:
     return cell
 
 
+def _beside(sheet: Any, path: Path, number: int) -> None:
+    """Let a sheet's rows wait beside the workbook, where the next command clears away what a killed one left.
+
+    By itself openpyxl lays them down in the temporary folder, under a name that tells nobody whose they are.
+    """
+    from openpyxl.worksheet import _writer
+
+    place = str(path.with_name(f"{path.name}.{number}"))
+    _writer.ALL_TEMP_FILES.append(place)  # as it does with its own: it removes them
+    sheet._writer = _writer.WorksheetWriter(sheet, out=place)
+    sheet._writer.write_top()
+
+
 def _title(name: str, number: int, taken: set[str]) -> str:
     """A name that Excel allows for a sheet: 31 characters, none of a few, each once in any case."""
     title = _FORBIDDEN.sub("_", name).strip("'")[:31] or f"line {number}"
@@ -131,8 +144,7 @@ def _title(name: str, number: int, taken: set[str]) -> str:
 
 def _undated(path: Path) -> None:
     """Take the date of writing out of a workbook: equal flights give equal files."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as other:
-        plain = Path(other.name)
+    plain = path.with_name(f"{path.name}.plain")  # whose name tells whose it is, as that of ``path`` does
     try:
         with zipfile.ZipFile(path) as old, zipfile.ZipFile(plain, "w", zipfile.ZIP_DEFLATED) as new:
             for name in old.namelist():

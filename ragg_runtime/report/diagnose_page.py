@@ -98,10 +98,14 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
                 sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
                 instead = _instead(effect_values.values(d.fitted, r))
                 said.append(f"{numbers.clean(r.effect)}: {sizes_}{instead}.")
-    for main, others in groups(d):
-        said.append(
-            f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
-        )
+    for g in d.groups:
+        main, *others = [numbers.clean(e) for e in g.effects]
+        if g.name is not None:
+            said.append(f"All that this record shows of {main} is a {g.name}.")
+        if others:
+            said.append(
+                f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
+            )
     if d.verdict == "unexplained" and d.ranking and claimed(d, d.ranking[0]):
         best = d.ranking[0]
         said.append(

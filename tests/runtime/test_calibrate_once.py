@@ -105,6 +105,18 @@ def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept:
     assert h.comparison.calibrated.rms_Eo > 1.5 * h.free.rms_Eo
 
 
+@pytest.mark.parametrize("length", [10**6, 500])
+def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
+    kept: tuple[Any, ...], length: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(frozen, "LOOKED", length)  # of a long flight stretches are looked at
+    m = loop.load(kept[0])
+    c = after.compensate(m, [flights(1e-6)[1]], "frozen").as_json()
+    assert c["frozen"]["holds"] is False
+    assert c["frozen"]["chi2"] > 100
+    assert "does NOT hold" in c["notes"][0]
+
+
 def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
     """Over several pairs of flights of unchanged instruments the statistic has its mean."""
     total, directions = 0.0, 0

@@ -120,8 +120,15 @@ def test_disc_spin_is_offered_to_models_that_lack_it_alone(tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     "form",
-    [PAPER, Form(kinematics="full"), EXACT, Form(mounting="exact", misalignment="exact")],
-    ids=["paper", "full", "exact", "platform exact"],
+    [
+        PAPER,
+        Form(kinematics="full"),
+        EXACT,
+        Form(mounting="exact", misalignment="exact"),
+        Form(mounting=2, misalignment="exact"),
+        Form(kinematics="full", mounting="exact", second_order_angles=True),
+    ],
+    ids=["paper", "full", "exact", "platform exact", "mixed", "mixed full"],
 )
 def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -> None:
     """Nominal error below 0.1 Eo; measured below 1e-5."""
