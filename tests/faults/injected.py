@@ -132,8 +132,8 @@ def _inject(fault: Fault, folder: int, mark: str) -> None:
             writes = event == "open" and len(arguments) > 2 and _for_writing(arguments[2])
             if busy or not (writes or event in _CHANGES):
                 return
-            if fault.kind == "full" and event not in _NEEDS_SPACE:
-                return
+            if fault.kind == "full" and (event not in _NEEDS_SPACE or isinstance(arguments[0], int)):
+                return  # what has a descriptor already, a pipe to a worker say, takes no room
             count += 1
             if count < fault.at:
                 return
