@@ -60,8 +60,11 @@ def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = 
 
 @lru_cache
 def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
-    """dV/d(parameter) of all ``effects`` at their neutral values, by symbol name, and V itself."""
-    a = accelerometer(effects, order)
+    """dV/d(parameter) of all ``effects`` at their neutral values, by symbol name, and V itself.
+
+    Derived as candidates, as signatures are in use; ``test_first_order.py`` holds that to the derivatives of the whole model.
+    """
+    a = accelerometer(effects, order, candidates=effects)
     by = a.tape.derivatives(a.voltage)
     rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
     return evaluated(simplify(a.tape.assignments, [("V", a.voltage), *rows], neutral_values(effects)))

@@ -70,11 +70,13 @@ def names() -> tuple[str, ...]:
         p.read_text("utf-8") for p in sorted(Path(derive.__file__).parent.glob("emit/templates/*.[pcf]*"))
     ]
     own = from_expression("mine", "transducer", "K*f_i*foo", {"K": {"unit": "ug"}})
-    texts += derive_model((*catalogue()[:15], own), (*catalogue(), own)).values()
-    found = {w for text in texts for w in re.findall(r"[A-Za-z]\w*", text)}
     few = [
         e for e in catalogue() if e.id in CHOSEN
     ]  # of every stage: what stands in front is the same for all
+    texts += derive_model((*few, own), (*catalogue(), own)).values()
+    found = {w for text in texts for w in re.findall(r"[A-Za-z]\w*", text)}
+    hooked = [e for e in catalogue() if e.kind != "output"]
+    found |= {s.name for s, _ in accelerometer(hooked, candidates=hooked).tape.assignments}
     tape = {s.name for s, _ in accelerometer(few).tape.assignments}
     found |= {f"{prefix}{w}" for w in tape for prefix in ("", "rate_", "bar_", "in_")} | {*RATES}
     found |= {*WORDS_OF_C, *dir(builtins), *(n for n in dir(sympy) if len(n) < 3)}

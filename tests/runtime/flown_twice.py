@@ -18,6 +18,9 @@ from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
 from ragg_runtime.signals.demodulators import Demodulator
 
 DURATION = 900.0
+WHOLE = slice(None)
+BRIEF = slice(0, 4000)
+"""A quarter of an hour tells statistics; what is about files and figures in them needs four minutes."""
 
 
 @cache
@@ -42,9 +45,9 @@ def new_model(folder: Path) -> Path:
     return folder / "m"
 
 
-def files(folder: Path, changed: float = 0.0) -> tuple[Path, Path]:
-    """The flights as files."""
-    one, two = flights(changed)
+def files(folder: Path, changed: float = 0.0, rows: slice = WHOLE) -> tuple[Path, Path]:
+    """The flights as files, or some of their rows."""
+    one, two = (x.part(rows) for x in flights(changed))
     places = folder / "one.parquet", folder / "two.parquet"
     write_flight(one, places[0])
     write_flight(two, places[1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,21 +18,25 @@ from scipy import signal
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import compensate
-from ragg_runtime.compensation.compensate import Compensated, Kind, prepared
+from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
 from ragg_runtime.compensation.series import Quality, Series
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import DURATION, files, flights, new_model, run, truth
+from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
 
 RATE = 16.0
 
 
 def compensated(s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir") -> tuple[Compensated, Series]:
     """A flight's whole series."""
-    c = Compensated(prepared(load.packaged(), s.sheet, [x], kind), 0, name)
+    return series(prepared(load.packaged(), s.sheet, [x], kind), x, name)
+
+
+def series(p: Prepared, x: Flight, name: str) -> tuple[Compensated, Series]:
+    c = Compensated(p, 0, name)
     parts = list(c.segments())
     return c, Series(
         rows=slice(0, len(x.time)),
@@ -43,13 +48,20 @@ def compensated(s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir") 
     )
 
 
+@cache
+def flown(seed: int, kind: Kind) -> tuple[Flight, Prepared]:
+    """A flight over a gradient, fitted."""
+    s = scenario(seed, duration=DURATION, gradient_rms=50e-9)
+    x = s.simulate({}).flight()
+    return x, prepared(load.packaged(), s.sheet, [x], kind)
+
+
 @pytest.mark.parametrize(("kind", "name"), [("self", "fir"), ("crossed", "butterworth"), ("self", "causal")])
 def test_the_truth_lies_within_the_stated_uncertainty_as_often_as_stated(kind: Kind, name: str) -> None:
     scores = []
     for seed in (11, 12, 13):
-        s = scenario(seed, duration=DURATION, gradient_rms=50e-9)
-        x = s.simulate({}).flight()
-        c, found = compensated(s, x, kind, name)
+        x, p = flown(seed, kind)
+        c, found = series(p, x, name)
         error = found.gradient - truth(x, c.demodulator)
         z = np.stack([error.real, error.imag]) / found.std
         scores.append(
@@ -85,6 +97,8 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
     o = json.loads((tmp_path / "o.json").read_text())
     assert o["calibration"] == "frozen"
     assert o["frozen"]["flights"].keys() == {"one"}
+    assert o["frozen"]["holds"] is True
+    assert not any("does NOT hold" in text for text in o["notes"])
     assert o["converged"] is True
     (told,) = o["flights"]
     assert (
@@ -98,11 +112,11 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
 @pytest.mark.parametrize("kind", ["self", "frozen"])
 def test_nothing_of_recorded_gradients_gets_into_the_series(kind: str, tmp_path: Path) -> None:
     model = new_model(tmp_path)
-    one, two = flights()
+    one, two = (x.part(BRIEF) for x in flights())
     write_flight(one, tmp_path / "one.parquet")
     run("calibrate", model, tmp_path / "one.parquet", "--save")
     rng = np.random.default_rng(1)
-    series = []
+    written = []
     for what in ("kept", "none", "wrong"):
         channels = {n: x for n, x in two.channels.items() if what != "none" or not n.startswith("Gamma")}
         if what == "wrong":
@@ -111,9 +125,9 @@ def test_nothing_of_recorded_gradients_gets_into_the_series(kind: str, tmp_path:
             }
         write_flight(dataclasses.replace(two, channels=channels), tmp_path / "two.parquet")
         run("compensate", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--calibration", kind)
-        series.append((tmp_path / "o.csv").read_bytes())
-    assert series[0] == series[1] == series[2]
-    assert series[0].startswith(
+        written.append((tmp_path / "o.csv").read_bytes())
+    assert written[0] == written[1] == written[2]
+    assert written[0].startswith(
         b"time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]\n"
     )
 
@@ -128,12 +142,19 @@ def with_wave(s: Scenario, x: Flight, period: float, size: float) -> tuple[Fligh
     return dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + G}), g
 
 
-@pytest.mark.parametrize("period", [8.0, 25.0, 60.0, 900.0])
-def test_a_gradient_of_the_surveys_wavelengths_is_not_eaten(period: float) -> None:
+@cache
+def still() -> tuple[Scenario, Flight, Compensated, Series]:
+    """A flight over no gradient, compensated."""
     s = scenario(21, duration=DURATION)
     x = s.simulate({}).flight()
+    return s, x, *compensated(s, x)
+
+
+@pytest.mark.parametrize("period", [8.0, 25.0, 60.0, 900.0])
+def test_a_gradient_of_the_surveys_wavelengths_is_not_eaten(period: float) -> None:
+    s, x, c, without = still()
     more, g = with_wave(s, x, period, 30.0)
-    (c, without), (_, found) = compensated(s, x), compensated(s, more)
+    _, found = compensated(s, more)
     passed = c.demodulator.low_passed(g)
     ok = found.good & without.good
     difference = (found.gradient - without.gradient)[ok]
@@ -226,7 +247,7 @@ def test_kernels_are_the_filters_that_they_stand_for() -> None:
 
 
 def test_motion_beyond_what_the_calibration_knows_is_flagged(tmp_path: Path) -> None:
-    model, (one, two) = new_model(tmp_path), files(tmp_path)
+    model, (one, two) = new_model(tmp_path), files(tmp_path, rows=BRIEF)
     run("calibrate", model, one, "--save")
     m = loop.load(model)
     x = after.read_for_compensation(m, [two])[0]
@@ -240,12 +261,12 @@ def test_motion_beyond_what_the_calibration_knows_is_flagged(tmp_path: Path) -> 
 
 
 def test_formats_and_several_flights(tmp_path: Path) -> None:
-    model, places = new_model(tmp_path), files(tmp_path)
+    model, places = new_model(tmp_path), files(tmp_path, rows=BRIEF)
     run("compensate", model, *places, "-o", tmp_path / "o.nc", "--demodulator", "butterworth")
     with xarray.open_dataset(tmp_path / "o.nc", engine="h5netcdf", decode_times=False) as found:
         assert found["inline"].attrs["units"] == "Eo"
         assert set(np.unique(found["flight"])) == {1, 2}
-        assert found.sizes["time"] == 2 * int(DURATION * RATE)
+        assert found.sizes["time"] == 2 * BRIEF.stop
         inline = found["inline"].values
     m = loop.load(model)
     c = after.compensate(m, after.read_for_compensation(m, places), demodulator="butterworth")
