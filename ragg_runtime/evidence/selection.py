@@ -116,17 +116,20 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given
         }
-        return {e: self._tempered(t, given, floor) for e, t in found.items()} if self.blocks else found
+        if self.blocks and any(map(self._raises, found.values())):
+            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
+        return found
 
-    def _tempered(self, t: Test, given: Sequence[str], floor: Array) -> Test:
-        """A test as sure as the scores in blocks of time are; those that say nothing anyway stay as they are."""
-        if not t.rank or t.log_p > np.log(FAMILY):
-            return t
-        n = self.n_base
-        before = [*range(n), *(n + k for e in given for k, _ in self.candidates[e])]
-        tested = [n + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        by = uneven.inflation(self.T, self.blocks, before, tested)
-        return uneven.tempered(t, by, self.freedom, len(self.blocks))
+    def _raises(self, t: Test) -> bool:
+        """Whether a test says anything: those that do not stay as they are."""
+        return t.rank > 0 and t.log_p <= np.log(FAMILY)
+
+    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are."""
+        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
     def plain(self, best: str, tests: Mapping[str, Test], given: Sequence[str], count: int) -> str:
         """The effect that tests put first, or one that says what it says in plain words: that a length of the sheet is wrong.
