@@ -214,7 +214,7 @@ def compare_frozen(
         from ragg_runtime.report import compare_html
 
         own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
-        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]]})
+        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]], "frozen": h})
 
     write_report(report_file, page)
     origin = terminal.origin(m, read, command_line())
