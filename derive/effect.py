@@ -121,6 +121,11 @@ class Effect:
         (q, f, p, c) -> force that the second-order terms see; f is the full sensed force.
     transducer
         (i, f, p, c) -> I_j/K_j1, m/s^2, from that of Eq. 1.
+    common_of
+        Parameter of the accelerometers of which it is what all have in common: the sheet's sigma holds each of them.
+    told_from
+        Parameters of the accelerometers that would do the same if the sheet was wrong about them: it is offered where the
+        record tells it from them, whatever the sheet says.
     moot
         (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
     recogniser
@@ -144,6 +149,8 @@ class Effect:
     instrument: Callable[[Mapping[str, sp.Expr], Values, Context], Mapping[str, sp.Expr]] | None = None
     second_order: Callable[[SensedForce, SensedForce, Values, Context], SensedForce] | None = None
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
+    common_of: str | None = None
+    told_from: tuple[str, ...] = ()
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
     recogniser: str = ""
 

@@ -19,9 +19,9 @@ from derive.effect import Effect, EffectParameter
 from derive.folded import Folded
 from derive.layout import PAPER as FOUR
 from derive.layout import Layout, instrument_parameters
-from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, motion_numbers
+from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
-from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of, symbol
+from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of
 from derive.tape import Program, simplify
 
 
@@ -104,7 +104,7 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
                 Coefficient(t.combination, _readable(part)) for part in _nominal_apart(t.coefficient)
             )
         amplitudes.append(
-            (amplitude, tuple(AmplitudeTerm(tuple(c), _monomial(m)) for m, c in grouped.items()))
+            (amplitude, tuple(AmplitudeTerm(tuple(c), monomial(m)) for m, c in grouped.items()))
         )
     basis: list[tuple[int, str, sp.Expr]] = []
     slopes: dict[str, list[tuple[int, sp.Expr]]] = {p: [] for p in COEFFICIENT_PARAMETERS}
@@ -114,7 +114,7 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
                 slope = terms_of[motion].diff(generator)
                 if slope:
                     slopes[p].append((len(basis), _readable(slope)))
-            basis.append((n, phase, _monomial(motion)))
+            basis.append((n, phase, monomial(motion)))
     used = {s.name for _, terms in amplitudes for t in terms for s in t.motion.free_symbols}
     numbers = tuple((k, v) for k, v in motion_numbers().items() if k in used)
     return Harmonic(
@@ -125,10 +125,6 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
         tuple(basis),
         tuple((p, tuple(s)) for p, s in slopes.items()),
     )
-
-
-def _monomial(powers: Sequence[int]) -> sp.Expr:
-    return sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, powers, strict=True)))
 
 
 def _nominal_apart(p: PolyElement) -> tuple[PolyElement, ...]:
@@ -276,6 +272,8 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         "limits": e.limits,
         "channels": list(e.channels),
         **({"either": True} if e.either else {}),
+        **({} if e.common_of is None else {"common_of": e.common_of}),
+        **({"told_from": list(e.told_from)} if e.told_from else {}),
         "kind": e.kind,
         "parameters": [
             {

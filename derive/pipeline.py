@@ -18,11 +18,13 @@ from derive import ir, recogniser
 from derive.effect import Effect
 from derive.effects import catalogue
 from derive.emit import c as _c
+from derive.emit import latex as _latex
 from derive.emit import numpy as _numpy
 from derive.emit.target import joined, targets
 from derive.folded import Folded, folded
 from derive.layout import PAPER as FOUR
 from derive.layout import Layout
+from derive.output_harmonics import layout_harmonics
 from derive.propagation import collect, ideal
 from derive.stages import PAPER, Kinematics, Order
 from derive.transduction import starred
@@ -85,6 +87,15 @@ def derive_plain(effects: Sequence[Effect], form: Form = PAPERS) -> Files:
     """The model with ``effects`` in C, for G_out alone, in the order of operations of the NumPy code."""
     (chain, *_) = _chains(form, effects, ())
     return _c.plain(chain)
+
+
+def derive_harmonics(form: Form) -> Files:
+    """The outputs of an instrument as harmonics of its discs' angles, without effects: NumPy and LaTeX."""
+    title = (
+        "Harmonics of the instrument's outputs, and the combinations of accelerometers that they are made of."
+    )
+    m = layout_harmonics(title, form.order, form.kinematics, form.layout)
+    return joined([_numpy.layout_harmonics(m), _latex.layout_harmonics(m)])
 
 
 def offered(candidates: Sequence[Effect], form: Form) -> tuple[Effect, ...]:
@@ -179,6 +190,8 @@ def _complete(
 def _told(form: Form) -> Mapping[str, object]:
     """A form in the manifest; the paper's layout is not worth a word."""
     described = dataclasses.asdict(form)
+    for name in ("put_in", "own"):  # they follow from the rest of model.toml
+        del described["layout"][name]
     if form.layout.is_paper:
         del described["layout"]
     return described

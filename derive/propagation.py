@@ -7,7 +7,7 @@ accelerometers with their signs and places on the disc (Eq. 15).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -115,6 +115,11 @@ class Collected:
     amplitudes: Mapping[str, tuple[Term, ...]]
     generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], PolyElement]]
     ring: PolyRing
+
+
+def monomial(powers: Sequence[int]) -> sp.Expr:
+    """A product of powers of :data:`MOTION_NUMBERS`."""
+    return sp.Mul(*(symbol(n) ** k for n, k in zip(MOTION_NUMBERS, powers, strict=True)))
 
 
 COEFFICIENTS = PolyRing([symbol(n) for n in COEFFICIENT_PARAMETERS], QQ, lex)

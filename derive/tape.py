@@ -47,12 +47,20 @@ def partials(e: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
         elif e.is_Pow and e.exp.is_Number:
             descend(e.base, sp.Mul(factor, e.exp, sp.Pow(e.base, e.exp - 1)))
         else:
-            for s in variables(e):
-                found.setdefault(s, []).append(factor * _slope(e, s))
+            slopes = {s: _slope(e, s) for s in variables(e)}
+            if any(d.has(*_OPEN) for d in slopes.values()):  # of a function of such a sign or modulus
+                descend(e.args[0], factor * e.fdiff())
+                return
+            for s, d in slopes.items():
+                found.setdefault(s, []).append(factor * d)
 
     descend(e, sp.Integer(1))
     sums = {s: sp.Add(*found[s]) for s in sorted(found, key=lambda s: s.name)}
     return {s: d for s, d in sums.items() if d != 0}
+
+
+_OPEN = (sp.Derivative, sp.re, sp.im, sp.atan2)
+"""What SymPy writes where it does not carry a derivative out, or takes an argument for complex."""
 
 
 def _slope(e: sp.Expr, s: sp.Symbol) -> sp.Expr:

@@ -175,9 +175,7 @@ def numbers() -> str:
     for name, e in full.items():
         added = (e - paper[name]).expand()
         if added != 0:
-            text = to_latex(added).replace("d_{2 spin angle}", r"\ddot\phi")
-            text = text.replace("d_{spin angle}", r"{\dot\phi}")
-            rows.append([f"${to_latex(symbol(name))}$", f"${text}$"])
+            rows.append([f"${to_latex(symbol(name))}$", f"${to_latex(added)}$"])
     return table(["number", "gains"], rows)
 
 

@@ -33,11 +33,18 @@ def fuzzing(executions: int, seconds: float) -> str:
     return f"{campaign.count(own):,} executions, {found} findings ({each})"
 
 
-def faults(trials: int, surveys: int) -> str:
+def faults(trials: int, surveys: int) -> subprocess.Popen[str]:
+    """Begun beside the fuzzing, which takes as long: the commands that are struck wait for the disc."""
     command = [sys.executable, "-m", "tests.faults", "--trials", str(trials), "--surveys", str(surveys)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    last = (done.stdout.strip().splitlines() or ["nothing was said"])[-1]
-    return f"{last} (exit status {done.returncode})"
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+
+
+def ended(process: subprocess.Popen[str]) -> str:
+    said, _ = process.communicate()
+    if process.returncode:
+        print(said, flush=True)
+    last = (said.strip().splitlines() or ["nothing was said"])[-1]
+    return f"{last} (exit status {process.returncode})"
 
 
 def derivation() -> str:
@@ -63,9 +70,10 @@ def main() -> int:
     parser.add_argument("--print", action="store_true", dest="show")
     a = parser.parse_args()
     began = time.strftime("%Y-%m-%d", time.gmtime())
+    struck = faults(a.trials, a.surveys)
     rows = {
         "fuzzing": fuzzing(a.executions, a.seconds),
-        "faults": faults(a.trials, a.surveys),
+        "faults": ended(struck),
         "`ragg derive`": derivation(),
     }
     python = ".".join(map(str, sys.version_info[:2]))

@@ -8,10 +8,13 @@ One process flies them one after the other. Scored, per flight:
 
 - ``named``: an effect is claimed that is not what was done to the record (``ALLOWED``);
 - ``unexplained``: so is the verdict, and no reason is given;
+- ``constant``: an effect is named as a constant term at a multiple of the spin rate, and the reason says how far off it a line
+  may be that would do as well: all that a record can say of a line nearer than that (kind ``line``);
 - ``said``: the verdict is ``unexplained`` or the record is refused, and a reason says what is wrong with the record;
 - of records in which nothing follows the motion (``NOTHING``): ``named`` if the verdict is not ``unexplained``.
 
-Seeds, cases and scoring were committed before the changes that they judge.
+Seeds, cases and scoring were committed before the changes that they judge, but for ``constant``, which was taken out of ``named``
+when the diagnosis had learned to say so.
 """
 
 from __future__ import annotations
@@ -180,6 +183,7 @@ def _flown(s: Scenario, flight: Flight) -> dict[str, object]:
         "verdict": d.verdict,
         "reason": d.as_json()["reason"],
         "found": list(d.found),
+        "groups": [g.as_json() for g in d.groups],
         "ranking": [
             {"effect": r.effect, "log_p": max(r.log_p, -1e4), "twins": list(r.indistinguishable_from)}
             for r in d.ranking[:4]
@@ -196,14 +200,18 @@ def _flown(s: Scenario, flight: Flight) -> dict[str, object]:
 
 
 def judged(x: score.Line) -> str:
-    """``right``, ``named``, ``unexplained``, ``said`` or ``crash``."""
+    """``right``, ``named``, ``constant``, ``unexplained``, ``said`` or ``crash``."""
     if "crash" in x:
         return "crash"
     if x["kind"] in NOTHING:
         return "right" if x["verdict"] in ("unexplained", "refused") else "named"
     allowed = ALLOWED.get(x["kind"], frozenset())
     if any(not (score.group(x, e) & allowed) for e in x["found"]):
-        return "named"
+        groups = x.get("groups", [])
+        only_constant = (
+            bool(groups) and all(g["name"] for g in groups) and "; a line within" in str(x["reason"])
+        )
+        return "constant" if only_constant and x["kind"] == "line" else "named"
     if x["verdict"] in ("unexplained", "refused"):
         return "said" if x["reason"] else "unexplained"
     return "right"
@@ -211,7 +219,7 @@ def judged(x: score.Line) -> str:
 
 def summary(lines: Sequence[score.Line]) -> list[str]:
     """One line a kind, then the flights that were not right."""
-    outcomes = ("right", "named", "unexplained", "said", "crash")
+    outcomes = ("right", "named", "constant", "unexplained", "said", "crash")
     text = [f"{'kind':22}" + "".join(f"{o:>12}" for o in outcomes) + f"{'s':>7}"]
     total = dict.fromkeys(outcomes, 0)
     for kind in KINDS:

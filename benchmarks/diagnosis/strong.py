@@ -1,6 +1,6 @@
 """Strong effects: does the calibration arrive, and is the right effect named, at 10 to 10,000 sigma?
 
-    python -m benchmarks.diagnosis.strong [--seed N] [--only KIND] [--flights N] [--jobs N]
+    python -m benchmarks.diagnosis.strong [--seed N] [--only KIND] [--flights N] [--jobs N] [--verdicts]
 
 Every effect of the catalogue is hidden at 10, 1e2, 1e3 and 1e4 sigma (see ``inject``) and at its plausible size, on
 an instrument, a motion, a noise and a gradient that are drawn from ``plan`` (instruments in turn); pairs are of
@@ -10,7 +10,10 @@ unequal strength. A case is determined by the seed, the kind and its number. Wha
   starts on an objective written here (promise: at most 1.01), and over the nominal one (at most 1);
 - ``right``: every hidden effect is found, itself or in the group that the diagnosis says it cannot tell apart, and no
   more effects are claimed than are hidden;
-- ``after``: rms with what was found in the model over that with what was hidden (at most 1.02).
+- ``after``: rms with what was found in the model over that with what was hidden (at most 1.02);
+- ``seen``: of how many an oracle sees all that is hidden (``oracle``); what it does not see is no miss.
+
+With ``--verdicts`` the independent optimum is left out, which takes as long as the rest.
 
 Cases, seeds and scoring were committed before the code that they judge was first run on them. Three kinds of cases were
 taken out afterwards, for they ask for what does not exist: a ``disc-spin`` of other than its one size, an ``output-filter``
@@ -34,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from benchmarks.diagnosis import fly, inject, plan, score
+from benchmarks.diagnosis import fly, inject, oracle, plan, score
 from benchmarks.diagnosis.inject import Bench, Hidden
 from benchmarks.diagnosis.plan import Spec, scenario_of
 from ragg_runtime.diagnosis import comparison, diagnose
@@ -107,7 +110,10 @@ def cases(kinds: Sequence[str], most: int | None, sample: int) -> list[Case]:
                     replace(world, kind=kind, index=index, seed=seed, trim=drawn.trim, sensor_noise=0.0),
                 )
             )
-    return found
+    order = np.random.default_rng(sample).permutation(
+        len(found)
+    )  # a run cut short says something of every kind
+    return [found[k] for k in order]
 
 
 def hidden_in(case: Case, bench: Bench, scenario: Scenario) -> tuple[Hidden, ...]:
@@ -209,18 +215,18 @@ def optimum(f: Fitted, noise_Eo: float, rng: np.random.Generator) -> float:
     return best
 
 
-def flown(case: Case) -> dict[str, object]:
+def flown(case: Case, verdicts: bool = False) -> dict[str, object]:
     """The record of one flight; a crash is a result too."""
     begin = time.perf_counter()
     try:
-        found = _flown(case)
+        found = _flown(case, verdicts)
     except Exception:
         found = {"crash": traceback.format_exc()}
     seconds = round(time.perf_counter() - begin, 2)
     return {"id": case.id, "kind": case.kind} | found | {"total_seconds": seconds}
 
 
-def _flown(case: Case) -> dict[str, object]:
+def _flown(case: Case, verdicts: bool) -> dict[str, object]:
     s = scenario_of(case.spec)
     recorded = case.spec.gradient[1] == "recorded"
     plain = s.simulate(record_gradient=recorded)
@@ -238,7 +244,7 @@ def _flown(case: Case) -> dict[str, object]:
         model, s.sheet, [p.flight], lambda m, ids, **k: derive.with_effects(s.sheet, m, ids, **k)
     )
     seconds = time.perf_counter() - begin
-    best = optimum(c.fitted, p.noise_Eo, case.spec.rng(3)) if recorded else None
+    best = optimum(c.fitted, p.noise_Eo, case.spec.rng(3)) if recorded and not verdicts else None
     return {
         "spec": {"trim": case.spec.trim, "motion": case.spec.motion, "gradient": case.spec.gradient},
         "hidden": [
@@ -263,6 +269,7 @@ def _flown(case: Case) -> dict[str, object]:
         "noise_floor": d.noise_floor,
         "noise_true": p.noise_Eo,
         "errors": fly._errors(p, d),
+        "oracle": oracle.seen(p),
         "seconds": round(seconds, 2),
     }
 
@@ -275,8 +282,9 @@ def right(x: Mapping[str, object]) -> bool:
 def summary(lines: Sequence[score.Line]) -> list[str]:
     """One line a kind, then the flights that broke a promise."""
     text = [
-        f"{'kind':14} {'right':>8} {'arrived':>9} {'<= nominal':>10} {'after <= 1.02':>13} {'floor':>6} {'s':>6}"
+        f"{'kind':14} {'right':>9} {'seen':>5} {'arrived':>9} {'<= nominal':>10} {'after <= 1.02':>13} {'floor':>6} {'s':>6}"
     ]
+    effects = len(load.packaged().candidates)
     for kind in KINDS:
         flights = [x for x in lines if x["kind"] == kind and "skipped" not in x]
         good = [x for x in flights if "crash" not in x]
@@ -286,9 +294,10 @@ def summary(lines: Sequence[score.Line]) -> list[str]:
         after = sum(x["errors"]["tool"][0] <= 1.02 * x["errors"]["oracle"][0] for x in good)
         floor = sum(0.8 < x["noise_floor"] / x["noise_true"] < 1.25 for x in good)
         seconds = np.median([x["seconds"] for x in good]) if good else float("nan")
+        seen = sum(oracle.detectable(x, effects) for x in good)
         n = len(flights)
         text.append(
-            f"{kind:14} {sum(map(right, good)):>3} of {n:<3} {arrived:>3} of {len(judged):<3} "
+            f"{kind:14} {sum(map(right, good)):>3} of {n:<3} {seen:>4} {arrived:>3} of {len(judged):<3} "
             f"{below:>3} of {n:<3} {after:>4} of {n:<3} {floor:>4} {seconds:>6.1f}"
         )
     for x in sorted(lines, key=lambda x: x["id"]):
@@ -303,6 +312,7 @@ def summary(lines: Sequence[score.Line]) -> list[str]:
                 f"{x['id']}: {hidden}: {x['verdict']} ({', '.join(x['found'])}); nominal {x['nominal']:.4g}, "
                 f"calibrated {x['calibrated']:.4g}, over optimum {ratio}, after {after:.4f}, "
                 f"floor {x['noise_floor']:.3g} of {x['noise_true']:.3g}{ended}"
+                + ("" if oracle.detectable(x, effects) else "; an oracle does not see it either")
             )
     return text
 
@@ -324,13 +334,14 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--flight", action="append", default=[], metavar="KIND/NUMBER")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--cache", type=Path, default=CACHE)
+    parser.add_argument("--verdicts", action="store_true", help="leave out the independent optimum")
     parser.add_argument("--table", action="store_true", help="fly nothing: print what is there")
     options = parser.parse_args(arguments)
     wanted = cases(options.only or KINDS, options.flights, options.seed)
     if options.flight:
         for case in cases(KINDS, None, options.seed):
             if case.id in options.flight:
-                print(json.dumps(flown(case), indent=1))
+                print(json.dumps(flown(case, options.verdicts), indent=1))
         return 0
     path = options.cache.with_name(f"{options.cache.stem}-{options.seed}.jsonl")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -342,7 +353,7 @@ def main(arguments: Sequence[str]) -> int:
         path.open("a", encoding="utf-8") as file,
         ProcessPoolExecutor(options.jobs, mp_context=context) as pool,
     ):
-        for n, future in enumerate(as_completed([pool.submit(flown, c) for c in todo]), 1):
+        for n, future in enumerate(as_completed([pool.submit(flown, c, options.verdicts) for c in todo]), 1):
             lines.append(future.result())
             file.write(json.dumps(lines[-1]) + "\n")
             file.flush()

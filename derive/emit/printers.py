@@ -10,7 +10,8 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.numpy import NumPyPrinter
 
-from derive.symbols import INSTRUMENT, MOTION
+from derive.layout import HEIGHT, TURN
+from derive.symbols import INSTRUMENT, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 
 class _NumPy(NumPyPrinter):
@@ -129,6 +130,8 @@ class _LaTeX(LatexPrinter):
 
 _SYMBOLS: dict[str, str] = {c.name: c.latex for c in MOTION}
 _SYMBOLS |= {q.name: q.latex for q in INSTRUMENT} | {"k1": "k_1", "R": "R"}
+_SYMBOLS |= {SPIN_RATE.name: r"{\dot\phi}", SPIN_ACCELERATION.name: r"\ddot\phi", HEIGHT.name: "h_j"}
+_SYMBOLS |= {TURN[i, k].name: f"u_{{{'rtz'[i]}{'rtz'[k]}}}" for i in range(3) for k in range(3)}
 
 
 def to_numpy(e: sp.Expr) -> str:

@@ -15,8 +15,9 @@ from derive.simplify.bound import certified_bound
 from derive.simplify.critical import Condition, critical_conditions
 from derive.simplify.envelope import DYNAMIC_EXPERIMENT, EOTVOS, G0, PAPER_ENVELOPE, Envelope
 from derive.simplify.extent import extent
+from derive.simplify.of_order import order_bound
 from derive.simplify.terms import Size, simplified, sizes
-from derive.stages import Order
+from derive.stages import EXACT, PAPER, Order
 from derive.symbols import ACCELEROMETER, ANGLES, SECOND_ORDER
 
 Row = tuple[str, ...]
@@ -103,16 +104,23 @@ def _context() -> dict[str, Any]:
             )
         ],
         "order": [
-            (title, *_bound(e, collect(), collect(second)))
-            for title, e in (
-                ("paper's", PAPER_ENVELOPE),
-                ("paper's, full kinematics", _in_full(PAPER_ENVELOPE)),
-                ("dynamic experiment", DYNAMIC_EXPERIMENT),
-                ("dynamic experiment, full kinematics", _in_full(DYNAMIC_EXPERIMENT)),
+            (
+                title,
+                *(number(order_bound(_in_full(e), o).exact) for e in (PAPER_ENVELOPE, DYNAMIC_EXPERIMENT)),
             )
+            for title, o in _LADDER
         ],
         "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
     }
+
+
+_LADDER = (
+    ("the paper's", PAPER),
+    ("and angles in second-order terms", replace(PAPER, second_order_angles=True)),
+    ("and misalignment exact", replace(EXACT, rotation=1)),
+    ("and mounting to the second power", replace(EXACT, rotation=2)),
+)
+"""Orders of a model, each with one simplification less; the next is the exact one, which leaves nothing out."""
 
 
 def _bounds_of_models() -> list[tuple[str, ...]]:

@@ -12,11 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from examples.mimu.clocks import at_one_instant, clocks, slope
-from examples.mimu.record import CORNERS, HALF, PLACES, RATE, REST, Array, read
+from examples.mimu.record import PLACES, RATE, REST, Array, places, read
 from examples.mimu.variants import tangents, trusted
-
-THICK = 1e-3
-"""Half the distance of the two sides of the board, m."""
 
 ROUNDS = 3
 """Times that the chips' own errors are taken out beside the rigid body."""
@@ -48,11 +45,10 @@ def rigid(force: Array, omega: Array, good: NDArray[np.bool_]) -> tuple[Array, A
     ``force`` (N, 8, 3) m/s^2, ``omega`` (N, 3) rad/s. The body has three accelerations and three angular ones a sample; the chips'
     gains, axes, places and biases are taken out.
     """
-    corners = [(HALF * x, HALF * y, z) for x, y in CORNERS for z in (THICK, -THICK)]
+    corners = places()
     lever = [np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]]) for x, y, z in corners]
     H = np.concatenate([np.hstack([np.eye(3), m]) for m in lever])
-    places = np.array(corners)
-    x = (force - np.cross(omega[:, None], np.cross(omega[:, None], places))).reshape(len(force), 24)
+    x = (force - np.cross(omega[:, None], np.cross(omega[:, None], corners))).reshape(len(force), 24)
     squares = np.stack([omega[:, i] * omega[:, k] for i in range(3) for k in range(i, 3)], axis=1)
     P = np.linalg.pinv(H)
     for _ in range(ROUNDS):

@@ -5,14 +5,15 @@
 RAW is a recording of H. Carlsson, I. Skog and J. Jalden (see LICENSE.mimu-array here). The four sensors of the front, at
 the corners of a square, are the gradiometer: their axes along the tangents of the circle through them. Specific force is the
 mean of the four of the back, angular rate that of all eight. Angular acceleration is what the four of the back feel beside
-each other: no output of the gradiometer enters it, nor a derivative of what is sampled too slowly for one.
+each other: no output of the gradiometer enters it, nor a derivative of what is sampled too slowly for one. At each corner front
+and back may change places (``picked``): sixteen gradiometers on one board.
 """
 
 from __future__ import annotations
 
 import gzip
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import islice
 from pathlib import Path
 
@@ -33,11 +34,17 @@ G0, PER_G, PER_DEGREE = 9.81, 2048.0, 16.4
 HALF = 0.00945
 """Half the side of the square, m."""
 
+THICK = 1e-3
+"""Half the distance of the two sides of the board, m."""
+
 CORNERS = ((-1, 1), (-1, -1), (1, 1), (1, -1))
 """Of sensors 1, 3, 5, 7 (front) and 2, 4, 6, 8 (back)."""
 
 PLACES = ((2, 45.0), (1, 225.0), (0, 135.0), (3, 315.0))
 """Corner and angle, deg, of A1 ... A4."""
+
+FRONT = tuple(2 * corner for corner, _ in PLACES)
+"""Sensors, counted from 0, that are A1 ... A4."""
 
 FULL_SCALE = 32760
 """Counts from which a sensor is saturated."""
@@ -85,45 +92,57 @@ def read(path: Path) -> tuple[Array, Array, NDArray[np.bool_]]:
     return force, rate, saturated
 
 
-def angular_acceleration(force: Array, omega: Array) -> Array:
-    """(N, 3) rad/s^2 from the four sensors of the back: the gradient of what they feel, less that of omega x omega."""
-    x, y = HALF * np.array(CORNERS, dtype=float).T
-    back = force[:, 1::2]
-    along_x, along_y = (np.einsum("k,nki->ni", p / (p @ p), back) for p in (x, y))
-    w = omega
-    return np.stack(
-        [
-            along_y[:, 2] - w[:, 1] * w[:, 2],
-            w[:, 0] * w[:, 2] - along_x[:, 2],
-            (along_x[:, 1] - along_y[:, 0]) / 2,
-        ],
-        axis=1,
-    )
+def places() -> Array:
+    """(8, 3) m: where the sensors are, from the middle of the board."""
+    return np.array([(HALF * x, HALF * y, z) for x, y in CORNERS for z in (THICK, -THICK)])
 
 
-def columns(force: Array, rate: Array) -> tuple[dict[str, Array], dict[str, Array]]:
+def others(picked: Sequence[int] = FRONT) -> list[int]:
+    """The sensors that feel the motion: those that are not picked."""
+    return [k for k in range(8) if k not in picked]
+
+
+def lifts(picked: Sequence[int] = FRONT) -> Array:
+    """(4,) m: how far each of those picked is above the middle of the others."""
+    r = places()
+    return np.asarray(r[list(picked), 2] - r[others(picked), 2].mean())
+
+
+def angular_acceleration(force: Array, omega: Array, picked: Sequence[int] = FRONT) -> Array:
+    """(N, 3) rad/s^2 from the four others, by least squares: what they feel beside each other, less omega x (omega x r)."""
+    felt = others(picked)
+    r = places()[felt] - places()[felt].mean(axis=0)
+    lever = np.concatenate([np.cross(np.eye(3), x).T for x in r])  # alpha x r
+    still = np.linalg.pinv(np.hstack([np.tile(np.eye(3), (4, 1)), lever]))
+    own = force[:, felt] - np.cross(omega[:, None], np.cross(omega[:, None], r))
+    return np.asarray(own.reshape(len(force), 12) @ still[3:].T)
+
+
+def columns(
+    force: Array, rate: Array, picked: Sequence[int] = FRONT
+) -> tuple[dict[str, Array], dict[str, Array]]:
     """Channels and outputs of a flight."""
-    a, omega = force[:, 1::2].mean(axis=1), rate.mean(axis=1)
+    a, omega = force[:, others(picked)].mean(axis=1), rate.mean(axis=1)
     channels = {f"a_{k}": a[:, i] for i, k in enumerate("xyz")}
     channels |= {f"omega_{k}": omega[:, i] for i, k in enumerate("xyz")}
-    alpha = angular_acceleration(force, omega)
+    alpha = angular_acceleration(force, omega, picked)
     channels |= {f"omegadot_{k}": alpha[:, i] for i, k in enumerate("xyz")}
     # The gradient of the Earth's field, 3e-6 s^-2, is nothing beside (2000 deg/s)^2 = 1e3 s^-2: known to be none.
     channels |= {f"Gamma_{k}": np.zeros(len(a)) for k in ("xx", "xy", "xz", "yy", "yz", "zz")}
     outputs = {}
-    for j, (corner, degrees) in enumerate(PLACES):
+    for j, (sensor, (_, degrees)) in enumerate(zip(picked, PLACES, strict=True)):
         angle = np.deg2rad(degrees)
         tangent = np.array([-np.sin(angle), np.cos(angle), 0.0])
-        outputs[f"V_{j + 1}"] = force[:, 2 * corner] @ tangent / G0  # 1 V per g
+        outputs[f"V_{j + 1}"] = force[:, sensor] @ tangent / G0  # 1 V per g
     return channels, outputs
 
 
-def rests(force: Array, rate: Array, quiet: NDArray[np.bool_]) -> Flight:
+def rests(force: Array, rate: Array, quiet: NDArray[np.bool_], picked: Sequence[int] = FRONT) -> Flight:
     """What the array felt while it lay still, averaged over :data:`BLOCK` samples."""
     n = len(force) // BLOCK
     whole = quiet[: n * BLOCK].reshape(n, BLOCK).all(axis=1)
     blocks = [x[: n * BLOCK].reshape(n, BLOCK, 8, 3) for x in (force, rate)]
-    channels, outputs = columns(*(x.mean(axis=1) for x in blocks))
+    channels, outputs = columns(*(x.mean(axis=1) for x in blocks), picked)
     # The mean angular acceleration of a block is the change of the rate over it.
     omega, quarter = blocks[1].mean(axis=2), BLOCK // 4
     change = omega[:, -quarter:].mean(axis=1) - omega[:, :quarter].mean(axis=1)
@@ -133,20 +152,24 @@ def rests(force: Array, rate: Array, quiet: NDArray[np.bool_]) -> Flight:
     return Flight(time=time, channels=channels, outputs=outputs, name="rests", valid=whole)
 
 
-def motion(force: Array, rate: Array, saturated: NDArray[np.bool_]) -> Flight:
+def motion(force: Array, rate: Array, saturated: NDArray[np.bool_], picked: Sequence[int] = FRONT) -> Flight:
     """The array thrown about, sample by sample; without what is saturated."""
-    channels, outputs = columns(force, rate)
+    channels, outputs = columns(force, rate, picked)
     for name, x in (channels | outputs).items():
         if not name.startswith("Gamma"):
             x[saturated] = np.nan
     return Flight(time=np.arange(len(force)) / RATE, channels=channels, outputs=outputs, name="motion")
 
 
+def parts(rate: Array) -> tuple[NDArray[np.bool_], int]:
+    """(N,) where the array rests, and the sample from which it is thrown about; ``rate`` (N, 8, 3) rad/s."""
+    size = np.linalg.norm(rate.mean(axis=1), axis=1)
+    return ~binary_dilation(size > REST, np.ones(BLOCK)), int(np.argmax(size > MOTION_FROM))
+
+
 def main(raw: str, folder: str) -> None:
     force, rate, saturated = read(Path(raw))
-    size = np.linalg.norm(rate.mean(axis=1), axis=1)
-    quiet = ~binary_dilation(size > REST, np.ones(BLOCK))
-    start = int(np.argmax(size > MOTION_FROM))
+    quiet, start = parts(rate)
     end = start + round(LENGTH * RATE)
     there = Path(folder)
     write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 PLACES = (("A1", 45, 1), ("A2", 225, 1), ("A3", 135, -1), ("A4", 315, -1))
 
 
 def sheet(
-    height: str = "2 mm", radius: str = "13.364 mm", lift: str = "5", arm: str = "0.5", bias: str = "60"
+    height: str | Sequence[str] = "2 mm",
+    radius: str = "13.364 mm",
+    lift: str = "5",
+    arm: str = "0.5",
+    bias: str = "60",
 ) -> str:
-    """The sheet; ``lift`` deg, ``arm`` mm and ``bias`` mg say how sure it is of beta_x, dR and K0."""
+    """The sheet; ``lift`` deg, ``arm`` mm and ``bias`` mg say how sure it is of beta_x, dR and K0; a ``height`` for each or all."""
+    heights = (height,) * len(PLACES) if isinstance(height, str) else height
     text = [
         "# Four of eight MEMS accelerometers on a board, along the tangents of the circle through them: a gradiometer",
         "# that stands still. The measurement frame's origin is amidst the four on the back, 2 mm below.",
@@ -23,12 +30,12 @@ def sheet(
         f'radius = "{radius}"',
         'spin_frequency = "0 Hz"',
     ]
-    for name, angle, sign in PLACES:
+    for (name, angle, sign), above in zip(PLACES, heights, strict=True):
         text += [
             "[[disc.accelerometer]]",
             f'name = "{name}"',
             f'angle = "{angle} deg"',
-            f'height = "{height}"',
+            f'height = "{above}"',
         ]
         text += [f"sign = {sign}", 'output = "G_out"']
     text += [

@@ -54,9 +54,19 @@ class Found:
 UNLIFTED = sheet(height="0 mm", lift="10")
 """A sheet that knows nothing of the 2 mm between the two sides of the board, and not that it does not."""
 
+
+def sure_of_angles(text: str) -> str:
+    """A sheet that is sure of its angles to 0.02 degrees."""
+    return re.sub(r"((?:beta_z|vartheta_.) = .*?sigma = )3", r"\g<1>0.02", text)
+
+
+SHORT = 1.4
+"""mm by which a sheet that is sure of its radius (to 0.02 mm) has it too small."""
+
 LEFT_OUT: Mapping[str, str] = {
     "lever arm": sheet(height="0 mm", lift="0.3"),
-    "misalignments": re.sub(r"((?:beta_z|vartheta_.) = .*?sigma = )3", r"\g<1>0.02", UNLIFTED),
+    "arm length": sheet(height="0 mm", lift="10", radius=f"{RADIUS - SHORT:.4g} mm", arm="0.02"),
+    "misalignments": sure_of_angles(UNLIFTED),
     "gyro scale": UNLIFTED,
 }
 """Sheets in which something is left out, and that are sure of it. With the last the rates are read with :data:`MISREAD`."""
@@ -65,14 +75,16 @@ MISREAD = 1.03
 """Factor on all rates, as of one who takes 15.9 counts per deg/s where the chip gives 16.4."""
 
 
-def flights(i: Instrument, motion: Path, misread: float = 1.0) -> list[Flight]:
+def flights(
+    i: Instrument, motion: Path, misread: float = 1.0, rests: Path = HERE / "rests.parquet"
+) -> list[Flight]:
     """Rests and motion, the rates times a factor; channels of the motion alone are zero at rest."""
-    rests, moved = (read_flight(p, i.g0, accelerometers=i.layout) for p in (HERE / "rests.parquet", motion))
-    still = {n: np.zeros(len(rests)) for n in moved.channels if n not in rests.channels}
-    rests = replace(rests, channels={**rests.channels, **still})
+    lying, moved = (read_flight(p, i.g0, accelerometers=i.layout) for p in (rests, motion))
+    still = {n: np.zeros(len(lying)) for n in moved.channels if n not in lying.channels}
+    lying = replace(lying, channels={**lying.channels, **still})
     return [
         replace(x, channels={n: v * misread if n in ANGULAR_RATE else v for n, v in x.channels.items()})
-        for x in (rests, moved)
+        for x in (lying, moved)
     ]
 
 
@@ -111,7 +123,11 @@ def calibrated(
 def diagnosed(text: str, misread: float = 1.0, motion: Path = HERE / "motion.parquet") -> Diagnosis:
     """What ``ragg diagnose`` says of rests and motion."""
     i = parse_instrument(text)
-    both = flights(i, motion, misread)
+    return diagnosed_of(i, flights(i, motion, misread))
+
+
+def diagnosed_of(i: Instrument, both: Sequence[Flight]) -> Diagnosis:
+    """The same of any flights of the array."""
 
     def extended(model: Model, ids: object, /, *, candidates: bool = False) -> Model:
         return derive.with_effects(i, model, tuple(ids), candidates=candidates)  # type: ignore[call-overload]

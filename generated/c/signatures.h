@@ -1,7 +1,7 @@
 /* Signatures: what each candidate effect would add to V_j.
  *
  * Derived; do not edit: change the derivation and derive again. Units are SI, outputs V.
- * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-sag, arm-stretch, bearing-run-out, bias-drift, bias-step, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-scale, time-offset, vibration-level, vibration-rectification.
+ * Effects beyond the paper's instrument: adc-nonlinearity, angular-jitter, anisoinertia, arm-length, arm-sag, arm-stretch, bearing-run-out, bias-drift, bias-step, clock-drift, cubic-cross, cubic-input, disc-spin, encoder-harmonic, fuel-gradient, gain-drift, gain-step, gradient-offset, gyro-bias, gyro-delay, gyro-g-sensitivity, gyro-scale, imu-acceleration-bias, imu-acceleration-misalignment, imu-acceleration-scale, imu-lever-arm, imu-misalignment, lag, magnetic-bias, mount-compliance, near-mass, odd-quadratic, output-filter, output-gain-step, pendulum-angular, pressure-bias, second-order-loop, second-order-misalignment, self-gradient, self-gradient-yaw, spin-axis-tilt, spin-axis-wobble, spin-phase-offset, spin-rate-jitter, spin-rate-offset, spin-servo, thermal-bias, thermal-lag, thermal-scale, time-offset, vibration-level, vibration-rectification.
  * Inputs, one series each: a_x a_y a_z omega_x omega_y omega_z omegadot_x omegadot_y omegadot_z Gamma_xx Gamma_xy Gamma_xz Gamma_yy Gamma_yz Gamma_zz B_x B_y B_z angular_vibration_rms d2_a_x d2_a_y d2_a_z d2_omegadot_x d2_omegadot_y d2_omegadot_z d2_spin_angle d_a_x d_a_y d_a_z d_omegadot_x d_omegadot_y d_omegadot_z d_spin_angle d_temperature fuel_mass pitch pressure roll temperature vibration_rms yaw
  * Parameters: one value, or four in the order A1, A2, A3, A4, one after the other:
  *   radius (1): nominal distance of the accelerometers from the disc centre
@@ -33,7 +33,7 @@ extern "C" {
 
 #define RAGG_SIGNATURES_INPUTS 41
 #define RAGG_SIGNATURES_PARAMETERS 62
-#define RAGG_SIGNATURES_ROWS 162
+#define RAGG_SIGNATURES_ROWS 163
 
 /* V_1 ... V_4 over n instants t, s: V[j * n + i]. angle is the disc angle, rad, or NULL for
  * 2 pi spin_frequency t. */
@@ -53,6 +53,7 @@ void ragg_signatures_output(size_t n, const double *t, const double *const *in, 
  *   angular-jitter.W_yz
  *   angular-jitter.W_zz
  *   anisoinertia.K_ip
+ *   arm-length.delta_R
  *   arm-sag.c_z
  *   arm-stretch.c_r
  *   bearing-run-out.c_x1

@@ -37,6 +37,12 @@ def replacing(path: Path) -> Iterator[Path]:
         target.place()
 
 
+def require_room(path: Path, size: int) -> None:
+    """OSError where so many bytes do not fit beside ``path``: for libraries that do not survive a full disc (HDF5)."""
+    if shutil.disk_usage(path.parent).free < size:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+
 class Target:
     """A file to be written: made and checked at once, prepared, put in its place, or given up by ``close``.
 
@@ -161,27 +167,52 @@ def temporary_name(path: Path) -> Path:
     return path.with_name(f"{_prefix(path)}{os.getpid()}-{secrets.token_hex(4)}{path.suffix}")
 
 
+@contextlib.contextmanager
+def scratch() -> Iterator[Path]:
+    """A folder for this process alone in the temporary folder; those that killed processes left there go first."""
+    beside = Path(tempfile.gettempdir()) / "ragg"
+    clear_stale(beside)
+    folder = temporary_name(beside)
+    folder.mkdir(mode=0o700)
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 def clear_stale(path: Path) -> None:
     """Remove what processes of this user that were killed on this machine left of :func:`temporary_name` for this path."""
+    _clear(path.parent, re.escape(_prefix(path)))
+
+
+def clear_all_stale(folder: Path) -> None:
+    """The same of all paths in a folder."""
+    _clear(folder, rf"\..+\.{_machine()}-")
+
+
+def _clear(folder: Path, prefix: str) -> None:
     if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
         return
-    prefix = _prefix(path)
     with contextlib.suppress(OSError):
-        for name in os.listdir(path.parent):
-            process = name.removeprefix(prefix).split("-")[0]
-            if name.startswith(prefix) and process.isdecimal() and not _lives(int(process)):
-                place = path.with_name(name)
-                if place.lstat().st_uid != os.geteuid():
-                    continue
-                if place.is_dir() and not place.is_symlink():
-                    shutil.rmtree(place, ignore_errors=True)
-                else:
-                    place.unlink(missing_ok=True)
+        for name in os.listdir(folder):
+            process = re.match(rf"{prefix}(\d+)-", name)
+            if process is None or _lives(int(process[1])):
+                continue
+            place = folder / name
+            if place.lstat().st_uid != os.geteuid():
+                continue
+            if place.is_dir() and not place.is_symlink():
+                shutil.rmtree(place, ignore_errors=True)
+            else:
+                place.unlink(missing_ok=True)
 
 
 def _prefix(path: Path) -> str:
-    machine = hashlib.sha256(platform.node().encode()).hexdigest()[:6]
-    return f".{path.name[:60]}.{machine}-"
+    return f".{path.name[:60]}.{_machine()}-"
+
+
+def _machine() -> str:
+    return hashlib.sha256(platform.node().encode()).hexdigest()[:6]
 
 
 def _lives(process: int) -> bool:
@@ -219,9 +250,26 @@ def opened(path: Path) -> BufferedReader:
 
 
 def file_digest(path: Path) -> str:
-    """SHA-256 of a user's file, hexadecimal."""
-    with opened(path) as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
+    """SHA-256 of a user's file, hexadecimal; of a record in two files, that of both digests."""
+    digests = []
+    for file in pair(path):
+        with opened(file) as stream:
+            digests.append(hashlib.file_digest(stream, "sha256").hexdigest())
+    return digests[0] if len(digests) == 1 else hashlib.sha256("".join(digests).encode()).hexdigest()
+
+
+PAIR = (".dat", ".dfn")
+"""Endings of the two files of an ASEG-GDF2 record: the numbers, and what they are."""
+
+
+def pair(path: Path) -> tuple[Path, ...]:
+    """The files that a record is in: those of an ASEG-GDF2 pair that are there, else the file itself."""
+    own = path.suffix.lower()
+    if own not in PAIR:
+        return (path,)
+    others = {s: [path] if s == own else [path.with_suffix(x) for x in (s, s.upper())] for s in PAIR}
+    found = [next((p for p in others[s] if p == path or p.is_file()), None) for s in PAIR]
+    return tuple(p for p in found if p is not None)
 
 
 def read_text(path: Path, longest: int = 1 << 20) -> str:

@@ -83,6 +83,11 @@ def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
                 future.cancel()
 
 
+def stretches(length: int, most: int) -> list[slice]:
+    """``length`` items in a row as neighbouring slices of at most so many."""
+    return [slice(k, min(k + most, length)) for k in range(0, length, most)]
+
+
 def one_thread(function: Callable[P, R]) -> Callable[P, R]:
     """Let linear algebra run in one thread while ``function`` does.
 

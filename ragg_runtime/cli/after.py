@@ -100,7 +100,9 @@ def compensate(
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, out)
-    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
+    origin = terminal.origin(m, read, command_line()) | {
+        "notes": [*c.as_json().get("notes", ()), *odd, *terminal.notes(m, read)]
+    }
     emit(c.as_json() | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
 
 
@@ -167,13 +169,21 @@ def online(
 @click.option(
     "--json", "form", flag_value="json", help="One document: description, parameters with units, an example."
 )
+@click.option(
+    "--harmonics",
+    "form",
+    flag_value="harmonics",
+    help="Outputs as harmonics of the disc's angle: LaTeX and NumPy, without effects.",
+)
 def export(model_dir: Path, folder: Path, form: str | None) -> None:
     """The model with its values, to run elsewhere: those of `calibrate --save`, else of model.toml."""
     from ragg_runtime.workflow import after
 
     if form is None:
         raise UserError(
-            "say what to export", expected="--c, --numpy or --json", remedy="see: ragg export --help"
+            "say what to export",
+            expected="--c, --numpy, --json or --harmonics",
+            remedy="see: ragg export --help",
         )
     m = load(model_dir)
     for place in after.export(m, folder, form):
@@ -204,7 +214,7 @@ def compare_frozen(
         from ragg_runtime.report import compare_html
 
         own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
-        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]]})
+        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]], "frozen": h})
 
     write_report(report_file, page)
     origin = terminal.origin(m, read, command_line())

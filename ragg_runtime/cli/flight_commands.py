@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.scheduler_options import scheduler_options
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
-from ragg_runtime.cli.outputs import Command, asked
+from ragg_runtime.cli.outputs import Command, OutputFile, asked
 from ragg_runtime.cli.shared import (
     DIRECTORY,
     about,
@@ -140,6 +140,13 @@ def diagnose(
     metavar="FILE",
     help="Results file: continue what stands in it, add what is done.",
 )
+@click.option(
+    "--table",
+    "table_file",
+    type=OutputFile(records=True),
+    metavar="FILE.parquet",
+    help="Write a table with a row a flight.",
+)
 @mapping_option
 @json_option
 @report_option
@@ -153,6 +160,7 @@ def survey(
     tls_cert: Path | None,
     tls_key: Path | None,
     resume: Path | None,
+    table_file: str | None,
     json_file: str | None,
     report_file: str | None,
 ) -> None:
@@ -184,6 +192,10 @@ def survey(
 
         return survey_html(s, **about_page)
 
+    if table_file is not None:
+        from ragg_runtime.survey.table import parquet
+
+        asked().write(table_file, parquet(s.records))
     write_report(report_file, page)
     emit(s.as_json() | origin, json_file, text.surveyed(s, model_dir))
 

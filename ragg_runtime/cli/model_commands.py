@@ -154,7 +154,7 @@ def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
 @click.option("--look", is_flag=True, help="Change nothing.")
 def doctor(model_dir: Path, look: bool) -> None:
     """What is damaged in a model directory; what can be mended without loss, is."""
-    from ragg_runtime.model_dir.doctor import examined
+    from ragg_runtime.workflow.doctor import examined
 
     found = examined(model_dir, mend=not look)
     for f in found:

@@ -9,17 +9,17 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import Target
+from ragg_runtime.base.files import Target, pair
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
-"""Names of stdout where JSON is asked for: it is then all that stands there."""
+"""Names of stdout; where JSON is asked for there, it is all that stands there."""
 
 _KEY = f"{__name__}.outputs"
 _OF_A_MODEL = (
@@ -42,25 +42,33 @@ class OutputFile(click.Path):
             from ragg_runtime.flight.formats import ending_of  # only here: to import it takes a while
 
             if ending_of(path.name) is not None:
-                raise UserError(
-                    "a result would be written over a record",
-                    where=path,
-                    found="a file that is not empty, with the ending of a flight file",
-                    remedy="name another file, or delete this one first",
-                )
+                raise _over("a record", path, "a file that is not empty, with the ending of a flight file")
+            if path.name in _OF_A_MODEL[0] and (path.resolve().parent / "model.toml").is_file():
+                raise _over("a file of a model directory", path, path.name)
         return name
+
+
+def _over(what: str, path: Path, found: str) -> UserError:
+    return UserError(
+        f"a result would be written over {what}",
+        where=path,
+        found=found,
+        remedy="name another file, or delete this one first",
+    )
 
 
 class Outputs:
     """The files that a command was asked to write, ready to be written; :meth:`place` ends them all."""
 
-    def __init__(self, targets: Mapping[str, Target]) -> None:
+    def __init__(self, targets: dict[str, Target]) -> None:
         self._targets = targets
         self._written: list[Target] = []
 
-    def write(self, name: str, text: str) -> None:
-        """Write one of them; nothing stands in its place yet."""
-        self._targets[name].write(text.encode())
+    def write(self, name: str, content: str | bytes) -> None:
+        """Write one of them; nothing stands in its place yet, but what goes to stdout is said at once."""
+        if name in STDOUT:
+            self._targets[name] = Target(Path("/dev/stdout"))
+        self._targets[name].write(content.encode() if isinstance(content, str) else content)
         self._written.append(self._targets[name])
 
     def protect(self, inputs: Iterable[Path]) -> None:
@@ -132,12 +140,12 @@ def _opened(names: Sequence[str], inputs: Sequence[Path]) -> Outputs:
 def _check(path: Path, inputs: Iterable[Path]) -> None:
     """UserError if ``path`` is a file that the command reads, or one of a model directory's or folder's own."""
     for given in inputs:
-        files, folders = [given], [given / f for f in _OF_A_MODEL[1]]
+        files, folders = list(pair(given)), [given / f for f in _OF_A_MODEL[1]]
         if given.is_dir():
             files += [given / f for f in _OF_A_MODEL[0]]
         real = Path(os.path.realpath(path))
         inside = next((f for f in folders if Path(os.path.realpath(f)) in real.parents), None)
-        over = next((f for f in files if _same(path, f)), inside)
+        over = next((f for f in files if any(_same(p, f) for p in (path, *pair(path)))), inside)
         if over is not None:
             raise UserError(
                 "a result would be written over what the command reads",

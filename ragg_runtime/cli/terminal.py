@@ -113,14 +113,25 @@ def _in_short(form: Form) -> str:
     return f"{form.kinematics}, {form.preset or ', '.join(kept)}"
 
 
-def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping: Path | None = None) -> str:
-    """The result of ``compare``."""
+def compared(
+    c: Comparison,
+    flights: Sequence[Flight],
+    model_dir: Path,
+    mapping: Path | None = None,
+    rows: Sequence[tuple[str, Error]] = (),
+    *,
+    judged: bool = True,
+) -> str:
+    """The result of ``compare``; other ``rows`` of errors than the usual where nothing was fitted.
+
+    Not ``judged``: that there is an error says nothing of the model, since its parameters are others now.
+    """
     f = c.fitted
     lines = [
         f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
         f"{', '.join(e.id for e in f.model.effects) or 'none'}",
         *errors_table(
-            (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
+            rows or (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
             c.noise_floor,
             flights,
             f,
@@ -128,7 +139,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
         "",
         *_not_converged(c.complaint),
         *([] if c.remark is None else [f"note: {c.remark}"]),
-        notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE,
+        *([notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE] if judged else []),
         *ladder(c),
         *_off_sheet(c.off_sheet),
     ]
@@ -139,7 +150,7 @@ def compared(c: Comparison, flights: Sequence[Flight], model_dir: Path, mapping:
             f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma"
             for t in where["motion"]
         ]
-    if not c.adequate:
+    if judged and not c.adequate:
         lines += ["", f"next: {command('diagnose', model_dir, flights, mapping)}"]
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
@@ -164,7 +175,7 @@ def diagnosed(
 ) -> str:
     """The result of ``diagnose``."""
     lines = [
-        notebook.verdict(d.verdict, d.found),
+        notebook.verdict(d.verdict, d.found, [g.as_json() for g in d.groups]),
         *_not_converged(d.complaint),
         *([] if d.remark is None else [f"note: {d.remark}"]),
         f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",

@@ -50,7 +50,12 @@ def held(h: Held, flights: Sequence[Flight], model_dir: Path, mapping: Path | No
     """The result of ``compare --frozen``."""
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))
     moved = [r for r in rows if abs(r["z"]) > MOVED]
-    lines = [compared(h.comparison, flights, model_dir, mapping), "", sentence(h)]
+    errors = (("nominal", h.comparison.nominal), ("frozen", h.comparison.calibrated), ("free", h.free))
+    lines = [
+        compared(h.comparison, flights, model_dir, mapping, errors, judged=h.holds),
+        "",
+        sentence(h),
+    ]
     if moved:
         lines.append("what moved since (frozen, now):")
         lines += [
@@ -63,6 +68,9 @@ def held(h: Held, flights: Sequence[Flight], model_dir: Path, mapping: Path | No
         lines += [
             f"  {x['name']:32} {x['change']:+.4g} {x['unit']}   {100 * x['share']:.1f} %" for x in suspects
         ]
+    if not h.holds:
+        again = command("calibrate", model_dir, flights, mapping)
+        lines += ["", f"next, if the instrument may have changed so: {again} --save"]
     return "\n".join(lines)
 
 
@@ -94,6 +102,7 @@ def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str
     lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
     if not r["converged"]:
         lines.append("The calibration has NOT converged: do not rely on these values.")
+    lines += [f"note: {text}" for text in r.get("notes", ())]
     for x in r["flights"]:
         lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
         lines.append(

@@ -55,8 +55,8 @@ class Prepared:
     """Flights with the parameters that compensate them.
 
     ``observations`` are outputs of ``flights``, of which ``of`` says whose; ``stretches`` and ``noise`` (densities are in
-    the calibration) of each of them; ``seeing`` are those that see a gradient on a turning disc. ``validity`` only if
-    frozen.
+    the calibration) of each of them; ``seeing`` are those that see a gradient on a turning disc. ``validity``, and
+    ``change`` (how what these flights say departs from the calibration), only if frozen.
     """
 
     kind: Kind
@@ -70,6 +70,7 @@ class Prepared:
     stretches: tuple[tuple[Stretch, ...], ...]
     converged: bool
     validity: dict[str, tuple[float, float]]
+    change: frozen.Change | None
 
     def of_flight(self, k: int) -> list[int]:
         """The observations of a flight that are compensated."""
@@ -89,6 +90,7 @@ def prepared(
     of = tuple(k for k, own in enumerate(each) for _ in own)
     sighted = seeing(instrument, observations)
     validity: dict[str, tuple[float, float]] = {}
+    change: frozen.Change | None = None
     if kind == "frozen":
         if saved is None:
             raise UserError("a frozen compensation needs a saved calibration")
@@ -96,6 +98,7 @@ def prepared(
         root = frozen.root(saved, model, instrument)
         stretches = [schedule.whole(c, root, len(o.record.time)) for o in observations]
         settled, validity = saved.converged, dict(saved.validity)
+        change = frozen.looked(model, instrument, flights, saved, c)
     else:
         f = fit(model, instrument, observations)
         c, settled = f.calibration, f.calibration.converged
@@ -117,6 +120,7 @@ def prepared(
         stretches=tuple(stretches),
         converged=settled,
         validity=validity,
+        change=change,
     )
 
 
@@ -165,8 +169,8 @@ class Compensated:
             validity=p.validity,
         )
         sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
-        U = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
-        self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches))
+        U, rest = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
+        self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches), rest=rest)
         self.before, self.after = spectrum.Density(rate), spectrum.Density(rate)
         self.count = 0
         self.bits = dict.fromkeys(Quality, 0)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.series import Segment, Setting
+from ragg_runtime.compensation.series import NO_VALUE, Segment, Setting
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.instrument.units import units
@@ -53,7 +53,7 @@ def of(s: Setting, samples: Sequence[slice], model: Model, instrument: Instrumen
         segment = Segment(
             replace(s, stretches=(replace(s.stretches[0], first=0, last=_end(s)),)), rows, holes=False
         )
-        good = (segment.quality()[segment.own] & 3) == 0
+        good = (segment.quality()[segment.own] & NO_VALUE) == 0
         count += int(np.sum(good))
         for name, effect, changed in [("everything", None, np.zeros_like(p)), *neutral(model, instrument, p)]:
             e = segment.bare if name == "everything" else segment.bare - segment.by(changed)

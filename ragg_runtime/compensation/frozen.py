@@ -22,9 +22,10 @@ from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import base_columns
 from ragg_runtime.fit.fitted import Fitted, about
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import estimate_noise
+from ragg_runtime.fit.noise import estimate_noise, spread
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.segments import segments
 from ragg_runtime.fit.square_root import join
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
@@ -37,6 +38,10 @@ Array = NDArray[np.float64]
 INFORMED = 0.1
 """A direction is tested where the flight knows at least this share of what the saved calibration knows: the rest is
 noise that would hide a change."""
+
+LOOKED, STRETCHES = 8000, 4
+"""Samples, and number, of the stretches of a long flight that say whether a calibration holds: seconds of work, where
+the whole flight would take longer than it takes to compensate it."""
 
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
@@ -167,6 +172,22 @@ class Change:
     def chi2(self) -> float:
         return float(np.sum(self.z**2))
 
+    @property
+    def p_value(self) -> float:
+        return float(special.chdtrc(len(self.z), self.chi2)) if len(self.z) else 1.0
+
+    @property
+    def holds(self) -> bool:
+        return self.p_value > false_alarms.FROZEN
+
+    def as_json(self) -> dict[str, Any]:
+        return {
+            "holds": self.holds,
+            "chi2": self.chi2,
+            "degrees_of_freedom": len(self.z),
+            "p_value": self.p_value,
+        }
+
 
 @dataclass(frozen=True)
 class Held:
@@ -195,8 +216,7 @@ class Held:
 
     @property
     def p_value(self) -> float:
-        n = len(self.change.z)
-        return float(special.chdtrc(n, self.change.chi2)) if n else 1.0
+        return self.change.p_value
 
     def suspects(self) -> list[dict[str, Any]]:
         """Single parameters whose change would explain the step, the best first; none if the calibration holds."""
@@ -217,7 +237,7 @@ class Held:
 
     @property
     def holds(self) -> bool:
-        return self.p_value > false_alarms.FROZEN
+        return self.change.holds
 
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
@@ -241,10 +261,7 @@ class Held:
             "made": self.saved.time,
             "flights": dict(self.saved.flights),
             "converged": self.saved.converged,
-            "holds": self.holds,
-            "chi2": self.change.chi2,
-            "degrees_of_freedom": len(self.change.z),
-            "p_value": self.p_value,
+            **self.change.as_json(),
             "samples": self.comparison.fitted.calibration.rows,
             "whitened_squares": dict(zip(("frozen", "free"), self.change.squares, strict=True)),
             "suspects": self.suspects(),
@@ -274,6 +291,25 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
     )
 
 
+def looked(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, c: Calibration
+) -> Change:
+    """The step from frozen parameters to what flights say, of long ones to what some stretches of them say.
+
+    ``c`` is the saved calibration with the noise of these flights.
+    """
+    stretches = [
+        x.part(s.rows)
+        for x in flights
+        for s in spread(segments(len(x.time), LOOKED), STRETCHES)
+        if len(x.time) > STRETCHES * LOOKED
+    ] or flights
+    observations = observations_of(stretches, instrument)
+    if stretches is not flights:
+        c = calibration(saved, model, instrument, observations)
+    return changed(about(model, instrument, observations, c), root(saved, model, instrument))
+
+
 def changed(f: Fitted, root: Array) -> Change:
     """Test the step from frozen parameters to what flights say; ``root`` (n, k) of the calibration's covariance.
 
@@ -287,6 +323,15 @@ def changed(f: Fitted, root: Array) -> Change:
     both = (U.T @ T[:n])[informed] / np.sqrt(1.0 + s[informed] ** 2)[:, None]
     total = float(np.sum(T[:, n] ** 2))
     return Change(z=both[:, n], signatures=both[:, :n], squares=(total, float(T[n, n] ** 2)))
+
+
+def warning(made: str, change: Change) -> str:
+    """What is said of a compensation by a calibration that does not hold, made at that instant."""
+    return (
+        f"the calibration of {made} does NOT hold here: chi-square of the step to what this record says "
+        f"{change.chi2:.4g} in {len(change.z)} directions (p = {change.p_value:.2g}); what is left of the motion may be "
+        "beyond the stated uncertainty. ragg compare --frozen says what changed"
+    )
 
 
 def sentence(h: Held) -> str:

@@ -58,6 +58,9 @@ class Quality(IntFlag):
     AUXILIARY = 16
 
 
+NO_VALUE = Quality.EDGE | Quality.GAP
+"""Bits of samples without a value."""
+
 MEANING = {
     Quality.EDGE: "the low-pass has not heard enough at this end of the record: no value",
     Quality.GAP: "more than 5 % of what the low-pass hears is missing: no value",
@@ -88,6 +91,8 @@ class Setting:
         Standard deviations of inline and cross that the noise causes, Eo.
     validity
         Channel -> range, SI, that the calibration knows; empty: not flagged.
+    rest
+        Variance of inline and cross, Eo^2, by directions of the parameters that are not followed, on the average.
     """
 
     model: Model
@@ -98,6 +103,7 @@ class Setting:
     stretches: tuple[Stretch, ...]
     noise: tuple[float, float]
     validity: dict[str, tuple[float, float]]
+    rest: tuple[float, float] = (0.0, 0.0)
 
     def reach(self, holes: bool) -> tuple[int, int]:
         """Samples before and after a segment that its values depend on."""
@@ -304,9 +310,9 @@ def series(s: Setting, rows: slice, *, holes: bool) -> Series:
     """Compensate one segment."""
     segment = Segment(s, rows, holes=holes)
     g = segment.gradient()[segment.own]
-    variance = segment.variance()[:, segment.own]
+    variance = segment.variance()[:, segment.own] + np.array(s.rest)[:, None]
     bits = segment.quality()[segment.own]
-    none = (bits & (Quality.EDGE | Quality.GAP)) != 0
+    none = (bits & NO_VALUE) != 0
     noise = np.array(s.noise)[:, None]
     parameters = np.sqrt(variance)
     nothing = complex(np.nan, np.nan)
@@ -320,22 +326,33 @@ def series(s: Setting, rows: slice, *, holes: bool) -> Series:
     )
 
 
-def basis(s: Setting, samples: Sequence[slice], neglected: float) -> Array:
-    """(k, r): the directions of the parameters that matter, found on some stretches of a flight.
+def basis(s: Setting, samples: Sequence[slice], neglected: float) -> tuple[Array, tuple[float, float]]:
+    """(k, r): the directions of the parameters that matter, found on some stretches of a flight; and what the others add
+    on the average to the variance of inline and cross, Eo^2.
 
-    Of the variance that all k directions cause, what the others add is below ``neglected`` of the noise's everywhere.
+    Of the variance that all k directions cause, what the others add is below ``neglected`` of the noise's wherever there
+    is a value. (At the ends of a record, where there is none, the low-pass has not settled and three times as many
+    directions would seem to matter.)
     """
-    rows = []
+    inline, cross = [], []
     for some in samples:
         segment = Segment(s, some, holes=False)
         segment.gradient()
         few, coarse = segment.fewer
         step = max(1, int(coarse.rate))  # the channels do not change within a second
         inside = slice(-(-segment.own.start // few), segment.own.stop // few, step)
+        valued = (segment.quality() & NO_VALUE) == 0
         found = segment.by_parameters()[:, inside]
-        rows.append(np.concatenate([found.real / s.noise[0], found.imag / s.noise[1]], axis=1))
-    D = np.concatenate(rows, axis=1)
+        there = valued[few // 2 :: few][inside][: found.shape[1]]
+        if there.any():
+            found = found[:, there]
+        inline.append(found.real / s.noise[0])
+        cross.append(found.imag / s.noise[1])
+    D = np.concatenate([*inline, *cross], axis=1)
     U, _, _ = np.linalg.svd(D, full_matrices=False)
     share = np.cumsum((U.T @ D) ** 2, axis=0)
-    left = np.max(share[-1] - share, axis=1)
-    return np.asarray(U[:, : int(np.argmax(left <= neglected)) + 1])
+    left = share[-1] - share
+    kept = int(np.argmax(np.max(left, axis=1) <= neglected))
+    of_inline, of_cross = np.split(left[kept], 2)  # as many instants of both
+    rest = np.mean(of_inline) * s.noise[0] ** 2, np.mean(of_cross) * s.noise[1] ** 2
+    return U[:, : kept + 1], (float(rest[0]), float(rest[1]))

@@ -16,7 +16,7 @@ from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import bursts, columns, convergence, fitted
+from ragg_runtime.fit import bursts, columns, convergence, fitted, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -291,10 +291,12 @@ def _digits(f: Fitted) -> list[str]:
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
-    """Residual of G_out, (N,) V, of a piece of a flight with these values."""
+    """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
     predicted = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
-    return as_output(o, np.where(o.record.valid, o.data - predicted, 0.0))
+    e = np.where(o.record.valid, o.data - predicted, 0.0)
+    (left,) = as_output(o, unknown_gradient.without(e[None], piece.windows, o.record.valid))
+    return np.asarray(left)
 
 
 def demodulated(f: Fitted, residuals: Sequence[Array]) -> list[tuple[Array, Array, Array]]:

@@ -24,6 +24,7 @@ from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.doubts import spoiled, too_loud
 from ragg_runtime.diagnosis.explained import Explained, explained
+from ragg_runtime.diagnosis.groups import groups
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import (
     Ranked,
@@ -100,7 +101,7 @@ def diagnose_fitted(
     whitened = sum(s.square for s in left.remainder.searches)
     ranking, before = _ranked(first, steps, last, c, end.target, left, output)
     credence = weighed(last.field, steps)
-    groups = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
+    rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     steady = [s for s in left.steady if s.effect in found]
     return Diagnosis(
         verdict=verdict,
@@ -117,11 +118,12 @@ def diagnose_fitted(
         target=end.target,
         coefficients=end.coefficients,
         next_motion=tuple(
-            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(groups), limits)
+            next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(rivals), limits)
         ),
         complaint=end.complaint,
         remark=_remark(end.doubt or end.noisy, left.line, steady, comparison.disturbed(end.target)),
         explained=end.explained,
+        groups=groups(found, ranking, steady),
         credible_set=credence.credible,
         holds=_followed(end.target, [(t.effect, t.instant) for t in steps] + [*last.instants.items()], found),
         staged=bool(steps),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.fit import columns
+from ragg_runtime.fit import columns, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.passes import Piece
@@ -93,7 +93,8 @@ def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
             found.append(
                 here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
             )
-        return np.stack([as_output(o, np.where(o.record.valid, x, 0.0)) for x in found])
+        left = np.stack([np.where(o.record.valid, x, 0.0) for x in found])
+        return as_output(o, unknown_gradient.without(left, piece.windows, o.record.valid))
 
     count = 1 if below is None else 2
     scored = f.score([f.vector(np.zeros(f.n_base))], further, count)

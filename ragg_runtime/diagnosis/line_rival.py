@@ -23,6 +23,11 @@ SLIP = 6.6
 off it in one of a hundred (one degree of freedom)."""
 
 
+CONSTANT = 0.99
+"""Share of what an effect explains that a sinusoid at the very multiple must explain for it to be called a constant term; the
+rest is its couplings to the motion, which a strong one shows."""
+
+
 @dataclass(frozen=True)
 class LineRival:
     """A line that explains as much as an effect.
@@ -85,25 +90,30 @@ class Steady:
     turns, frequency
         Multiple of the spin rate, and that in Hz.
     width
-        How far off it a line may be that explains as much (3 sigma), Hz.
+        How far off it a line may be that explains as much (3 sigma), Hz; ``None``: none does.
     """
 
     effect: str
     others: tuple[str, ...]
     turns: int
     frequency: float
-    width: float
+    width: float | None
 
     @property
-    def words(self) -> str:
+    def name(self) -> str:
+        """What it is called, with those that would do as well."""
         times = {1: "the spin rate", 2: "twice the spin rate"}.get(
             self.turns, f"{self.turns} times the spin rate"
         )
+        return f"constant term at {times}"
+
+    @property
+    def words(self) -> str:
         others = f", by {', '.join(self.others)} as well" if self.others else ""
-        return (
-            f"what {self.effect} explains is a constant term at {times}{others}; a line within {self.width:.1g} Hz of"
-            f" {self.frequency:.6g} Hz would do too"
-        )
+        said = f"what {self.effect} explains is a {self.name}{others}"
+        if self.width is None:
+            return said
+        return f"{said}; a line within {self.width:.1g} Hz of {self.frequency:.6g} Hz would do too"
 
 
 def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
@@ -141,15 +151,20 @@ def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
 def _steady(
     f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
 ) -> list[Steady]:
-    """The effect, if a line at the very multiple explains as much."""
-    if line is None or line.chi2 - line.slip < chi2 - selection.INDISTINGUISHABLE:
+    """The effect, if a line at the very multiple explains as much, or all but a small part."""
+    if line is None or line.chi2 - line.slip < min(chi2 - selection.INDISTINGUISHABLE, CONSTANT * chi2):
         return []
+    as_much = line.chi2 - line.slip >= chi2 - selection.INDISTINGUISHABLE
     r = f.prepared[0].observation.record
     turns = round(line.frequency / r.spin_frequency)
     # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)
     width = 3.0 * float(np.sqrt(12.0 / line.chi2)) / (2 * np.pi * float(r.time[-1] - r.time[0]))
     return [
         Steady(
-            effect=effect, others=tuple(others), turns=turns, frequency=turns * r.spin_frequency, width=width
+            effect=effect,
+            others=tuple(others),
+            turns=turns,
+            frequency=turns * r.spin_frequency,
+            width=width if as_much else None,
         )
     ]

@@ -9,7 +9,7 @@ import numpy as np
 
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.strong import Taken
-from ragg_runtime.evidence import likelihood_ratio, selection
+from ragg_runtime.evidence import likelihood_ratio, selection, sheet
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit.fitted import Fitted
@@ -170,6 +170,8 @@ def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):
             found.append(NotTestable(e.id, _absorbed(f, field, e)))
+        elif e.kind == "deterministic" and (why := sheet.doubtful(f, e)):
+            found.append(NotTestable(e.id, why))
     return found
 
 

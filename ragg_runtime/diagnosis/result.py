@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.explained import Explained
+from ragg_runtime.diagnosis.groups import Group
 from ragg_runtime.diagnosis.next_motion import Proposal
 from ragg_runtime.diagnosis.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.evidence.sequential import Change, Evidence
@@ -48,6 +49,7 @@ class Diagnosis:
     credible_set: tuple[tuple[str, ...], ...] = ((),)
     holds: Evidence | None = None
     explained: Explained | None = None
+    groups: tuple[Group, ...] = ()
     staged: bool = False
     """Whether what was found was derived into the model one after the other."""
 
@@ -124,6 +126,7 @@ class Diagnosis:
             "off_sheet": [x.as_json() for x in self.off_sheet],
             "ranking": [r.as_json() for r in self.ranking],
             "found": list(self.found),
+            "groups": [g.as_json() for g in self.groups],
             "not_testable": [{"effect": n.effect, "why": n.why} for n in self.not_testable],
             "unexplained": {
                 "share": self.remainder_share,

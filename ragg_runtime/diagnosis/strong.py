@@ -24,7 +24,8 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
+from ragg_runtime.fit.off_sheet import with_room
 from ragg_runtime.fit.significance import log_sf
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
@@ -167,12 +168,14 @@ def _score(f: Fitted, rank: int, held: frozenset[str], derived: tuple[Model, Ins
     which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, instrument = derived
-    c = calibrate.fit(
-        model,
-        instrument,
-        f.observations,
-        noise=f.calibration.noise,
-    )
+    noise = f.calibration.noise
+    c = calibrate.fit(model, instrument, f.observations, noise=noise)
+    for _ in range(WIDENED):
+        wider = with_room(model, instrument, c)
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, f.observations, noise=noise, start=c.p)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))

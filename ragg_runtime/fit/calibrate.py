@@ -235,16 +235,17 @@ def fit(
     """
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    loud = unweighted
+    loud, whole = unweighted, _Unweighted(task)
     if noise is None:
-        some = _Unweighted(task, WHITE_SEGMENTS)
+        short = all(len(flight_segments(o)) <= WHITE_SEGMENTS for o in observations)
+        some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
         loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
-    return _loud(_Unweighted(task), x, noise, fixed=unweighted)
+    return _loud(whole, x, noise, fixed=unweighted)
 
 
 def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
@@ -287,8 +288,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
 
 
 def _triangle(piece: Piece) -> tuple[Array, int, Array, float]:
-    left = piece.left(np.zeros((1, len(piece.columns) - 1)))
-    return triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(left**2))
+    return triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(piece.unexplained() ** 2))
 
 
 def _linear(T: Array, to_nominal: Array) -> Linear:

@@ -100,7 +100,9 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
         if not q.fitted:
             continue
         factor = unit_factor(q.unit, known)
-        scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
+        scale = (
+            EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like) * instrument.widths.get(e.id, 1.0)
+        )
         for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
             column = Column(f"{e.id}.{q.name}", j, scale, q.unit, factor, e.id)
             columns.append((column, q.symbol))

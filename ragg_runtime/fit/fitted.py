@@ -33,8 +33,11 @@ FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
 
 
+FREE = 1e-3
+"""Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
+
 WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says."""
+"""Most times that a sheet is taken to be less sure than it says, and that effects are given more room."""
 
 
 @dataclass(frozen=True)
@@ -140,18 +143,31 @@ class Fitted:
         return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
     @cached_property
+    def data(self) -> Array:
+        """Triangle of all flights, without the prior."""
+        return fold([t[b] for t in self.triangles for b in range(BLOCKS)])
+
+    @cached_property
     def whole(self) -> Array:
         """Triangle of all flights, the prior in it."""
-        return self._triangle(range(BLOCKS))
+        return fold([self.data, self._prior])
 
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return self._triangle(FITTED_BLOCKS)
+        return fold([*(t[b] for t in self.triangles for b in FITTED_BLOCKS), self._prior])
 
-    def _triangle(self, blocks: Sequence[int]) -> Array:
-        sheet = prior(range(self.n_base), self.size + 1, self.to_nominal)
-        return fold([*(t[b] for t in self.triangles for b in blocks), sheet])
+    @property
+    def _prior(self) -> Array:
+        return prior(range(self.n_base), self.size + 1, self.to_nominal)
+
+    def freed(self, name: str, extra: Sequence[int]) -> Array:
+        """Triangle [base | candidates ``extra`` | residual] as if the sheet did not know one parameter of the accelerometers."""
+        picked = [*range(self.n_base), *(self.n_base + k for k in extra), -1]
+        sheet = self._prior[:, picked]
+        of_it = [k for k, c in enumerate(self.calibration.columns) if c.effect is None and c.name == name]
+        sheet[of_it] *= FREE
+        return np.asarray(np.linalg.qr(np.vstack([self.data[:, picked], sheet]), mode="r"))
 
     def coefficients(self, extra: Sequence[int], *, held_out: bool = False) -> tuple[Array, Array]:
         """Fit of base and ``extra`` candidate columns, in scales, with its covariance, priors included.

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.model import Model
+from ragg_runtime.model.native import Evaluator
 
 Array = NDArray[np.float64]
 
@@ -46,75 +48,113 @@ CACHED = 2048
 
 
 @dataclass(frozen=True)
-class _Rows:
-    """Which rows of a generated module's derivatives make which columns, and their scales."""
+class _Run:
+    """Neighbouring rows of a generated module's derivatives, the columns that they make, and their scales (k, 1)."""
 
-    column: NDArray[np.intp]
-    row: NDArray[np.intp]
-    accelerometer: NDArray[np.intp]
+    rows: slice
+    columns: slice
     scale: Array
 
-    @staticmethod
-    def of(chain: Chain, columns: Sequence[Column], first: int, shared: bool) -> _Rows:
-        """Those of parameters with one value for the instrument, or with one for each accelerometer."""
-        place = {name: k for k, (name, _) in enumerate(chain.ROWS)}
-        found = [(first + n, c) for n, c in enumerate(columns) if (c.accelerometer is None) == shared]
-        return _Rows(
-            np.array([n for n, _ in found], dtype=np.intp),
-            np.array([place[c.name] for _, c in found], dtype=np.intp),
-            np.array([(c.accelerometer or 1) - 1 for _, c in found], dtype=np.intp),
-            np.array([c.scale for _, c in found]),
+
+def _runs(made: Sequence[tuple[int, int, float]]) -> list[_Run]:
+    """(column, row, scale) of one parameter after the other, gathered where rows are neighbours and columns evenly apart."""
+    found: list[list[tuple[int, int, float]]] = []
+    for one in made:
+        last = found[-1] if found else []
+        next_row = bool(last) and one[1] == last[-1][1] + 1
+        if next_row and (len(last) == 1 or one[0] - last[-1][0] == last[1][0] - last[0][0]):
+            last.append(one)
+        else:
+            found.append([one])
+    return [
+        _Run(
+            rows=slice(own[0][1], own[-1][1] + 1),
+            columns=slice(own[0][0], own[-1][0] + 1, own[1][0] - own[0][0] if len(own) > 1 else 1),
+            scale=np.array([[scale] for _, _, scale in own]),
         )
+        for own in found
+    ]
 
-    def put(
-        self,
-        target: Array,
-        at: slice,
-        rows: Sequence[Array],
-        shared: bool,
-        members: Sequence[int],
-        signs: Array | None,
-    ) -> None:
-        """Put derivatives, of each accelerometer of an output (rows, n), into columns (columns, m, N) at some samples.
 
-        ``signs`` combine them.
-        """
-        for k, j in enumerate(members):
-            sign = 1.0 if signs is None else signs[k]
-            output = k if signs is None else 0
-            if shared:
-                target[self.column, output, at] += rows[k][self.row] * (sign * self.scale[:, None])
-            else:
-                own = self.accelerometer == j
-                target[self.column[own], output, at] = rows[k][self.row[own]] * (sign * self.scale[own, None])
+@dataclass(frozen=True)
+class _Rows:
+    """Which rows of a generated module's derivatives make which columns, times what.
+
+    ``own`` are parameters of one accelerometer, by its place; ``shared`` have one value for the instrument.
+    """
+
+    own: Mapping[int, Sequence[_Run]]
+    shared: Sequence[_Run]
+
+    @staticmethod
+    def of(chain: Chain, columns: Sequence[Column], first: int) -> _Rows:
+        """Of columns that are put from the place ``first`` on."""
+        place = {name: k for k, (name, _) in enumerate(chain.ROWS)}
+        made: dict[int | None, list[tuple[int, int, float]]] = {}
+        for n, c in enumerate(columns):
+            made.setdefault(c.accelerometer, []).append((first + n, place[c.name], c.scale))
+        own = {j - 1: _runs(x) for j, x in made.items() if j is not None}
+        return _Rows(own=own, shared=_runs(made.get(None, ())))
+
+    def put(self, target: Array, output: int, at: slice, rows: Array, j: int, sign: float) -> None:
+        """Put derivatives of accelerometer j (rows, n), times its sign, into columns (columns, m, N) at some samples."""
+        for run in self.own.get(j, ()):
+            np.multiply(rows[run.rows], sign * run.scale, out=target[run.columns, output, at])
+        for run in self.shared:
+            place = target[run.columns, output, at]
+            np.add(place, rows[run.rows] * (sign * run.scale), out=place)
+
+
+@dataclass(frozen=True)
+class _Module:
+    """A generated module over an observation: its inputs (n_inputs, N), and which columns it makes."""
+
+    evaluator: Evaluator
+    inputs: Array
+    p: Array
+    rows: _Rows
+
+    def put(self, columns: Array, o: Observation, some: slice) -> None:
+        """Columns (columns, m, N) of some samples."""
+        case = self._case(o, some)
+        signs = np.ones(len(o.output.members)) if o.recorded.separate else np.array(o.output.signs, float)
+        for k, (j, sign) in enumerate(zip(o.output.members, signs, strict=True)):
+            place = k if o.recorded.separate else 0
+            self.rows.put(columns, place, some, self.evaluator.derivatives(j, *case), j, float(sign))
+
+    def predict(self, found: Array, o: Observation, some: slice) -> None:
+        """The outputs themselves (m, N), V, at some samples."""
+        V = self.evaluator.voltages(*self._case(o, some), members=o.output.members)
+        found[:, some] = V if o.recorded.separate else np.array(o.output.signs, dtype=np.float64) @ V
+
+    def _case(self, o: Observation, some: slice) -> tuple[Array, Array, Array, Array, int]:
+        return o.record.time[some], self.inputs[:, some], self.p, o.record.phi[some], 1
 
 
 def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
     base = [c for c, _ in design.base_columns(at.model, at.instrument)]
     candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
-    evaluators = at.model.evaluators
-    modules = [(at.model.chain, evaluators["chain"], base, 0, at.p)]
+    evaluators, r = at.model.evaluators, o.record
+
+    def module(name: str, chain: Chain, p: Array, columns: Sequence[Column], first: int) -> _Module:
+        rows = _Rows.of(chain, columns, first)
+        return _Module(evaluator=evaluators[name], inputs=r.inputs(chain), p=p, rows=rows)
+
+    chain = module("chain", at.model.chain, at.p, base, 0)
+    modules = [chain]
     if candidates:
         q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
-        modules.append((at.model.signatures, evaluators["signatures"], candidates, len(base), q))
-    r, m = o.record, len(o.series)
-    n = len(r.time)
-    signs = None if o.recorded.separate else np.array(o.output.signs, dtype=np.float64)
-    members = o.output.members
-    columns = np.zeros((len(base) + len(candidates) + 1, m, n))
-    for chain, evaluator, wanted, first, p in modules:
-        x = r.inputs(chain)
-        own, shared = (_Rows.of(chain, wanted, first, s) for s in (False, True))
-        for start in range(0, n, CACHED):
-            some = slice(start, min(start + CACHED, n))
-            case = (r.time[some], x[:, some], p, r.phi[some], 1)
-            rows = [evaluator.derivatives(j, *case) for j in members]
-            own.put(columns, some, rows, False, members, signs)
-            shared.put(columns, some, rows, True, members, signs)
-            if first == 0:
-                V = evaluator.voltages(*case, members=members)
-                columns[-1, :, some] = V if signs is None else signs @ V
+        modules.append(module("signatures", at.model.signatures, q, candidates, len(base)))
+    columns = np.zeros((len(base) + len(candidates) + 1, len(o.series), len(r.time)))
+
+    def evaluated(some: slice) -> None:
+        for x in modules:
+            x.put(columns, o, some)
+        chain.predict(columns[-1], o, some)
+
+    for _ in mapped(evaluated, stretches(len(r.time), CACHED)):
+        pass
     if o.recorded.demodulated:
         for k in range(len(columns)):
             columns[k] = o.recorded.through(columns[k], r)

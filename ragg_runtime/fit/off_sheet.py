@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
@@ -67,21 +68,46 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
 
 WIDE = 2.0
 """Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
-(or than is plausible), by that factor: a sheet for an instrument of another class, say."""
+(or than is plausible), by that factor: a sheet for an instrument of another class, say. Of an effect, the largest distance."""
 
 QUIET = 2.0
 """Excess of chi-square up to which the record says so, not an effect that is missing."""
 
 
 def widened(model: Model, instrument: Instrument, c: Calibration) -> tuple[Instrument, float] | None:
-    """The instrument with a sheet as sure as the record says it is, if that is far less than it says; and by what factor."""
-    sheet = vector(model, instrument)
-    off = [(c.p[k] - sheet[k]) / q.scale for q, k in zip(c.columns, c.index, strict=True) if q.effect is None]
-    factor = float(np.sqrt(np.mean(np.square(off))))
+    """The instrument with a sheet as sure as the record says it is, if that is far less than it says; and by what factor.
+
+    The same of the sizes that are usual of effects in the model (:func:`with_room`). ``None`` if nothing is to be widened.
+    """
+    roomy = with_room(model, instrument, c)
+    off = _off(model, instrument, c)
+    factor = float(np.sqrt(np.mean([x**2 for q, x in off if q.effect is None])))
     if factor < WIDE or c.excess > QUIET:
+        return None if roomy is None else (roomy, 1.0)
+    sigmas = {q.name: factor * instrument.sigma(q.name) for q, _ in off if q.effect is None}
+    return replace(roomy or instrument, sigmas=MappingProxyType(sigmas)), factor
+
+
+def with_room(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
+    """The instrument with the prior of every effect in the model as wide as the record says its parameters are large.
+
+    Of a fault nothing is known but what size is usual: a prior that holds it there against the data would leave some of it in
+    the residual, and another one in its place would be taken for it. ``None`` if all are wide enough.
+    """
+    largest = {e.id: 0.0 for e in model.effects}
+    for q, x in _off(model, instrument, c):
+        if q.effect is not None:
+            largest[q.effect] = max(largest[q.effect], abs(x))
+    wider = {e: x * instrument.widths.get(e, 1.0) for e, x in largest.items() if x >= WIDE}
+    if not wider or c.excess > QUIET:
         return None
-    sigmas = {q.name: factor * instrument.sigma(q.name) for q in c.columns if q.effect is None}
-    return replace(instrument, sigmas=MappingProxyType(sigmas)), factor
+    return replace(instrument, widths=MappingProxyType({**instrument.widths, **wider}))
+
+
+def _off(model: Model, instrument: Instrument, c: Calibration) -> list[tuple[Column, float]]:
+    """Every fitted parameter, and how far it is from its sheet, in scales."""
+    sheet = vector(model, instrument)
+    return [(q, float((c.p[k] - sheet[k]) / q.scale)) for q, k in zip(c.columns, c.index, strict=True)]
 
 
 SAID = 3

@@ -9,6 +9,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.threads import mapped
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.linearise import Point
@@ -92,13 +93,16 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
     size = 1
 
     def own(piece: Piece) -> list[tuple[int, Array, Array]]:
-        found = []
-        for b, rows in piece.segment.blocks:
-            inside = (piece.sample >= rows.start) & (piece.sample < rows.stop)
-            first = piece.segment.rows.start
-            sums = piece.sums(slice(rows.start - first, rows.stop - first))
-            found.append((b, triangle(piece.white[:, inside]), sums))
-        return found
+        first = piece.segment.rows.start
+
+        def of_block(block: tuple[int, slice]) -> tuple[int, Array, Array]:
+            b, rows = block
+            inside = np.flatnonzero((piece.sample >= rows.start) & (piece.sample < rows.stop))
+            together = len(inside) and inside[-1] - inside[0] == len(inside) - 1  # a slice saves a copy
+            white = piece.white[:, slice(inside[0], inside[-1] + 1) if together else inside]
+            return b, triangle(white), piece.sums(slice(rows.start - first, rows.stop - first))
+
+        return list(mapped(of_block, piece.segment.blocks))
 
     triangles: list[Array | None] = [None] * BLOCKS
     totals: list[Array | float] = [0.0] * BLOCKS

@@ -192,6 +192,10 @@ class Layout:
     def _converted(self, column: Column, values: Array) -> Array:
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
+        if (
+            len(result) and max(result.max(), -result.min()) < _ENDLESS
+        ):  # the rule; of what is no number not true
+            return result
         with np.errstate(invalid="ignore"):
             return np.where(np.abs(result) < _ENDLESS, result, np.nan)
 

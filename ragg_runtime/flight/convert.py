@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import pair
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.formats import format_of
 from ragg_runtime.flight.mapping import Mapped
@@ -34,7 +35,7 @@ def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Conver
     Nothing is resampled, filled in or converted: values are the file's, under the file's names and units, or
     with a mapping under the contract's. Instants become seconds.
     """
-    if source.resolve() == target.resolve():
+    if {p.resolve() for p in pair(source)} & {p.resolve() for p in (target, *pair(target))}:
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     format_of(target)  # before a long file is read for nothing
     sources = open_sources(source, mapping, lenient=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import re
 import shutil
-import tempfile
 import zipfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -82,9 +81,23 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as numbers of 17 digits, what is missing as empty cells; a sheet for each line."""
     from openpyxl import Workbook  # slow to import, and only this format needs it
-    from openpyxl.cell import WriteOnlyCell
 
     book = Workbook(write_only=True)
+    try:
+        _fill(book, path, tables)
+        book.save(path)
+    except OSError:
+        for sheet in book.worksheets:  # else they complain on stderr when they are cleared away
+            for half in (sheet._rows, sheet._writer.xf):
+                with contextlib.suppress(OSError, AttributeError):
+                    half.close()
+        raise
+    _undated(path)
+
+
+def _fill(book: Any, path: Path, tables: Sequence[Written]) -> None:
+    from openpyxl.cell import WriteOnlyCell
+
     taken: set[str] = set()
     for number, table in enumerate(tables, 1):
         rows = len(table.columns[0][1]) if table.columns else 0
@@ -97,6 +110,7 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
                 remedy="write Parquet, CSV or NetCDF instead",
             )
         sheet = book.create_sheet(_title(table.line or "flight", number, taken))
+        _beside(sheet, path, number)
         names = []
         for c, _ in table.columns:
             cell = WriteOnlyCell(sheet, f"{c.name} [{c.unit}]" if c.unit else c.name)
@@ -107,8 +121,6 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
             part = np.column_stack([np.asarray(v[start : start + _AT_ONCE]) for _, v in table.columns])
             for row in part.tolist():
                 sheet.append([_number(sheet, v) if np.isfinite(v) else None for v in row])
-    book.save(path)
-    _undated(path)
 
 
 def _number(sheet: Any, value: float) -> Any:
@@ -118,6 +130,19 @@ def _number(sheet: Any, value: float) -> Any:
     cell = WriteOnlyCell(sheet)
     cell._value, cell.data_type = repr(value), "n"
     return cell
+
+
+def _beside(sheet: Any, path: Path, number: int) -> None:
+    """Let a sheet's rows wait beside the workbook, where the next command clears away what a killed one left.
+
+    By itself openpyxl lays them down in the temporary folder, under a name that tells nobody whose they are.
+    """
+    from openpyxl.worksheet import _writer
+
+    place = str(path.with_name(f"{path.name}.{number}"))
+    _writer.ALL_TEMP_FILES.append(place)  # as it does with its own: it removes them
+    sheet._writer = _writer.WorksheetWriter(sheet, out=place)
+    sheet._writer.write_top()
 
 
 def _title(name: str, number: int, taken: set[str]) -> str:
@@ -131,8 +156,7 @@ def _title(name: str, number: int, taken: set[str]) -> str:
 
 def _undated(path: Path) -> None:
     """Take the date of writing out of a workbook: equal flights give equal files."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as other:
-        plain = Path(other.name)
+    plain = path.with_name(f"{path.name}.plain")  # whose name tells whose it is, as that of ``path`` does
     try:
         with zipfile.ZipFile(path) as old, zipfile.ZipFile(plain, "w", zipfile.ZIP_DEFLATED) as new:
             for name in old.namelist():

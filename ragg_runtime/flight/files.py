@@ -91,9 +91,12 @@ def read_flights(
     need_output: bool = True,
     accelerometers: Accelerometers = PAPER,
     mapping: Mapped | None = None,
+    leave: frozenset[str] = frozenset(),
 ) -> list[Flight]:
-    """The flights in a file, one for each line; the arguments are those of :func:`read_flight`."""
-    sources = open_sources(Path(path), mapping)
+    """The flights in a file, one for each line; ``leave`` names columns that are not read, the other arguments are
+    those of :func:`read_flight`.
+    """
+    sources = open_sources(Path(path), mapping, leave=leave)
     return [_flight(s, g0, need_output, accelerometers, len(sources) > 1) for s in sources]
 
 

@@ -16,12 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.files import PAIR, pair
 from ragg_runtime.flight.numerals import numbers, shortest
 from ragg_runtime.flight.one_table import joined
 from ragg_runtime.flight.source import Column, Heading, Look, RawBatch, Table, Written, distinct, not_numbers
 
 NAME = "ASEG-GDF2"
-ENDINGS = (".dat", ".dfn")
+ENDINGS = PAIR
 MAGIC = ()
 
 LONGEST_DEFINITION = 1 << 20
@@ -47,7 +48,7 @@ class _Field:
 
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
     """The data records as one table."""
-    data, definition = _beside(path, ".dat"), _beside(path, ".dfn")
+    data, definition = (_of_pair(path, s) for s in PAIR)
     fields, kind = _fields(_text(definition), definition)
     wanted = [f for f in fields if look.wants(f.name) and f.name.upper() != "RT"]
     for f in wanted:
@@ -118,13 +119,11 @@ def _bare(text: str) -> str:
     return re.sub(r"[:;,\s]+", "_", text)
 
 
-def _beside(path: Path, suffix: str) -> Path:
+def _of_pair(path: Path, suffix: str) -> Path:
     """The file of the pair with this ending, in any case of letters."""
-    if path.suffix.lower() == suffix:
-        return path
-    for name in (suffix, suffix.upper()):
-        if path.with_suffix(name).is_file():
-            return path.with_suffix(name)
+    for file in pair(path):
+        if file.suffix.lower() == suffix:
+            return file
     raise UserError(
         f"the file that belongs to it is missing: {path.stem}{suffix}",
         where=path,

@@ -48,3 +48,16 @@ def _is(thing: h5py.Dataset | h5py.Group, name: str, classes: tuple[int, ...]) -
         and space.get_simple_extent_npoints() == 1
         and attribute.get_storage_size() <= LONGEST
     )
+
+
+def matlab_text(item: object) -> str:
+    """The text that MATLAB keeps in a dataset, as numbers; ``""`` where there is none, or no short one."""
+    if not isinstance(item, h5py.Dataset) or item.dtype.kind not in "ui" or not 0 < item.size <= LONGEST_TEXT:
+        return ""
+    return "".join(
+        chr(int(c)) for c in np.asarray(item[()]).ravel(order="F") if 0 < int(c) < 0x110000
+    ).strip()
+
+
+LONGEST_TEXT = 200
+"""Characters of a unit or the name of a line in a MATLAB file: what is longer is neither."""

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import require_room
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
 
@@ -48,6 +49,7 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
 
     from ragg_runtime.flight.hdf5_attributes import write_text
 
+    require_room(path, room_for(tables))
     with h5py.File(path, "w", track_order=True) as file:
         for number, table in enumerate(tables):
             group = file
@@ -59,6 +61,16 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
                 write_text(data, "name", column.name)
                 if column.unit:
                     write_text(data, "units", column.unit)
+
+
+COLUMN, TABLE = 8192, 1 << 16
+"""Bytes that a column takes beside its numbers, and a table beside its columns, with room to spare."""
+
+
+def room_for(tables: Sequence[Written]) -> int:
+    """Bytes that a file of these tables takes at most."""
+    columns = [np.asarray(v) for t in tables for _, v in t.columns]
+    return TABLE * (len(tables) + 1) + sum(8 * x.size + COLUMN for x in columns)
 
 
 def tables_of(path: Path, look: Look, unit: UnitOf) -> list[Table]:
@@ -145,7 +157,7 @@ def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[G
 def _group(
     place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset], look: Look, unit: UnitOf, path: Path
 ) -> Group:
-    from ragg_runtime.flight.hdf5_attributes import text_of
+    from ragg_runtime.flight.hdf5_attributes import matlab_text, text_of
 
     if look.only is not None:
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
@@ -168,7 +180,7 @@ def _group(
         if look.wants(h.name) and (not text or look.allows_text(h.name)):
             columns.append((Heading(h.name, unit(data).split(" since ")[0] or h.unit, text), p))
     distinct(path, [h for h, _ in columns])
-    name = text_of(group, "line") or place.rsplit("/", 1)[-1]
+    name = text_of(group, "line") or matlab_text(group.get("line")) or place.rsplit("/", 1)[-1]
     return Group(place=place, line=name, length=length, columns=tuple(columns))
 
 
@@ -180,8 +192,8 @@ def _is_column(data: h5py.Dataset, look: Look) -> bool:
     kind = data.dtype.kind
     if kind == "O" and h5py.check_string_dtype(data.dtype) is None:
         return False  # references and sequences
-    if _DIMENSION in text_of(data, "NAME"):
-        return False
+    if _DIMENSION in text_of(data, "NAME") or text_of(data, "MATLAB_class") == "char":
+        return False  # MATLAB keeps texts as numbers
     return data.shape is not None and (kind in "fiu" or (kind in "SO" and len(data.shape) == 1))
 
 

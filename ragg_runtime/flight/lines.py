@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -110,33 +111,33 @@ def _spooled(
 ) -> tuple[NDArray[Any], Mapping[str, NDArray[Any]]]:
     """The same with the columns of numbers on disk; texts (names of lines, dates) stay in memory."""
     numbers = [h.name for h in headings if not h.text]
-    folder = Path(tempfile.mkdtemp(prefix="ragg-"))
-    try:
-        room = min(MOST_BYTES, shutil.disk_usage(folder).free // 2)
-        files = {n: (folder / str(k)).open("wb") for k, n in enumerate(numbers)}
-        written = 0
-        try:
+    folder = Path(tempfile.gettempdir())
+    room = min(MOST_BYTES, shutil.disk_usage(folder).free // 2)
+    written = 0
+    with contextlib.ExitStack() as stack:
+        # Files without a name: however the process ends, nothing is left of them.
+        files: dict[str, IO[bytes]] = {
+            n: stack.enter_context(tempfile.TemporaryFile(dir=folder)) for n in numbers
+        }
+        for n in numbers:
+            for part in parts.pop(n):
+                written += files[n].write(np.ascontiguousarray(part).data)
+        for batch in batches:
             for n in numbers:
-                for part in parts.pop(n):
-                    written += files[n].write(np.ascontiguousarray(part).data)
-            for batch in batches:
-                for n in numbers:
-                    written += files[n].write(np.ascontiguousarray(batch[n]).data)
-                for n in parts:
-                    parts[n].append(batch[n])
-                if written > room:
-                    raise UserError(
-                        "the file is too long to be divided into lines",
-                        where=table.path,
-                        found=f"more than {room / 1e9:.3g} GB of columns",
-                        remedy="cut it into several files, or name a larger folder in TMPDIR",
-                    )
-        finally:
-            for f in files.values():
-                f.close()
+                written += files[n].write(np.ascontiguousarray(batch[n]).data)
+            for n in parts:
+                parts[n].append(batch[n])
+            if written > room:
+                raise UserError(
+                    "the file is too long to be divided into lines",
+                    where=table.path,
+                    found=f"more than {room / 1e9:.3g} GB of columns",
+                    remedy="cut it into several files, or name a larger folder in TMPDIR",
+                )
         whole = {n: np.concatenate(p) for n, p in parts.items()}
         labels = whole.pop(column)
-        mapped = {n: np.memmap(folder / str(k), dtype=np.float64, mode="r") for k, n in enumerate(numbers)}
-    finally:
-        shutil.rmtree(folder)  # what is mapped stays until it is let go
+        for f in files.values():
+            f.flush()
+        # What is mapped stays until it is let go, though the file is closed.
+        mapped = {n: np.memmap(f, dtype=np.float64, mode="r") for n, f in files.items()}
     return labels, {h.name: mapped[h.name] if h.name in mapped else whole[h.name] for h in headings}

@@ -31,7 +31,7 @@ import hashlib
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
@@ -102,6 +102,10 @@ class Mapped:
         """Every column of the file that is needed."""
         named = {e.column for e in self.channels.values()} | set(self.time.columns)
         return frozenset(named | ({self.line} if self.line is not None else set()))
+
+    def without(self, channels: frozenset[str]) -> Mapped:
+        """The mapping without some of the channels."""
+        return replace(self, channels={n: e for n, e in self.channels.items() if n not in channels})
 
 
 def read_mapping(path: Path) -> Mapped:

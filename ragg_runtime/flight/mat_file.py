@@ -221,14 +221,12 @@ def _unit_73(data: h5py.Dataset) -> str:
     """The unit of a dataset in a MATLAB 7.3 file: in the structure ``units`` beside it."""
     import h5py  # slow to import, and only files built on HDF5 need it
 
+    from ragg_runtime.flight.hdf5_attributes import matlab_text
+
     units = data.parent.get("units")
     name = data.name.rsplit("/", 1)[-1]
-    text = units.get(name) if isinstance(units, h5py.Group) else None
-    if isinstance(text, h5py.Dataset) and text.dtype.kind in "ui" and 0 < text.size <= 200:
-        return "".join(
-            chr(int(c)) for c in np.asarray(text[()]).ravel(order="F") if 0 < int(c) < 0x110000
-        ).strip()
-    return hdf5_file.unit_of(data)
+    text = matlab_text(units.get(name)) if isinstance(units, h5py.Group) else ""
+    return text or hdf5_file.unit_of(data)
 
 
 def _names(names: Sequence[str]) -> list[str]:

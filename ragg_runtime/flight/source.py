@@ -76,14 +76,17 @@ class Look:
         column ``time`` and names in a column ``line``.
     part
         The group (HDF5), structure (MATLAB) or sheet (Excel) that is meant, where a file has several.
+    leave
+        Names of columns that are not to be read.
     """
 
     only: frozenset[str] | None = None
     text: bool = False
     part: str | None = None
+    leave: frozenset[str] = frozenset()
 
     def wants(self, name: str) -> bool:
-        return self.only is None or name in self.only
+        return name not in self.leave and (self.only is None or name in self.only)
 
     def allows_text(self, name: str) -> bool:
         return self.text or name == "time" or is_line(name)

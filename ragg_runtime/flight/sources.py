@@ -34,19 +34,27 @@ _VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
 _TENSOR = ("xx", "xy", "xz", "yy", "yz", "zz")
 
 
-def open_sources(path: Path, mapping: Mapped | None = None, *, lenient: bool = False) -> list[Source]:
+def open_sources(
+    path: Path,
+    mapping: Mapped | None = None,
+    *,
+    lenient: bool = False,
+    leave: frozenset[str] = frozenset(),
+) -> list[Source]:
     """The flights in a file: one, or one for each line.
 
     Without a mapping the columns stand under the names of the contract, each with its unit. ``lenient`` lets
-    columns without a unit pass and leaves out those that are no numbers, for a copy in another format.
+    columns without a unit pass and leaves out those that are no numbers, for a copy in another format. ``leave`` names
+    columns (of the contract) that are not read.
     """
     if mapping is not None and mapping.kept and not _applies(path, mapping):
         mapping = None
     if mapping is None:
-        look = Look(text=lenient)
+        look = Look(text=lenient, leave=leave)
         tables = _lines(open_file(path, look), None)
         sources = _plain(tables, lenient)
     else:
+        mapping = mapping.without(leave)
         look = Look(only=mapping.columns, text=True, part=mapping.part)
         found = open_file(path, look)
         _check_names(found[0], mapping)

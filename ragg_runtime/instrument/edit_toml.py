@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -20,10 +21,15 @@ from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS
 from ragg_runtime.instrument.units import RawQuantity, units
 
 
-def set_parameters(text: str, values: Mapping[str, RawQuantity]) -> str:
+def set_parameters(
+    text: str,
+    values: Mapping[str, RawQuantity],
+    sigmas: Mapping[str, tuple[float, ...] | None] = MappingProxyType({}),
+) -> str:
     """``text`` of a model.toml with some of ``[accelerometers]`` set, comments kept.
 
-    Raises UserError for an unknown parameter.
+    ``sigmas``, in the values' units, replace those of the sheet, ``None`` takes them out; of what is not named they stay where the unit
+    does. Raises UserError for an unknown parameter.
     """
     document = _document(text)
     table: Any = document.setdefault("accelerometers", tomlkit.table())
@@ -35,6 +41,10 @@ def set_parameters(text: str, values: Mapping[str, RawQuantity]) -> str:
                 remedy=did_you_mean(name, PARAMETER),
             )
         _put(table, name, _quantity(quantity))
+        if name in sigmas:
+            table[name].pop("sigma", None)
+        if sigma := sigmas.get(name):
+            table[name].add("sigma", [_plain(v) for v in sigma])
     return tomlkit.dumps(document)
 
 

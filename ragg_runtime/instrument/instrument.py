@@ -66,7 +66,8 @@ class Instrument:
     Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
     the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
     ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
-    ``demodulation``: how inline and cross are made, if the sheet says so.
+    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: effect id -> how many times wider than usual
+    the prior of its parameters is.
     """
 
     radius: float
@@ -80,6 +81,7 @@ class Instrument:
     form: Form = forms.PAPER
     layout: Layout = PAPER
     demodulation: Demodulation | None = None
+    widths: Mapping[str, float] = field(default_factory=lambda: MappingProxyType({}))
 
     def __post_init__(self) -> None:
         if self.layout.of_paper:  # the paper's one disc, described by radius and spin frequency

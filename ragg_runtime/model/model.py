@@ -63,7 +63,10 @@ class EffectParameter:
 
 @dataclass(frozen=True)
 class Effect:
-    """What the runtime knows of a physical effect, from the manifest of the derivation."""
+    """What the runtime knows of a physical effect, from the manifest of the derivation.
+
+    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows (:mod:`ragg_runtime.evidence.sheet`).
+    """
 
     id: str
     title: str
@@ -75,6 +78,8 @@ class Effect:
     kind: str
     parameters: tuple[EffectParameter, ...]
     either: bool = False
+    common_of: str | None = None
+    told_from: tuple[str, ...] = ()
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
         """The channels that it needs and a flight, which has those recorded, does not have."""
@@ -235,4 +240,5 @@ def _model(
 
 def _effect(entry: Mapping[str, Any]) -> Effect:
     parameters = tuple(EffectParameter(**q) for q in entry["parameters"])
-    return Effect(**{**entry, "channels": tuple(entry["channels"]), "parameters": parameters})
+    several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from")}
+    return Effect(**{**entry, **several, "parameters": parameters})

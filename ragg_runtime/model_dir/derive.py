@@ -240,6 +240,7 @@ def _placed(layout: Layout) -> SymbolicLayout:
         constants=constants,
         outputs=outputs,
         rest=rest_of_angles(stations.degrees(layout), constants["cos_j"], constants["sin_j"]),
+        own=True,
     )
 
 
@@ -273,3 +274,11 @@ def plain_c(instrument: Instrument) -> Mapping[str, str]:
     return pipeline.derive_plain(
         _chosen(instrument, known(instrument)), _symbolic(instrument.form, instrument.layout)
     )
+
+
+@_by_one
+def harmonics_of(instrument: Instrument) -> Mapping[str, str]:
+    """The instrument's outputs as harmonics of their discs' angles, without effects: file name -> text."""
+    from derive import pipeline
+
+    return pipeline.derive_harmonics(_symbolic(instrument.form, instrument.layout))

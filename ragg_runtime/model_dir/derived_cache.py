@@ -21,6 +21,7 @@ import platformdirs
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
+from ragg_runtime.base.kept import keep_below
 from ragg_runtime.base.ownership import belongs_to_user
 from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.instrument import Instrument
@@ -32,8 +33,9 @@ _LARGEST = 1 << 24
 _MOST = 100
 """Generated files of one model."""
 
-KEPT = 100
-"""Derivations that are kept: a catalogue's effects one by one, and pairs of those that are used; half a megabyte each."""
+MOST_KEPT = 1 << 26
+"""Bytes of derivations that are kept, at most half a megabyte each: a catalogue's effects one by one, and pairs of those
+that are used."""
 
 
 def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
@@ -79,9 +81,7 @@ def keep(asked: str, files: Mapping[str, str]) -> None:
     try:
         place.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         write_text(place, json.dumps(dict(files)))
-        others = sorted(place.parent.glob("*.json"), key=lambda p: p.stat().st_mtime)
-        for old in others[: max(0, len(others) - KEPT)]:
-            old.unlink(missing_ok=True)
+        keep_below(place.parent, MOST_KEPT)
     except (OSError, UserError):
         return
 

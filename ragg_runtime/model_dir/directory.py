@@ -36,7 +36,7 @@ Code = Mapping[str, str] | Path | None
 NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION, MAPPING)
 """All that a change of a model directory concerns."""
 
-_LONGEST = 1 << 26  # bytes of calibration.json
+LONGEST = 1 << 26  # bytes of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 
@@ -278,7 +278,7 @@ def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
             found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
             remedy="make a model with: ragg new",
         )
-    for place in (model, history, calibration):
+    for place in (model, history, calibration, mapping):
         if place is not None and place.is_symlink():
             raise UserError(
                 "links in a model directory are not followed",
@@ -296,7 +296,7 @@ def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
         history=() if history is None else read_history(history),
         digest=_digest(places),
         calibration=(
-            read_text(calibration, _LONGEST)
+            read_text(calibration, LONGEST)
             if calibration is not None and os.path.lexists(calibration)
             else None
         ),

@@ -130,13 +130,10 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     for _ in range(12):
         error = y - ndimage.correlate1d(y, _PREDICTION, mode="mirror")
         size = np.abs(error)
-        usual = _in_blocks(size, 0.5)
-        usual = np.repeat(ndimage.maximum_filter1d(usual, 3, mode="nearest"), BLOCK)[: len(y)]
-        far = size > GLITCH * np.maximum(usual, np.median(size)) / MEDIAN_OF_NORMAL
-        if not far.any():
+        at = _off(size)
+        if not len(at):
             break
         before = np.array(y) if before is None else before
-        at = np.flatnonzero(far)
         at = at[(size[at] > 2 * _spread(before, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
         if not len(at):
             break
@@ -154,6 +151,30 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     mended = np.array(x)
     mended[places] = y
     return found, mended
+
+
+def _off(size: Array) -> NDArray[np.intp]:
+    """Where distances from the prediction are far beyond the usual ones, everywhere and nearby."""
+    limit = GLITCH / MEDIAN_OF_NORMAL
+    if 2 * np.count_nonzero(limit * size >= np.max(size)) > len(size):
+        return np.empty(0, dtype=np.intp)  # the median is so large that none is, and need not be sought
+    at = np.flatnonzero(size > limit * np.median(size))
+    return at[size[at] > limit * _usual(size, at)]
+
+
+def _usual(x: Array, at: NDArray[np.intp]) -> Array:
+    """(m,): the largest median of the blocks in which and beside which some samples are.
+
+    Medians are most of the work on a long record, and few blocks hold a sample that may be a glitch.
+    """
+    last = (len(x) - 1) // BLOCK
+    blocks = np.unique(np.clip(at[:, None] // BLOCK + np.arange(-1, 2), 0, last))
+    medians = np.zeros(last + 1)
+    whole = blocks[(blocks + 1) * BLOCK <= len(x)]
+    medians[whole] = np.quantile(x[: len(x) // BLOCK * BLOCK].reshape(-1, BLOCK)[whole], 0.5, axis=1)
+    if len(blocks) > len(whole):
+        medians[last] = np.quantile(x[last * BLOCK :], 0.5)
+    return np.asarray(ndimage.maximum_filter1d(medians, 3, mode="nearest")[at // BLOCK])
 
 
 def _about(x: Array, at: NDArray[np.intp], side: int) -> Array:

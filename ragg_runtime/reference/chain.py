@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,13 +66,15 @@ class Chain:
     motion, gravity, auxiliaries
         The world; gravity ``None`` is none.
     rotations
-        ``first-order`` (Eq. 2 and the paper's geometry) or ``exact``.
+        How mounting angles turn: ``first-order`` (the paper's geometry), ``second-order`` in each of them, or ``exact``.
     effects
         Resolved.
     turning
         How each disc turns.
     spin
         Share of the disc's own turning in the kinematics: 0 is Eq. 49, 1 nature.
+    misalignment
+        How misalignment angles turn: ``first-order`` (Eq. 2) or ``exact``.
     """
 
     instrument: Instrument
@@ -83,6 +85,7 @@ class Chain:
     auxiliaries: Mapping[str, Auxiliary]
     turning: tuple[Turning, ...]
     spin: float = 0.0
+    misalignment: Literal["first-order", "exact"] = "first-order"
 
     @property
     def size(self) -> int:
@@ -189,11 +192,11 @@ class Chain:
         """Eq. 49-52 for accelerometer j, counted from 0, (N,) V."""
         k = {name: float(values[j]) for name, values in self.instrument.accelerometers.items()}
         place = self.instrument.layout.places[j]
-        radius = place.radius + k["dR"]
+        radius = place.radius + k["dR"] + geometry.arm_error(self.effects)
         actual = mount(place, k["beta_x"], k["beta_z"], self.rotations)
         nominal, triad = self._nominal_force(j, actual, radius, instant, shake)
         angles = (k["vartheta_x"], k["vartheta_y"], k["vartheta_z"])
-        C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.rotations)
+        C = frame_rotation(*geometry.misalignment(j, angles, nominal, self.effects), self.misalignment)
         measured = _rows(C, nominal)
         kappa = transducer.angles_in_second_order(self.effects)
         i, o, p = measured

@@ -1,4 +1,4 @@
-"""Rotations as matrices: elementary ones, by Rodrigues' formula, exact or to first order in the angle."""
+"""Rotations as matrices: elementary ones, by Rodrigues' formula, exact or to a power of the angle."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Rotations = Literal["first-order", "exact"]
+Rotations = Literal["first-order", "second-order", "exact"]
 
 Array = NDArray[np.float64]
 
@@ -27,6 +27,8 @@ def about(axis: ArrayLike, angle: float, rotations: Rotations = "exact") -> Arra
     if rotations == "exact":
         # 2 sin^2(angle/2) keeps 1 - cos(angle) accurate for arc seconds.
         turn = np.sin(angle) * k + 2 * np.sin(angle / 2) ** 2 * (k @ k)
+    elif rotations == "second-order":
+        turn = turn + angle**2 / 2 * (k @ k)
     return np.eye(3) + turn
 
 
@@ -53,7 +55,9 @@ def spin(vector: ArrayLike, angle: ArrayLike) -> Array:
     return np.stack([c * v[0] - s * v[1], s * v[0] + c * v[1], np.broadcast_to(v[2], c.shape)])
 
 
-def frame_rotation(x: ArrayLike, y: ArrayLike, z: ArrayLike, rotations: Rotations = "exact") -> Array:
+def frame_rotation(
+    x: ArrayLike, y: ArrayLike, z: ArrayLike, rotations: Literal["first-order", "exact"] = "exact"
+) -> Array:
     """Coordinates of a fixed vector after its frame turns about x, then its new y, then its new z.
 
     To first order this is the paper's C (Eq. 2); exactly, its first row carries the products of Eq. 5b.

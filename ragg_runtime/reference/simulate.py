@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,6 +124,7 @@ def simulate(
     record_gradient: bool = True,
     noise: Noise | None = None,
     rotations: Rotations = "first-order",
+    misalignment: Literal["first-order", "exact"] | None = None,
     kinematics: Kinematics = "platform",
     effects: EffectValues | None = None,
     seed: int = 0,
@@ -143,7 +144,9 @@ def simulate(
     noise, seed
         Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
     rotations
-        ``first-order`` is the paper (Eq. 2); ``exact`` turns by the full angles.
+        ``first-order`` is the paper (Eq. 2), ``second-order`` keeps squares of mounting angles, ``exact`` turns by the full ones.
+    misalignment
+        ``first-order`` or ``exact``; by itself exact with exact ``rotations``.
     kinematics
         ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
@@ -159,19 +162,32 @@ def simulate(
         On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
     """
     time = instants(duration, rate, start)
-    if rotations not in ("first-order", "exact"):
-        raise UserError("unknown kind of rotations", found=rotations, expected="first-order or exact")
+    counted = misalignment or _of_misalignment(rotations)
     injected = resolve(effects, instrument.layout.size)
-    if auxiliaries is None:
-        auxiliaries = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM]))
-    _require_channels(injected, auxiliaries)
-    share = spin_share(kinematics, injected)
+    world = _world(auxiliaries, injected, seed)
     given = _turning(turning or {}, instrument.layout)
     discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
-    chain = Chain(instrument, motion, gravity, rotations, injected, auxiliaries, discs, share)
+    share = spin_share(kinematics, injected)
+    chain = Chain(instrument, motion, gravity, rotations, injected, world, discs, share, counted)
     clean = _clean(chain, time, rate, seed)
     voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
     return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))
+
+
+def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:
+    """The auxiliary channels, plausible ones where none are given; UserError if an effect lacks one."""
+    found = plausible(np.random.default_rng([seed, _AUXILIARY_STREAM])) if given is None else given
+    _require_channels(injected, found)
+    return found
+
+
+def _of_misalignment(rotations: Rotations) -> Literal["first-order", "exact"]:
+    """How misalignment angles turn where nothing else is said."""
+    if rotations not in get_args(Rotations):
+        raise UserError(
+            "unknown kind of rotations", found=rotations, expected="first-order, second-order or exact"
+        )
+    return "exact" if rotations == "exact" else "first-order"
 
 
 def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:

@@ -62,7 +62,7 @@ def add_html(
     context: dict[str, Any] = {
         "kind": "The model, step by step",
         "state": "good" if after.adequate else "found",
-        "headline": headline(history, before, after),
+        "headline": headline(before, after),
         "lead": lead(before, after),
         "facts": panels.facts(f),
         "errors": errors(before, after),
@@ -82,11 +82,16 @@ def add_html(
     return page.render("add.html.j2", Origin(title, command, sources, notes), context)
 
 
-def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Comparison) -> str:
+def _done(before: Comparison, after: Comparison) -> str:
+    """In what two models differ, whatever step led from one to the other."""
+    old, new = ([numbers.clean(e.id) for e in c.fitted.model.effects] for c in (before, after))
+    added, removed = [e for e in new if e not in old], [e for e in old if e not in new]
+    said = [f"{numbers.listed(x)} {how}" for x, how in ((added, "added"), (removed, "removed")) if x]
+    return " and ".join(said) or "the test sheet changed"
+
+
+def headline(before: Comparison, after: Comparison) -> str:
     """What was done and what it did to the error."""
-    last = history[-1] if history else {}
-    what = numbers.clean(str(last.get("effect", ""))) or "the effect"
-    done = {"add": "added", "remove": "removed"}.get(str(last.get("action", "add")), "changed")
     a, b, n = (
         numbers.number(x) for x in (before.calibrated.rms_Eo, after.calibrated.rms_Eo, after.noise_floor)
     )
@@ -98,7 +103,7 @@ def headline(history: Sequence[Mapping[str, Any]], before: Comparison, after: Co
     if rose:
         moved = f"the error rises from {a} to {b} Eo"
     end = "nothing but noise is left" if after.adequate else "the model is still not adequate"
-    return f"With {what} {done}, {moved}; the noise is {n} Eo, and {end}."
+    return f"With {_done(before, after)}, {moved}; the noise is {n} Eo, and {end}."
 
 
 def lead(before: Comparison, after: Comparison) -> list[str]:

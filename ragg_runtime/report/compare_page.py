@@ -6,8 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.diagnosis.comparison import LOUD, Comparison
-from ragg_runtime.report import figures, page, panels, parameters, series
+from ragg_runtime.report import figures, held, page, panels, parameters, series
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
@@ -23,6 +24,7 @@ def compare_html(
     command: str,
     sources: Sequence[tuple[str, str]],
     notes: Sequence[str] = (),
+    frozen: Held | None = None,
 ) -> str:
     """The report as one HTML document.
 
@@ -36,16 +38,19 @@ def compare_html(
         (name, sha256) of the model file and the flights.
     notes
         What was done to the records, or looks odd in them.
+    frozen
+        How a saved calibration holds, where it is that which is compared.
     """
     f = comparison.fitted
     context: dict[str, Any] = {
         "kind": "Model against flight",
         "state": "good" if comparison.adequate else "bad",
-        "headline": headline(comparison),
-        "lead": lead(comparison),
+        "headline": headline(comparison) if frozen is None else held.headline(frozen),
+        "lead": lead(comparison) if frozen is None else held.lead(frozen, lead(comparison)),
         "facts": panels.facts(f),
-        "errors": errors(comparison),
+        "errors": errors(comparison) if frozen is None else held.errors(frozen),
         "sections": [
+            *([] if frozen is None else [held.section(frozen)]),
             *_sections(comparison),
             *panels_of("compare", Shown(fitted=f, residual=comparison.residual)),
         ],
@@ -87,12 +92,14 @@ def lead(c: Comparison) -> list[str]:
     inline, cross = series.channel_noise(f)
     noise = panels.error_of_noise(c.noise_floor, inline, cross, f.k_ggi)
     said = []
+    alone = ""
+    if math.isfinite(noise.inline_Eo):
+        densities = (noise.inline_Eo_per_rtHz, noise.cross_Eo_per_rtHz)
+        alone = "; the noise alone would give {} and {}".format(*map(numbers.number, densities))
     if math.isfinite(c.calibrated.inline_Eo):
         said.append(
             f"In the demodulated channels the residual is {numbers.number(c.calibrated.inline_Eo_per_rtHz)} Eo/√Hz"
-            f" inline and {numbers.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross;"
-            f" the noise alone would give {numbers.number(noise.inline_Eo_per_rtHz)} and"
-            f" {numbers.number(noise.cross_Eo_per_rtHz)}."
+            f" inline and {numbers.number(c.calibrated.cross_Eo_per_rtHz)} Eo/√Hz cross{alone}."
         )
     found = c.terms()
     if found:

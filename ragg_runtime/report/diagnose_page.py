@@ -88,7 +88,8 @@ def headline(d: Diagnosis) -> str:
     )
 
 
-def lead(d: Diagnosis) -> list[str]:
+def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
+    """What the verdict rests on; ``sizes`` says where those stand that this record would show."""
     said = []
     for r in d.ranking:
         if r.effect in d.found:
@@ -97,10 +98,14 @@ def lead(d: Diagnosis) -> list[str]:
                 sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
                 instead = _instead(effect_values.values(d.fitted, r))
                 said.append(f"{numbers.clean(r.effect)}: {sizes_}{instead}.")
-    for main, others in groups(d):
-        said.append(
-            f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
-        )
+    for g in d.groups:
+        main, *others = [numbers.clean(e) for e in g.effects]
+        if g.name is not None:
+            said.append(f"All that this record shows of {main} is a {g.name}.")
+        if others:
+            said.append(
+                f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
+            )
     if d.verdict == "unexplained" and d.ranking and claimed(d, d.ranking[0]):
         best = d.ranking[0]
         said.append(
@@ -109,7 +114,7 @@ def lead(d: Diagnosis) -> list[str]:
         )
     if d.verdict == "adequate":
         said.append(
-            "An effect smaller than the sizes listed at the end may still be there: this record would not show it."
+            f"An effect smaller than the sizes {sizes} may still be there: this record would not show it."
         )
     return said
 
@@ -263,7 +268,8 @@ def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
 
 
 def _shown(d: Diagnosis) -> Shown:
-    return Shown(fitted=d.target, residual=d.residual_after, diagnosis=d)
+    before = d.residual if d.after != d.before else None
+    return Shown(fitted=d.target, residual=d.residual_after, before=before, diagnosis=d)
 
 
 def _sections(d: Diagnosis) -> list[dict[str, Any]]:

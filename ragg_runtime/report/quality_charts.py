@@ -170,7 +170,7 @@ def densities(q: Quality) -> str | None:
             made = [(f"UV {d}".strip(), uv(f.line, d)) for d in q.discs.names if _has(f, uv, d)]
         for name, values in made:
             frequency, power = density(values, f.line.rate)
-            if len(frequency):
+            if np.any(power > 0.0):  # a channel that stands still has no density
                 pieces.setdefault(name, []).append((frequency, np.sqrt(power)))
     if not pieces:
         return None

@@ -189,7 +189,7 @@ def _limit(q: Quality, number: int) -> dict[str, Any]:
     return {
         "name": x.name,
         "what": x.what,
-        "value": f"{x.value:g} {x.unit}",
+        "value": numbers.with_unit(f"{x.value:g}", x.unit),
         "median": numbers.number(q.median("figures", x.name)),
         "worst": numbers.number(worst),
         "failed": q.failed.get(x.name, 0),

@@ -86,6 +86,12 @@ def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260)
     return _binned(f[2:], psd[2:], points)
 
 
+def within_band(x: Array, rate: float, low: float, high: float) -> Array:
+    """(N,): what of a series, zero where it has no value, oscillates between two frequencies (Hz)."""
+    f = np.fft.rfftfreq(len(x), 1.0 / rate)
+    return np.asarray(np.fft.irfft(np.where((f >= low) & (f <= high), np.fft.rfft(x), 0.0), len(x)))
+
+
 def _binned(f: Array, psd: Array, points: int) -> Spectrum:
     edges = np.geomspace(f[0] * 0.999, f[-1] * 1.001, points + 1)
     which = np.digitize(f, edges)

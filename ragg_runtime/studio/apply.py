@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import scratch
 from ragg_runtime.compensation.compensate import Kind, without_gradients
 from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.series import MEANING
@@ -50,6 +50,17 @@ def compensated(m: Loaded, flights: Sequence[Flight], kind: str, demodulator: st
     return after.compensate(m, bare, kind, demodulator)  # type: ignore[arg-type]
 
 
+def kept(m: Loaded) -> str | None:
+    """Where the calibration comes from that is kept with the model, or why it does not count; ``None``: there is none."""
+    if m.directory.calibration is None:
+        return None
+    try:
+        saved = after.saved_calibration(m)
+    except UserError as e:
+        return f"not used: {e.what}"
+    return f"of {saved.time[:16].replace('T', ' ')} UTC, on {numbers.listed([numbers.clean(n) for n in saved.flights])}"
+
+
 def curve(c: Compensation | None, what: str, flight: int) -> Pyramid:
     """``inline`` and such, or ``inline:low`` and ``inline:high``: one standard uncertainty below and above it, Eo."""
     name, _, edge = what.partition(":")
@@ -73,7 +84,7 @@ def curve(c: Compensation | None, what: str, flight: int) -> Pyramid:
 
 def file_of(c: Compensation, name: str) -> bytes:
     """The series as CSV or Parquet, by the ending of the name."""
-    with tempfile.TemporaryDirectory() as folder:
+    with scratch() as folder:
         path = Path(folder, name)
         with writing(path, sum(len(x["time"]) for x in c.series), c.units) as write:
             for rows in c.series:
@@ -91,7 +102,7 @@ def quality(m: Loaded, paths: Sequence[Path], flights: Sequence[Flight], c: Comp
             expected="inline and cross",
             remedy="compensate them first",
         )
-    with tempfile.TemporaryDirectory() as folder:
+    with scratch() as folder:
         pairs = zip(flights, c.series, strict=True)
         return qc([_line(Path(folder, str(k)), x, rows, c) for k, (x, rows) in enumerate(pairs)])
 
@@ -141,5 +152,5 @@ def _output(x: Mapping[str, Any], meaning: Mapping[str, str]) -> dict[str, Any]:
     }
 
 
-def quality_page(q: Quality, title: str) -> bytes:
-    return quality_html(q, title=title, command="ragg qc").encode()
+def quality_page(q: Quality, title: str, command: str) -> bytes:
+    return quality_html(q, title=title, command=command).encode()

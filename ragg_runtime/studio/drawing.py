@@ -15,7 +15,7 @@ from ragg_runtime.model.record import Record
 from ragg_runtime.report import series as reported
 from ragg_runtime.report.spectrogram import spectrogram
 from ragg_runtime.studio import apply
-from ragg_runtime.studio.pyramid import HEAD, Pyramid
+from ragg_runtime.studio.pyramid import HEAD, Pyramid, pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -35,11 +35,12 @@ COLUMNS = 26
 
 @dataclass(frozen=True)
 class Asked:
-    """What is to be drawn: a series, its unit, the flight, effects that are ticked, a window (s), points."""
+    """What is to be drawn: a series, its unit, the flight and which of its outputs, effects that are ticked, a window (s), points."""
 
     what: str
     unit: str
     flight: int
+    output: int
     effects: tuple[str, ...]
     first: float
     last: float
@@ -48,12 +49,8 @@ class Asked:
 
 def series(s: State, a: Asked) -> bytes:
     """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
-    if s.compared is None and a.what == "measured" and 0 <= a.flight < len(s.glances):
-        look = s.glances[a.flight]
-        if look is not None:
-            return look[1].window(a.first, a.last, a.points)
-    if a.what.startswith("channel:"):
-        return s.tracks.channel(a.what.partition(":")[2], a.flight).window(a.first, a.last, a.points)
+    if s.compared is None and a.what == "measured" and (found := _unexamined(s, a.flight)) is not None:
+        return found.window(a.first, a.last, a.points)
     if a.what.startswith("compensated:"):
         c, what = s.compensated, a.what.partition(":")[2]
         how = () if c is None else (c.result["calibration"], c.result["demodulator"]["name"])
@@ -61,8 +58,10 @@ def series(s: State, a: Asked) -> bytes:
         made = s.tracks.cache.get(key, lambda: apply.curve(c, what, a.flight))
         assert isinstance(made, Pyramid)
         return made.window(a.first, a.last, a.points)
-    window = (a.first, a.last)
-    drawn = s.tracks.drawn(a.what, a.unit, a.flight, a.effects, window)
+    window, n = (a.first, a.last), s.tracks.place(a.flight, a.output)
+    if a.what.startswith("channel:"):
+        return s.tracks.channel(a.what.partition(":")[2], n).window(a.first, a.last, a.points)
+    drawn = s.tracks.drawn(a.what, a.unit, n, a.effects, window)
     return drawn.window(a.first, a.last, a.points)
 
 
@@ -75,37 +74,50 @@ def _rows(r: Record, a: Asked) -> slice:
     return slice(i, j)
 
 
-def _record(s: State, a: Asked) -> Record:
-    f = s.tracks.fitted
-    if not 0 <= a.flight < len(f.prepared):
-        raise UserError("there is no such flight", found=a.flight + 1)
-    return f.prepared[a.flight].observation.record
+def _unexamined(s: State, flight: int) -> Pyramid | None:
+    """The output of a flight before it is compared: of a first look at the file, else of the flight as it was read."""
+    if 0 <= flight < len(s.glances) and (look := s.glances[flight]) is not None:
+        return look[1]
+    x = s.flights[flight] if 0 <= flight < len(s.flights) else None
+    if x is None or not x.outputs or not len(x):
+        return None
+    values = next(iter(x.outputs.values()))
+    make = lambda: pyramid(0.0, 1.0 / x.rate, len(x), lambda k: values[k])  # noqa: E731
+    made = s.tracks.cache.get(("read", flight), make)
+    assert isinstance(made, Pyramid)
+    return made
+
+
+def _place(s: State, a: Asked) -> tuple[int, Record, float]:
+    """The observation that is asked for, its record, and k_ggi of its output (V/Eo)."""
+    f, n = s.tracks.fitted, s.tracks.place(a.flight, a.output)
+    return n, f.prepared[n].observation.record, f.scales[n]
 
 
 def spectra(s: State, a: Asked) -> dict[str, Any]:
     """Amplitude densities, Eo/sqrt(Hz), of the residual now, before the last step, and with effects; and the noise."""
-    r = _record(s, a)
+    n, r, k_ggi = _place(s, a)
     rows = _rows(r, a)
     f = s.tracks.fitted
     valid = r.valid[rows]
     lines = {}
     for name in _lines(s, a):
         try:
-            x = _volts(s, a, name, rows)
+            x = _volts(s, a, n, name, rows)
         except UserError:
             continue  # of so long a flight the signature is not known everywhere
-        found = reported.spectrum(x / f.k_ggi, valid, r.rate, DENSE)
+        found = reported.spectrum(x / k_ggi, valid, r.rate, DENSE)
         if found is not None:
             lines[name] = found
     if not lines:
         raise UserError("no stretch without gaps is long enough for a spectrum")
     grid = next(iter(lines.values())).frequency
-    noise = reported.noise_density(f.prepared[a.flight], f.k_ggi, f.instrument.spin_frequency, grid)
+    noise = reported.noise_density(f.prepared[n], k_ggi, r.spin_frequency, grid)
     return {
         "frequency": grid.tolist(),
         "lines": {n: x.density.tolist() for n, x in lines.items()},
         "noise": noise.tolist(),
-        "spin_Hz": f.instrument.spin_frequency,
+        "spin_Hz": abs(r.spin_frequency),
     }
 
 
@@ -113,35 +125,45 @@ def _lines(s: State, a: Asked) -> list[str]:
     found = ["residual"]
     if s.tracks.before is not None:
         found.insert(0, "before")
+    if s.beside is not None:
+        found.insert(0, "beside")
     if a.effects and s.tracks.found is not None:
         found.append("left")
     return found
 
 
-def _volts(s: State, a: Asked, name: str, rows: slice) -> Array:
+def _volts(s: State, a: Asked, n: int, name: str, rows: slice) -> Array:
     if name == "left":
-        e = s.tracks.effect(a.effects, a.flight, (a.first, a.last))
+        e = s.tracks.effect(a.effects, n, (a.first, a.last))
         if e.rows.start > rows.start or e.rows.stop < rows.stop:
             raise UserError("not known there")
         inside = slice(rows.start - e.rows.start, rows.stop - e.rows.start)
-        return s.tracks.volts("residual", a.flight)[rows] - e.volts[inside]
-    return s.tracks.volts(name, a.flight)[rows]
+        return s.tracks.volts("residual", n)[rows] - e.volts[inside]
+    if name == "beside" and s.beside is not None:
+        step, old = s.beside
+        kept = s.tracks.cache.get(("beside", step), lambda: old.residual)
+        return kept[n][rows]  # type: ignore[index,no-any-return]
+    return s.tracks.volts(name, n)[rows]
 
 
 def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
     """Instants, frequencies and densities (Eo/sqrt(Hz)) as floats: two lengths, first and last of each axis, values."""
-    r = _record(s, a)
+    n, r, k_ggi = _place(s, a)
     rows = _rows(r, a)
-    f = s.tracks.fitted
-    top = highest if highest > 0.0 else MULTIPLES * f.instrument.spin_frequency
+    spin = abs(r.spin_frequency)
+    top = highest or MULTIPLES * spin or r.rate / 2
     name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"
-    x = _volts(s, a, name, rows) / f.k_ggi
-    spin = f.instrument.spin_frequency
+    x = _volts(s, a, n, name, rows) / k_ggi
     found = spectrogram(
-        x, np.asarray(r.valid[rows]), r.rate, float(r.time[rows.start]), spin, min(top, r.rate / 2)
+        x,
+        np.asarray(r.valid[rows]),
+        r.rate,
+        float(r.time[rows.start]),
+        spin or top / MULTIPLES,
+        min(top, r.rate / 2),
     )
-    if found is None:
-        raise UserError("the stretch is too short for a spectrogram")
+    if found is None or not np.isfinite(found.density).any():
+        raise UserError("no stretch without gaps is long enough for a spectrogram")
     t, g = found.time, found.frequency
     head = struct.pack("<4sIIdddd", b"RAGS", len(t), len(g), t[0], t[-1], g[0], g[-1])
     return head + np.ascontiguousarray(found.density, dtype="<f4").tobytes()
@@ -149,7 +171,7 @@ def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
 
 def heat_map(s: State, a: Asked) -> dict[str, Any]:
     """Significance of harmonic x product of channels: the single channels, and the products that stand out most."""
-    h = s.tracks.heat(a.effects, a.flight)
+    h = s.tracks.heat(a.effects, s.tracks.place(a.flight, a.output))
     strongest = np.nanmax(np.abs(np.where(np.isnan(h.z), 0.0, h.z)), axis=0)
     single = [
         k

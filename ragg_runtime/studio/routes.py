@@ -20,8 +20,7 @@ from starlette.staticfiles import StaticFiles
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.evidence import foresee
-from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.studio import drawing, mapping, views
+from ragg_runtime.studio import drawing, mapping, sheet, views
 from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.jobs import Busy
 from ragg_runtime.studio.session import Session
@@ -174,6 +173,7 @@ def _asked(request: Request) -> drawing.Asked:
         what=q.get("what", "residual"),
         unit=unit,
         flight=int(_number(request, "flight", 0)),
+        output=int(_number(request, "output", 0)),
         effects=effects,
         first=_number(request, "from", -1e12),
         last=_number(request, "to", 1e12),
@@ -263,12 +263,19 @@ async def _body(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").split(";")[0] != "application/json":
         raise UserError("the body must be JSON", where=str(request.url.path))
     try:
-        body = json.loads(await request.body())
+        body = json.loads(await request.body(), parse_int=_whole)
     except (ValueError, RecursionError):
         raise UserError("the body is no JSON", where=str(request.url.path)) from None
     if not isinstance(body, dict):
         raise UserError("the body is no table", where=str(request.url.path))
     return body
+
+
+def _whole(text: str) -> int:
+    """A whole number that a float holds as well: whatever the page asks for is far smaller."""
+    if abs(number := int(text)) > 1 << 53:
+        raise ValueError("a number is out of range")
+    return number
 
 
 async def _do(session: Session, request: Request) -> Response:
@@ -314,8 +321,9 @@ def _new(session: Session, body: Mapping[str, Any]) -> None:
 
 def _map(session: Session, body: Mapping[str, Any]) -> None:
     flight = session.places.inside(_text(body, "flight"))
-    mapping.keep(session.state.model, flight, _given(body), replace=body.get("replace") is True)
-    session.open(None, [flight])
+    m = session.state.model
+    mapping.keep(m, flight, _given(body), replace=body.get("replace") is True)
+    session.open(m.directory.path, [flight])  # the model anew: the mapping is its own now
 
 
 def _leave(session: Session, body: Mapping[str, Any]) -> None:
@@ -332,20 +340,7 @@ def _leave(session: Session, body: Mapping[str, Any]) -> None:
 
 
 def _edit(session: Session, body: Mapping[str, Any]) -> None:
-    found: dict[str, RawQuantity] = {}
-    values = body.get("values")
-    for name, given in values.items() if isinstance(values, dict) else ():
-        numbers = given.get("value") if isinstance(given, dict) else None
-        if (
-            not isinstance(numbers, list)
-            or len(numbers) != 4
-            or any(isinstance(x, bool) or not isinstance(x, int | float) for x in numbers)
-        ):
-            raise UserError("four numbers are needed", where=str(name)[:40], found=repr(numbers)[:80])
-        found[name] = RawQuantity(tuple(float(x) for x in numbers), _text(given, "unit", 80))
-    if not found:
-        raise UserError("no value was changed", remedy="change one, then save")
-    session.edit(found)
+    session.edit(sheet.asked(body.get("values")))
 
 
 def _try(session: Session, body: Mapping[str, Any]) -> None:
@@ -373,6 +368,7 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
     "compensate": lambda session, body: session.compensate(
         _text(body, "calibration", 40), _text(body, "demodulator", 40)
     ),
+    "calibrate": lambda session, body: session.calibrate(),
     "quality": lambda session, body: session.control(),
     "survey": lambda session, body: session.survey(session.places.inside(_text(body, "folder"))),
     "cancel": lambda session, body: session.jobs.cancel(),

@@ -20,17 +20,17 @@ from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.instrument.edit_toml import set_parameters
-from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir.directory import load_model_dir
-from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import apply
-from ragg_runtime.studio.jobs import Jobs
+from ragg_runtime.studio.branches import branches, text_of
+from ragg_runtime.studio.jobs import Busy, Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.studio.sheet import Edit
 from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.survey.quality.qc import Quality
-from ragg_runtime.workflow import loop, versions
+from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.loop import Added, Loaded
 
@@ -138,7 +138,7 @@ class Session:
             part("reading the flights", 1.0)
             g0 = self.state.model.instrument.g0
             looks = tuple(_drawn(glance(p, g0)) for p in flights)
-            self._put(**_nothing(), paths=flights, flights=(), glances=looks)
+            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks)
             part("reading and examining the flights", 1.0)
             read = tuple(loop.read_flights(self.state.model, flights))
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
@@ -216,11 +216,20 @@ class Session:
         self.jobs.start(f"deriving {effects[0]} into {m.name}", partial(self._add, tuple(effects)))
 
     def _add(self, effects: tuple[str, ...], part: Part) -> None:
+        s, m = self.state, self.state.model
         for e in effects:
-            s = self.state
             part(f"deriving {e} and calibrating", PASSES["add"] * s.samples)
-            result = loop.add(s.model, e, s.flights)
-            self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
+            m = loop.add(m, e, s.flights).loaded
+        self._after(m, part)
+
+    def _after(self, m: Loaded, part: Part) -> None:
+        """What the effects that were added have done: the page keeps the old state until then, and sees the error fall."""
+        s = self.state
+        part("calibrating and comparing", PASSES["compare"] * s.samples)
+        compared = loop.compare(m, s.flights) if s.flights else None
+        tracks = Tracks() if compared is None else Tracks.of(compared, s.compared)
+        new = {"previous": s.compared, "compared": compared, "tracks": tracks, "loaded": m}
+        self._put(**(_nothing() | new))
         self._look(part)
 
     def remove(self, effect: str) -> None:
@@ -228,11 +237,12 @@ class Session:
         self._idle()
         self._changed(loop.remove(self.state.model, effect))
 
-    def edit(self, values: Mapping[str, RawQuantity]) -> None:
-        """Change values of the test sheet."""
+    def edit(self, values: Mapping[str, Edit]) -> None:
+        """Change values of the test sheet, and how sure it is of them."""
         self._idle()
         m = self.state.model
-        text = set_parameters(m.directory.text, values)
+        sigmas = {n: sigma for n, (_, sigma) in values.items()}
+        text = set_parameters(m.directory.text, {n: value for n, (value, _) in values.items()}, sigmas)
         self._changed(versions.change(m, text, "edit", ", ".join(values)))
 
     def go(self, action: str, step: int | None = None) -> None:
@@ -248,7 +258,7 @@ class Session:
             to = step
         else:
             raise UserError(f"there is nothing to {action}")
-        self._changed(versions.change(m, _text(m.directory.history, to), action, str(to)))
+        self._changed(versions.change(m, text_of(m.directory.history, to), action, str(to)))
 
     def beside(self, step: int | None) -> None:
         """Compare the model as it was after a step with the same flights; ``None``: no longer."""
@@ -258,7 +268,7 @@ class Session:
         history = self.state.model.directory.history
         if not 0 <= step < len(history):
             raise UserError("there is no such step", found=step)
-        self.jobs.start("comparing an earlier model", partial(self._beside, step, _text(history, step)))
+        self.jobs.start("comparing an earlier model", partial(self._beside, step, text_of(history, step)))
 
     def _beside(self, step: int, text: str, part: Part) -> None:
         s = self.state
@@ -288,9 +298,7 @@ class Session:
     def _keep(self, effect: str, add: str, units: Mapping[str, str], part: Part) -> None:
         s = self.state
         part(f"deriving {effect} and calibrating", PASSES["add"] * s.samples)
-        result = loop.add(versions.with_own(s.model, effect, add, units), effect, s.flights)
-        self._put(**(_nothing() | {"previous": s.compared}), loaded=result.loaded)
-        self._look(part)
+        self._after(loop.add(versions.with_own(s.model, effect, add, units), effect, s.flights).loaded, part)
 
     def compensate(self, kind: str, demodulator: str) -> None:
         """Compensate the flights that are open."""
@@ -301,6 +309,18 @@ class Session:
             self._put(compensated=apply.compensated(s.model, s.flights, kind, demodulator), quality=None)
 
         self.jobs.start("compensating", work)
+
+    def calibrate(self) -> None:
+        """Keep the parameters fitted to these flights with the model, as ``ragg calibrate --save``."""
+        if not self.state.flights:
+            raise UserError("no flight is open", remedy="choose one first")
+
+        def work(part: Part) -> None:
+            s = self.state
+            part("calibrating", PASSES["compare"] * s.samples)
+            self._put(loaded=after.calibrate(s.model, s.flights, save=True).loaded)
+
+        self.jobs.start("calibrating", work)
 
     def control(self) -> None:
         """Quality control of the flights that are open."""
@@ -324,8 +344,6 @@ class Session:
         self.jobs.start("surveying", work)
 
     def _idle(self) -> None:
-        from ragg_runtime.studio.jobs import Busy
-
         if self.jobs.status.name:
             raise Busy
 
@@ -341,31 +359,3 @@ def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
     names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated", "quality")
     return dict.fromkeys(names) | {"tracks": Tracks()}
-
-
-def _text(history: Sequence[Step], step: int) -> str:
-    if not history[step].text:
-        raise UserError(
-            "that state was not kept: an older version made the step",
-            found=f"step {step + 1}",
-            remedy="remove effects one by one instead",
-        )
-    return history[step].text
-
-
-def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
-    """Steps on the present branch, and those that undo has left and redo would come back to (nearest last).
-
-    Undo and redo are steps themselves: nothing is ever taken out of a history.
-    """
-    past: list[int] = []
-    future: list[int] = []
-    for n, s in enumerate(history):
-        if s.action == "undo" and len(past) > 1:
-            future.append(past.pop())
-        elif s.action == "redo" and future:
-            past.append(future.pop())
-        else:
-            past.append(n)
-            future.clear()
-    return past, future

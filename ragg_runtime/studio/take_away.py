@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import json
+import shlex
+import zipfile
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -11,9 +14,10 @@ from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
+from ragg_runtime.studio.branches import branches
 from ragg_runtime.studio.session import State
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.workflow import loop, origin
+from ragg_runtime.workflow import after, loop, origin
 
 File = tuple[str, str, bytes]
 HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
@@ -69,7 +73,8 @@ def _diagnose_report(s: State) -> File:
 def _steps_report(s: State) -> File:
     if s.compared is None or s.previous is None:
         raise UserError("there is no step to report yet", remedy="derive an effect into the model first")
-    steps = [x.as_json() for x in s.model.directory.history]
+    history = s.model.directory.history
+    steps = [history[n].as_json() for n in branches(history)[0]]
     page = add_html(steps, s.previous, s.compared, s.diagnosed, command=_command(s, "history"), **_common(s))  # type: ignore[arg-type]
     return "steps.html", HTML, page.encode()
 
@@ -96,7 +101,14 @@ def _compensated(s: State, name: str) -> File:
 def _quality(s: State) -> File:
     if s.quality is None:
         raise UserError("there is no quality control yet", remedy="do it under Apply")
-    return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights))
+    return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights), _qc(s))
+
+
+def _qc(s: State) -> str:
+    """The commands that do the same as the quality control here."""
+    if s.compensated is None:
+        return "ragg qc " + " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
+    return f"{_command(s, 'compensate')}; ragg qc compensated.csv"
 
 
 def _survey(s: State) -> tuple[Survey, dict[str, object], dict[str, Any]]:
@@ -121,6 +133,17 @@ def _model(s: State) -> File:
     return "model.toml", "application/toml", s.model.directory.text.encode()
 
 
+def _exported(s: State, form: str) -> File:
+    """The model to run elsewhere, with the calibration that is kept: what ``ragg export`` writes, as one file."""
+    files = after.FORMS[form](after.contents(s.model))
+    name = f"model-{form}"
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:
+        for path, text in files.items():
+            z.writestr(zipfile.ZipInfo(f"{name}/{path}"), text, zipfile.ZIP_DEFLATED)
+    return f"{name}.zip", "application/zip", made.getvalue()
+
+
 def _commands(s: State) -> File:
     return "commands.sh", TEXT, ("#!/bin/sh\n" + "\n".join(views.commands(s)) + "\n").encode()
 
@@ -137,5 +160,7 @@ FILES: Mapping[str, Callable[[State], File]] = {
     "survey.html": _survey_report,
     "survey.json": _survey_json,
     "model.toml": _model,
+    "model-c.zip": lambda s: _exported(s, "c"),
+    "model-numpy.zip": lambda s: _exported(s, "numpy"),
     "commands.sh": _commands,
 }

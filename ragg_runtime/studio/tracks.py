@@ -17,10 +17,11 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.lack_of_fit import heat
-from ragg_runtime.report.series import measured
+from ragg_runtime.report import series as reported
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]
@@ -102,6 +103,26 @@ class Tracks:
             raise UserError("there is nothing to draw yet", remedy="wait until the flights are compared")
         return self.now.fitted
 
+    @property
+    def by_flight(self) -> list[list[Observation]]:
+        """What was compared of each flight: one observation of each output that it holds."""
+        found: list[list[Observation]] = []
+        name = None
+        for o in self.fitted.observations:  # those of a flight follow each other, in the order of the outputs
+            own = o.name.removesuffix(f": {o.output.name}")
+            if own != name or o.place <= found[-1][-1].place:
+                found.append([])
+            name = own
+            found[-1].append(o)
+        return found
+
+    def place(self, flight: int, output: int) -> int:
+        """Which observation an output of a flight is: what ``flight`` means everywhere below."""
+        known = self.by_flight
+        if not (0 <= flight < len(known) and 0 <= output < len(known[flight])):
+            raise UserError("there is no such flight", found=f"flight {flight + 1}, output {output + 1}")
+        return sum(map(len, known[:flight])) + output
+
     def volts(self, name: str, flight: int) -> Array:
         """(N,) V of ``measured``, ``modelled``, ``residual`` or ``before``; zero where a sample is not valid."""
         f = self.fitted
@@ -118,7 +139,7 @@ class Tracks:
         if name == "residual":
             return self._of("residual", lambda: now.residual)[flight]
         if name == "measured":
-            return measured(f.prepared[flight])
+            return reported.measured(f.prepared[flight])
         if name == "modelled":
             return self.volts("measured", flight) - self.volts("residual", flight)
         raise UserError("there is no such series", found=repr(name[:40]))
@@ -167,6 +188,15 @@ class Tracks:
             ("term", harmonic, product, flight), lambda: heat.series(prepared, harmonic, product, c)
         )
 
+    def band(self, name: str, flight: int) -> Array:
+        """(N,) V: what of the residual lies in a band, ``band:low:high`` (Hz)."""
+        try:
+            low, high = (float(x) for x in name.split(":")[1:])
+        except ValueError:
+            raise UserError("a band is needed", found=repr(name[:40]), expected="band:0.2:0.3") from None
+        r = self.fitted.prepared[flight].observation.record
+        return reported.within_band(self.volts("residual", flight), r.rate, low, high)
+
     def heat(self, effects: tuple[str, ...], flight: int) -> heat.Heat:
         """Harmonic x motion term of what is left once these effects are in."""
         d = self.found
@@ -211,7 +241,7 @@ class Tracks:
                     )
                 time, x = found[0], found[1 + DEMODULATED.index(unit)]
                 return _pyramid_of_gaps(time, x, 1.0 / r.rate)
-            scale = 1.0 if unit == "V" else 1.0 / f.k_ggi
+            scale = 1.0 if unit == "V" else 1.0 / f.scales[flight]
             y = np.where(r.valid, x * scale, np.nan)
             return pyramid(float(time[0]), 1.0 / r.rate, len(y), lambda s: y[s])
 
@@ -223,7 +253,7 @@ class Tracks:
             raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
         r = self.fitted.prepared[flight].observation.record
         x = e.volts if name == "effect" else self.volts("residual", flight)[e.rows] - e.volts
-        y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / self.fitted.k_ggi), np.nan)
+        y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / self.fitted.scales[flight]), np.nan)
         return pyramid(float(r.time[e.rows.start]), 1.0 / r.rate, len(y), lambda s: y[s])
 
     def series(self, name: str, flight: int, effects: tuple[str, ...] = ()) -> Array:
@@ -235,6 +265,8 @@ class Tracks:
         if name.startswith("term:"):
             _, harmonic, product = name.split(":", 2)
             return self.term(harmonic, product, flight)
+        if name.startswith("band:"):
+            return self.band(name, flight)
         return self.volts(name, flight)
 
     def channel(self, name: str, flight: int) -> Pyramid:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,18 +11,18 @@ from typing import Any
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.glance import Glance
 from ragg_runtime.flight.record import left_out
-from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.model import Effect
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.report import diagnose_page, panels, parameters, quality_page
 from ragg_runtime.report.parameters import Piece, Row, Symbol
-from ragg_runtime.studio import apply, maths
+from ragg_runtime.studio import apply, maths, sheet, timeline
+from ragg_runtime.studio.branches import branches, tree
 from ragg_runtime.studio.pyramid import Pyramid
-from ragg_runtime.studio.session import State, branches
+from ragg_runtime.studio.session import State
 from ragg_runtime.studio.surveys import shown_survey
 from ragg_runtime.survey.task import divided
 from ragg_runtime.wording import numbers
@@ -36,13 +37,14 @@ def overview(s: State, version: str) -> Json:
         "version": version,
         "model": None if s.loaded is None else _model(s),
         "flights": _flights(s),
+        "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
         "silent": [] if s.diagnosed is None else _silent(s.diagnosed),
         "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
         "next_motion": [] if s.diagnosed is None else [_motion(p) for p in s.diagnosed.next_motion],
         "parameters": None if s.compared is None else _parameters(s.compared),
-        "sheet": None if s.loaded is None else _sheet(s.loaded.instrument, s.compared),
+        "sheet": None if s.loaded is None else sheet.shown(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded.directory.history),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
         "quality": None if s.quality is None else quality_page.shown(s.quality),
@@ -59,6 +61,7 @@ def _model(s: State) -> Json:
         "name": m.name,
         "path": str(m.directory.path),
         "notes": list(m.notes),
+        "calibrated": apply.kept(m),
         "effects": [_about(e) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
     }
@@ -100,9 +103,16 @@ def _flights(s: State) -> list[Json]:
             "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
             "outputs": list(x.outputs),
             "cuts": [list(c) for c in cuts],
+            "parts": [o.output.name for o in seen],
+            "missing": timeline.missing(seen[0].record.valid if seen else x.valid, x.rate),
         }
-        for x, p, cuts in zip(s.flights, s.paths, s.cuts, strict=True)
+        for x, p, cuts, seen in zip(s.flights, s.paths, s.cuts, _observed(s), strict=True)
     ]
+
+
+def _observed(s: State) -> Sequence[Sequence[Observation]]:
+    """What of each flight was compared."""
+    return s.tracks.by_flight if s.tracks.now else [()] * len(s.flights)
 
 
 def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
@@ -139,7 +149,7 @@ def _banner(s: State) -> Json | None:
         "state": state,
         "verdict": None if d is None else d.verdict,
         "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
-        "lead": [] if d is None else diagnose_page.lead(d),
+        "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
         "errors": [
             {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
             {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},
@@ -166,7 +176,7 @@ def _banner(s: State) -> Json | None:
 
 def effects(d: Diagnosis) -> list[Json]:
     """The ranking, best first, each with what the catalogue says of it."""
-    found = []
+    found, sizes = [], dict(diagnose_page.sizes(d))
     for row, r in zip(diagnose_page.ranking(d), d.ranking, strict=True):
         e = d.fitted.model.effect(r.effect)
         values = row["fitted"]
@@ -184,6 +194,7 @@ def effects(d: Diagnosis) -> list[Json]:
                 "after_Eo": finite(r.after.rms_Eo),
                 "holdout_Eo": finite(r.after_holdout.rms_Eo),
                 "testable": r.rank > 0 and r.effect in _linear(d),
+                "seen_from": sizes.get(r.effect, []),
                 "values": []
                 if values is None
                 else [{"name": v.name, "of": v.of, "text": v.text} for v in values.values],
@@ -250,6 +261,7 @@ def _parameters(c: Comparison) -> Json:
         "single": _rows(parameters.by_accelerometer(f)),
         "combined": _rows(parameters.by_combination(f)),
         "patterns": [name for name, _ in parameters.PATTERNS],
+        "accelerometers": list(f.instrument.layout.names),
         "determined": v.determined,
         "total": v.total,
         "unseen": [{"pattern": k, "symbols": [_symbol(s) for s in symbols]} for k, symbols in v.unseen],
@@ -277,29 +289,12 @@ def _correlations(f: Fitted) -> list[Json]:
     return [{"a": a, "b": b, "r": r} for a, b, r in parameters.correlations(f, CORRELATED)]
 
 
-def _sheet(i: Instrument, c: Comparison | None) -> list[Json]:
-    """The test sheet: value of each accelerometer in the display unit, and how far it may plausibly be off."""
-    known, rows = i.units, []
-    for q in PARAMETERS:
-        v = i.accelerometers[q.name]
-        shown = known.from_si(v, q.si_unit, q.display_unit)
-        off = known.from_si(q.plausible_si(v, i.g0), q.si_unit, q.display_unit)
-        rows.append(
-            {
-                "name": q.name,
-                "symbol": [list(p) for p in numbers.symbol(q.symbol)],
-                "meaning": q.description,
-                "unit": q.display_unit,
-                "values": [float(f"{x:.12g}") for x in shown],
-                "plausible": [float(f"{x:.4g}") for x in off],
-            }
-        )
-    return rows
-
-
 def _history(history: Sequence[Step]) -> Json:
     past, future = branches(history)
+    made = tree(history)
     return {
+        "now": past[-1] if past else None,
+        "tree": [{"n": n, "from": origin, "lane": lane} for n, (origin, lane) in made.items()],
         "steps": [
             {
                 "n": n,
@@ -362,19 +357,33 @@ def _trial(s: State) -> Json:
     }
 
 
+def _done(s: State, model: str, flights: str) -> list[str]:
+    """The steps of the present branch, as comments: they are in the model already."""
+    history = s.model.directory.history
+    found = []
+    for n in branches(history)[0]:
+        step = history[n]
+        on = flights if set(step.flights) <= {x.name for x in s.flights} else "FLIGHTS"
+        if step.action in ("add", "remove"):
+            told = f"ragg {step.action} {model} {shlex.quote(step.effect)}"
+            found.append(f"# done: {told}{f' {on}' if step.flights else ''}")
+        elif step.action != "new":
+            found.append(f"# done: {step.action} {numbers.clean(step.effect)}")
+    return found
+
+
 def commands(s: State) -> list[str]:
     """What does the same in a shell."""
-    import shlex
-
     if s.loaded is None:
         return []
     model = shlex.quote(str(s.loaded.directory.path))
     flights = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
-    found = [f"ragg history {model}"]
+    found = [f"ragg history {model}", f"ragg export {model} model-c --c"]
     if s.paths:
         found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
         found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
+        found.insert(-1, f"ragg calibrate {model} {flights} --save")
     if s.compensated is not None:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
@@ -383,4 +392,4 @@ def commands(s: State) -> list[str]:
         files = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
         found.append(f"ragg survey {model} {' '.join(map(shlex.quote, files))}")
     cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
-    return [*cut, *found]
+    return [*_done(s, model, flights), *cut, *found]

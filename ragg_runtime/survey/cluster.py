@@ -13,9 +13,12 @@ import importlib
 import logging
 import queue
 import time
+import uuid
+from collections import Counter, deque
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from itertools import count
 from typing import Any
 
 from ragg_runtime.base.errors import UserError
@@ -32,6 +35,12 @@ RECONNECTED = 20.0
 WITHOUT_WORKERS = 60.0
 """How long a survey waits for a worker when all are gone, s."""
 
+AHEAD = 4
+"""Flights that the scheduler knows for each thread of its workers: enough that none of them waits for us."""
+
+RENEWED = 10.0
+"""How long the number of threads is believed, s."""
+
 
 def examined(
     job: Job, files: Sequence[str], address: str, tls: Tls | None = None
@@ -42,38 +51,82 @@ def examined(
     """
     with _client(address, tls) as client:
         _check(client, address)
-        done: queue.Queue[tuple[str, Any]] = queue.Queue()
-        futures = client.map(
-            partial(examine, job), list(files), pure=False, retries=ATTEMPTS - 1, key="ragg-survey"
-        )
+        flights = _Queue(client, job, files)
         try:
-            for file, future in zip(files, futures, strict=True):
-                future.add_done_callback(lambda f, file=file: done.put((file, f)))
-            waiting, again = len(futures), dict.fromkeys(files, 0)
-            while waiting:
-                file, future = _next(client, address, done)
-                if future.status in (
-                    "lost",
-                    "pending",
-                ):  # its worker died with the result: it is being made again
-                    future.add_done_callback(lambda f, file=file: done.put((file, f)))
+            while flights.submit():
+                file, future = _next(client, address, flights.done)
+                # its worker died with the result: it is being made again
+                if future.status in ("lost", "pending"):
+                    flights.wait(file, future)
                     continue
                 # A client that has lost its scheduler for a moment cancels everything; the flights are done again.
-                if future.status == "cancelled" and again[file] < ATTEMPTS and _connected(client):
-                    again[file] += 1
-                    name = f"ragg-survey-again-{again[file]}-{files.index(file)}"
-                    anew = client.submit(
-                        partial(examine, job), file, pure=False, retries=ATTEMPTS - 1, key=name
-                    )
-                    anew.add_done_callback(lambda f, file=file: done.put((file, f)))
-                    futures.append(anew)
+                if future.status == "cancelled" and flights.attempts[file] < ATTEMPTS and _connected(client):
+                    flights.ask(file)
                     continue
-                waiting -= 1
                 yield file, _record(client, address, file, future)
+                flights.release(file)
         finally:
             with contextlib.suppress(Exception):
                 if client.status == "running":
-                    client.cancel(futures, force=True)
+                    client.cancel(list(flights.asked.values()), force=True)
+
+
+class _Queue:
+    """Flights that wait here, those that the scheduler has been asked for, and those that are done.
+
+    The scheduler never knows more than ``AHEAD`` flights a thread of its workers, and forgets each result once it is
+    here: its memory, and that of the workers, does not grow with the number of flights.
+
+    Attributes
+    ----------
+    asked
+        File -> future of the flights that the scheduler has been asked for.
+    attempts
+        File -> how often it has been asked for.
+    done
+        (file, future), as they end.
+    """
+
+    def __init__(self, client: Any, job: Job, files: Sequence[str]) -> None:
+        self._client = client
+        self._examine = partial(examine, job)
+        self._waiting = deque(files)
+        run = uuid.uuid4().hex  # another survey may ask the same scheduler
+        self._keys = (f"ragg-survey-{run}-{n}" for n in count())
+        self._room, self._known_until = 0, 0.0
+        self.asked: dict[str, Any] = {}
+        self.attempts: Counter[str] = Counter()
+        self.done: queue.Queue[tuple[str, Any]] = queue.Queue()
+
+    def submit(self) -> bool:
+        """Ask for as many flights as there is room for; whether any flight is still to come."""
+        now = time.monotonic()
+        if now > self._known_until and self._waiting:  # workers come and go
+            with contextlib.suppress(Exception):
+                self._room = AHEAD * max(1, sum(self._client.nthreads().values()))
+            self._known_until = now + RENEWED
+        while self._waiting and len(self.asked) < max(self._room, AHEAD):
+            self.ask(self._waiting.popleft())
+        return bool(self.asked)
+
+    def wait(self, file: str, future: Any) -> None:
+        """Tell of a future when it is done."""
+        future.add_done_callback(lambda f: self.done.put((file, f)))
+
+    def release(self, file: str) -> None:
+        """Let the cluster forget a flight whose record is here."""
+        with contextlib.suppress(Exception):
+            self.asked[file].release()
+        del self.asked[file]
+
+    def ask(self, file: str) -> None:
+        """Give a flight to the scheduler."""
+        self.attempts[file] += 1
+        future = self._client.submit(
+            self._examine, file, pure=False, retries=ATTEMPTS - 1, key=next(self._keys)
+        )
+        self.asked[file] = future
+        self.wait(file, future)
 
 
 def _record(client: Any, address: str, file: str, future: Any) -> Record:

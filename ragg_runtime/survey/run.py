@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.landmarks import Landmarks, overlap, same_record
+from ragg_runtime.flight.landmarks import Landmarks, repeated, same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
@@ -90,18 +90,15 @@ def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | Non
 
 def once(records: Sequence[Record]) -> Iterator[Record]:
     """The records; of those that are of one and the same record of an instrument the first, the others in error."""
-    seen: list[Landmarks] = []
+    known = [r for r in records if LANDMARKS in r]
+    marks = [Landmarks.from_json(r["file"], r[LANDMARKS]) for r in known]
+    again = {known[j]["file"]: same_record(marks[i].name, shared) for j, i, shared in repeated(marks)}
     for r in records:
-        kept = {k: v for k, v in r.items() if k != LANDMARKS}
-        if LANDMARKS in r:
-            own = Landmarks.from_json(r["file"], r[LANDMARKS])
-            same = next(((s, o) for s in seen if (o := overlap(s, own)) is not None), None)
-            if same is not None:
-                message = f"{r['file']}: {same_record(same[0].name, same[1])}"
-                kept = {k: r[k] for k in ("flight", "file", "sha256")}
-                kept["error"] = {"kind": "input", "message": message}
-            seen.append(own)
-        yield kept
+        if r["file"] in again:
+            error = {"kind": "input", "message": f"{r['file']}: {again[r['file']]}"}
+            yield {k: r[k] for k in ("flight", "file", "sha256")} | {"error": error}
+        else:
+            yield {k: v for k, v in r.items() if k != LANDMARKS}
 
 
 def distinct_names(files: Sequence[str]) -> dict[str, str]:

@@ -29,11 +29,15 @@ FLIGHTS = 60
 _CELL = "padding:.15em .7em;text-align:{};white-space:nowrap"
 
 
-def verdict(name: str, found: Sequence[str]) -> str:
-    """What a diagnosis says, in one line."""
+def verdict(name: str, found: Sequence[str], groups: Sequence[Mapping[str, Any]] = ()) -> str:
+    """What a diagnosis says, in one line; of a group that has a name, the name."""
+    named = {g["effects"][0]: g for g in groups if g["name"]}
+    said = [
+        e if e not in named else f"{named[e]['name']} ({' or '.join(named[e]['effects'])})" for e in found
+    ]
     return {
         "adequate": "ADEQUATE: nothing significant is missing.",
-        "missing-effect": f"MISSING: {' and '.join(found)}",
+        "missing-effect": f"MISSING: {' and '.join(said)}",
         "unexplained": "UNEXPLAINED: something is missing that no effect of the catalogue accounts for.",
     }[name]
 
@@ -138,7 +142,7 @@ def diagnosis(d: Mapping[str, Any]) -> str:
         for r in d["ranking"][:RANKED]
     ]
     parts = [
-        _line(verdict(d["verdict"], d["found"]), strong=True),
+        _line(verdict(d["verdict"], d["found"], d["groups"]), strong=True),
         *_not_converged(d),
         _line(
             f"error {number(before)} Eo -> {number(after)} Eo rms,"

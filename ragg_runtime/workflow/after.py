@@ -23,7 +23,6 @@ from ragg_runtime.compensation.compensate import (
     Kind,
     meaning,
     prepared,
-    without_gradients,
 )
 from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.document import json_files
@@ -35,7 +34,9 @@ from ragg_runtime.compensation.output import writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
 from ragg_runtime.model_dir.history import Step
@@ -70,6 +71,7 @@ def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False, mapping:
 
     With them the ``mapping`` by which the flights were read, if one is given.
     """
+    distinct(flights)
     text = None if mapping is None else mapping_text(mapping)
     c = _calibrated.calibrated(m.model, m.instrument, flights)
     return Kept(loaded=_saved(m, c, flights, text) if save else m, calibrated=c, saved=save)
@@ -105,6 +107,7 @@ def saved_calibration(m: Loaded) -> Saved:
 
 def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
     """How far the model is from flights with the parameters as they were kept, and how these hold."""
+    distinct(flights)
     return _frozen.hold(m.model, m.instrument, flights, saved_calibration(m))
 
 
@@ -152,6 +155,8 @@ def compensate(
         A file for the series; without one they are in the result.
     """
     saved = saved_calibration(m) if calibration == "frozen" else None
+    if saved is None:
+        distinct(flights)
     p = prepared(m.model, m.instrument, flights, calibration, saved)
     each = [[Compensated(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
     table = _table(each, p.flights)
@@ -183,8 +188,11 @@ def compensate(
         "flights": [x.as_json() for outputs in each for x in outputs],
         "quality": meaning(),
     }
-    if saved is not None:
-        result["frozen"] = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+    if saved is not None and p.change is not None:
+        told = {"made": saved.time, "flights": dict(saved.flights), "converged": saved.converged}
+        result["frozen"] = told | p.change.as_json()
+        if not p.change.holds:
+            result["notes"] = [_frozen.warning(saved.time, p.change)]
     return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
 
 
@@ -238,14 +246,19 @@ def _chain(m: Loaded) -> str:
 
 
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
-    """Write the model into a folder, as ``c``, ``numpy`` or ``json``; the files."""
+    """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
     if form not in FORMS:
         raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
     return write_folder(folder, FORMS[form](contents(m)))
 
 
+def _harmonics(c: Contents) -> Mapping[str, str]:
+    """The outputs as harmonics of their discs' angles, beside the values that go into them."""
+    return {**derive.harmonics_of(c.instrument), **json_files(c)}
+
+
 FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
-    {"c": c_program, "numpy": numpy_files, "json": json_files}
+    {"c": c_program, "numpy": numpy_files, "json": json_files, "harmonics": _harmonics}
 )
 """Form of an export -> its files."""
 
@@ -254,7 +267,7 @@ def read_for_compensation(
     m: Loaded, paths: Sequence[Path | str], mapping: Path | None = None
 ) -> list[Flight]:
     """Read and examine flights without their gradients: nothing of these shall get into what is compensated."""
-    return read_flights(m, paths, mapping, first=without_gradients)
+    return read_flights(m, paths, mapping, leave=frozenset(GRADIENTS))
 
 
 def calibration_notes(m: Loaded) -> list[str]:

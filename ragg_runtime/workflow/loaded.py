@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
@@ -93,18 +93,21 @@ def read_flights(
     paths: Sequence[Path | str],
     mapping: Path | str | None = None,
     *,
-    first: Callable[[Flight], Flight] = lambda x: x,
+    leave: frozenset[str] = frozenset(),
 ) -> list[Flight]:
     """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
 
     A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
-    default the model's own ``mapping.toml``, if it has one. ``first`` is done to a flight before it is examined.
+    default the model's own ``mapping.toml``, if it has one. ``leave`` names columns that are not read.
     """
     how = mapping_of(m, mapping)
     found = []
     for path in paths:
-        for x in _read_flights(path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how):
-            found.append(settled(examined(m.model, m.instrument, first(x))))
+        read = _read_flights(
+            path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how, leave=leave
+        )
+        for x in read:
+            found.append(settled(examined(m.model, m.instrument, x)))
     return found
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,7 @@ from ragg_runtime.reference.auxiliaries import further, plausible
 from ragg_runtime.reference.chain import Auxiliary
 from ragg_runtime.reference.effects import EffectValues, channels_needed, resolve
 from ragg_runtime.reference.instruments import perturbed
+from ragg_runtime.reference.rotation import Rotations
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 from ragg_runtime.workflow.spin import turning_of
 
@@ -54,7 +56,7 @@ def simulated(
     mapping: Mapped | None = None,
     spin: Sequence[str] = (),
 ) -> Flight:
-    """A flight with hidden effects, of model.toml's order (mounting angles squared: exactly) and kinematics.
+    """A flight with hidden effects, of model.toml's order and kinematics.
 
     Parameters
     ----------
@@ -74,29 +76,55 @@ def simulated(
     form = instrument.form
     if not form.second_order_angles:
         effects.setdefault("second-order-misalignment", {"kappa": np.array(0.0)})
-    first_order = (form.mounting, form.misalignment) == (1, 1)
     record = None
     if motion is None:
         flown = _drawn(seed, duration, rate, shape)
     else:
         record = read_flight(motion, instrument.g0, need_output=False, mapping=mapping)
         flown, duration, rate = _recorded(record)
-    s = reference.simulate(
-        perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
-        flown,
-        duration,
-        rate,
-        gravity=draw_gradient(np.random.default_rng([seed, 13])),
-        record_gradient=not no_gradient,
-        noise=_noise(noise, instrument.radius),
-        rotations="first-order" if first_order else "exact",
-        kinematics="full" if form.kinematics == "full" else "platform",
-        effects=effects,
-        seed=seed,
-        auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
-        turning=turning_of(spin, instrument.layout, record),
-    )
-    return s.flight("simulated", voltages=voltages)
+    with _bounded():
+        s = reference.simulate(
+            perturbed(instrument, np.random.default_rng([seed, 10]), sheet_error),
+            flown,
+            duration,
+            rate,
+            gravity=draw_gradient(np.random.default_rng([seed, 13])),
+            record_gradient=not no_gradient,
+            noise=_noise(noise, instrument.radius),
+            rotations=_ROTATIONS[form.mounting],
+            misalignment="exact" if form.misalignment == "exact" else "first-order",
+            kinematics="full" if form.kinematics == "full" else "platform",
+            effects=effects,
+            seed=seed,
+            auxiliaries=_auxiliaries(seed, effects, instrument.layout.size),
+            turning=turning_of(spin, instrument.layout, record),
+        )
+        return _finite(s.flight("simulated", voltages=voltages), record is None)
+
+
+def _finite(x: Flight, everywhere: bool) -> Flight:
+    """The flight, if its outputs are numbers: all of them, or some where a record with gaps is flown. Else OverflowError."""
+    there = np.isfinite(list(x.outputs.values()))
+    if not (there.all() if everywhere else there.any()):
+        raise OverflowError
+    return x
+
+
+@contextlib.contextmanager
+def _bounded() -> Iterator[None]:
+    """UserError where what is asked for goes beyond the numbers that there are."""
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            yield
+    except OverflowError:
+        raise UserError(
+            "the flight goes beyond what a number can hold",
+            remedy="choose a smaller --noise, --sheet-error, --spin or value of an effect",
+        ) from None
+
+
+_ROTATIONS: Mapping[int | str, Rotations] = {1: "first-order", 2: "second-order", "exact": "exact"}
+"""How the mounting of ``[model] order`` turns in the simulator."""
 
 
 def _auxiliaries(seed: int, effects: EffectValues, count: int) -> dict[str, Auxiliary]:

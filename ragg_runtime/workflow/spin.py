@@ -29,7 +29,9 @@ def turning_of(given: Sequence[str], layout: Layout, motion: Flight | None = Non
         known = [d.name for d in layout.discs]
         if colon and name not in known:
             raise UserError(
-                f"the instrument has no disc {name!r}", where="--spin", expected=", ".join(map(repr, known))
+                f"the instrument has no disc {name!r}",
+                where="--spin",
+                expected=", ".join(known) or "no name: the instrument has one disc",
             )
         found |= dict.fromkeys([name] if colon else known, _profile(profile, text))
     return found

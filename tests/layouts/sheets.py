@@ -84,6 +84,11 @@ def umbrella(spin: float = 0.25) -> list[str]:
     return [disc(n, four(n, f"G_out_{n}"), axis, spin) for n, axis in zip("ABC", UMBRELLA, strict=True)]
 
 
+def vertical() -> list[str]:
+    """The paper's four on a vertical disc, 1 g in its plane: but for the axis all constants are the paper's."""
+    return [disc("A", four("A", "G_out"), (1, 0, 0))]
+
+
 def odd() -> list[str]:
     """A vertical disc with heights and directions, and a disc that stands still beside it."""
     more = 'height = "0.03 m"\ndirection = [0.2, 0.9, 0.3]\n'

@@ -24,6 +24,7 @@ LAYOUTS: dict[str, tuple[Callable[[], list[str]], int]] = {
     "three": (sheets.three, 3),
     "complements": (sheets.complements, 8),
     "umbrella": (sheets.umbrella, 12),
+    "vertical": (sheets.vertical, 4),
     "odd": (sheets.odd, 4),
 }
 
@@ -97,3 +98,18 @@ def test_discs_with_angles_of_their_own() -> None:
     flight = flown(i, "platform", "first-order", {"A": SWINGING, "C": TO_AND_FRO})
     assert {"spin_angle_A", "spin_angle_C"} <= set(flight.channels)
     assert worst(i, flight) < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('spin_frequency = "0.25 Hz"', 'spin_frequency = "0 Hz"'),
+        ("sign = -1\n", 'sign = -1\nradius = "0.11 m"\n'),
+    ],
+    ids=["still", "radii"],
+)
+def test_the_papers_four_standing_still_or_at_other_radii_are_a_layout_of_their_own(
+    old: str, new: str
+) -> None:
+    i = parse_instrument(sheets.sheet([sheets.disc("A", sheets.four("A", "G_out"))], 4).replace(old, new))
+    assert worst(i, flown(i, "platform", "first-order")) < 1e-4

@@ -88,7 +88,10 @@ def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...]
     assert f["error"]["calibrated"]["rms_Eo"] < 1.02 * f["frozen"]["free"]["calibrated"]["rms_Eo"]
     assert max(abs(q["z"]) for q in f["frozen"]["drift"]) < 4
     assert "holds here" in told
-    assert "holds here" in (tmp_path / "f.html").read_text()
+    page = (tmp_path / "f.html").read_text()
+    assert "The saved calibration holds here" in page
+    assert "parameters as they were saved" in page  # and not: fitted on half of the blocks
+    assert "scored on the others" not in page
 
 
 def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept: tuple[Any, ...]) -> None:
@@ -103,6 +106,18 @@ def test_an_instrument_that_has_changed_is_told_with_what_would_explain_it(kept:
     if "K1[1]" in found:
         assert found["K1[1]"]["change"] == pytest.approx(expected, rel=0.1)
     assert h.comparison.calibrated.rms_Eo > 1.5 * h.free.rms_Eo
+
+
+@pytest.mark.parametrize("length", [10**6, 500])
+def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
+    kept: tuple[Any, ...], length: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(frozen, "LOOKED", length)  # of a long flight stretches are looked at
+    m = loop.load(kept[0])
+    c = after.compensate(m, [flights(1e-6)[1]], "frozen").as_json()
+    assert c["frozen"]["holds"] is False
+    assert c["frozen"]["chi2"] > 100
+    assert "does NOT hold" in c["notes"][0]
 
 
 def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:

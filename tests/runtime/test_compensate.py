@@ -97,6 +97,8 @@ def test_frozen_parameters_compensate_another_flight_as_well(tmp_path: Path) -> 
     o = json.loads((tmp_path / "o.json").read_text())
     assert o["calibration"] == "frozen"
     assert o["frozen"]["flights"].keys() == {"one"}
+    assert o["frozen"]["holds"] is True
+    assert not any("does NOT hold" in text for text in o["notes"])
     assert o["converged"] is True
     (told,) = o["flights"]
     assert (

@@ -64,6 +64,16 @@ DAMAGES: dict[str, tuple[Callable[[Path], object], str, str]] = {
         "the history is no file",
         "history.json.damaged-1",
     ),
+    "a calibration that is none": (
+        lambda m: (m / "calibration.json").write_text('{"version": 1, "calibrations": [{}]}'),
+        "the saved calibration is damaged",
+        "calibration.json.damaged-1",
+    ),
+    "a calibration that is a link": (
+        lambda m: (m / "calibration.json").symlink_to("/etc/passwd"),
+        "the saved calibration is no file",
+        "calibration.json.damaged-1",
+    ),
     "no code": (lambda m: shutil.rmtree(m / "generated"), "generated/ is missing", "derived again"),
     "half of the code": (
         lambda m: half(m / "generated" / "chain.py"),
@@ -125,6 +135,22 @@ def test_what_only_its_owner_can_mend(model: Path, capsys: pytest.CaptureFixture
     said = doctor(model, capsys, status=2)
     assert "model.toml" in said
     assert damage == "pipe" or seen(model) == before
+
+
+@pytest.mark.parametrize("damage", ["half", "link"])
+def test_a_mapping_is_left_to_whoever_wrote_it(
+    model: Path, capsys: pytest.CaptureFixture[str], damage: str
+) -> None:
+    place = model / "mapping.toml"
+    if damage == "half":
+        place.write_text("[time]\ncolumn = ")
+    else:
+        place.symlink_to("/etc/passwd")
+    before = seen(model)
+    said = doctor(model, capsys, status=2)
+    assert said.count("mapping.toml: ") == 1
+    assert ("mend it by hand" if damage == "half" else "links in a model directory are not followed") in said
+    assert seen(model) == before
 
 
 def test_python_that_is_not_trusted(model: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -270,6 +270,17 @@ def test_a_folder_with_other_things_is_left_alone(base: tuple[Path, Path, Path],
     with pytest.raises(UserError, match="not empty"):
         after.export(loop.load(base[0]), tmp_path, "c")
     assert [p.name for p in tmp_path.iterdir()] == ["mine.txt"]
+    (tmp_path / "sent" / "test").mkdir(parents=True)
+    (tmp_path / "sent" / ".ragg-export").write_text("")
+    for link in ("main.c", "test"):
+        place = tmp_path / "sent" / link
+        place.rmdir() if place.is_dir() else None
+        place.symlink_to(tmp_path / ("mine.txt" if link == "main.c" else "."))
+        with pytest.raises(UserError, match="a link stands where"):
+            after.export(loop.load(base[0]), tmp_path / "sent", "c")
+        place.unlink()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["mine.txt", "sent"]
+    assert (tmp_path / "mine.txt").read_text() == "mine"
     with pytest.raises(UserError, match="unknown form"):
         after.export(loop.load(base[0]), tmp_path / "x", "fortran")
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
+import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +17,15 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import file_digest
+from ragg_runtime.flight import mat_file
 from ragg_runtime.flight.convert import convert
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.formats import ALL, open_file
+from ragg_runtime.flight.hdf5_file import room_for
 from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.flight.sources import open_sources
+from ragg_runtime.survey.journal import sha256
 
 ENDINGS = (".csv", ".csv.gz", ".parquet", ".nc", ".h5", ".mat", ".xlsx", ".xyz", ".dat")
 UNITS = {"time": "s", "a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg", "odd [name]": "1"}
@@ -76,6 +85,17 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     assert sorted(p.suffix for p in tmp_path.iterdir()) == (
         [".dat", ".dfn"] if ending == ".dat" else [path.suffix]
     )
+
+
+@pytest.mark.parametrize("lines", [(), ("10", "1030")])
+def test_matlab_73_with_units_of_any_length(
+    tmp_path: Path, lines: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(mat_file, "_LARGE", 0)
+    tables = written(40, lines)
+    write_tables(tmp_path / "x.mat", lambda: tables)
+    assert (tmp_path / "x.mat").read_bytes().startswith(b"MATLAB 7.3")
+    same(expected(tables), content(tmp_path / "x.mat"), ordered=False)
 
 
 @settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
@@ -148,3 +168,76 @@ def test_a_file_into_itself(tmp_path: Path) -> None:
     write_tables(path, lambda: written(5, ()))
     with pytest.raises(UserError, match="itself"):
         convert(path, path)
+
+
+def test_a_pair_of_files_is_one_record(tmp_path: Path) -> None:
+    """Its digest is of both, neither is written over the other, and a survey's results know it."""
+    path = tmp_path / "x.dat"
+    write_tables(path, lambda: written(5, ()))
+    definition = path.with_suffix(".dfn")
+    digest = file_digest(path)
+    assert digest == file_digest(definition) == sha256(path) == sha256(Path(f"{path}::1"))
+    before = path.read_bytes(), definition.read_bytes()
+    for one, other in ((path, definition), (definition, path)):
+        with pytest.raises(UserError, match="itself"):
+            convert(one, other)
+    assert (path.read_bytes(), definition.read_bytes()) == before
+    definition.write_text(definition.read_text("utf-8").replace("UNIT=s", "UNIT=h"), "utf-8")
+    assert file_digest(path) != digest
+
+
+def test_a_killed_writer_of_a_workbook_leaves_what_the_next_clears_away(tmp_path: Path) -> None:
+    """Its sheets wait beside it under a name that tells whose they are, not in the temporary folder."""
+    target = tmp_path / "x.xlsx"
+    script = (
+        "import os, sys\nfrom pathlib import Path\nimport numpy as np\n"
+        "from ragg_runtime.base.files import replacing\nfrom ragg_runtime.flight import excel_file\n"
+        "from ragg_runtime.flight.source import Column, Written\n"
+        "excel_file._undated = lambda path: os._exit(9)\nimport openpyxl.worksheet._writer as w\n"
+        "w.WorksheetWriter.cleanup = lambda self: None\n"
+        "with replacing(Path(sys.argv[1])) as file:\n"
+        "    excel_file.write_tables(file, [Written([(Column('time', 's'), np.arange(5.0))])])\n"
+    )
+    temporary = tmp_path / "tmp"
+    temporary.mkdir()
+    environment = os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": str(Path(__file__).parents[2])}
+    done = subprocess.run([sys.executable, "-c", script, str(target)], env=environment, check=False)
+    assert done.returncode == 9
+    assert len([p for p in tmp_path.iterdir() if p.name.startswith(".x.xlsx.")]) == 2
+    assert list(temporary.iterdir()) == []
+    write_tables(target, lambda: written(5, ()))
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["tmp", "x.xlsx"]
+
+
+@pytest.mark.parametrize("ending", [".nc", ".h5"])
+def test_a_disc_without_room_is_asked_beforehand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str
+) -> None:
+    """HDF5 does not survive a write that fails: it ended in a crash as the process ended."""
+    path, tables = tmp_path / f"x{ending}", written(500, ("10", "20"))
+    room = room_for(tables)
+    full = shutil.disk_usage(tmp_path)._replace(free=room - 1)
+    with monkeypatch.context() as patch:
+        patch.setattr(shutil, "disk_usage", lambda place: full)
+        with pytest.raises(UserError, match=os.strerror(errno.ENOSPC)):
+            write_tables(path, lambda: tables)
+    assert list(tmp_path.iterdir()) == []
+    write_tables(path, lambda: tables)
+    assert path.stat().st_size <= room
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
+def test_a_full_disc_amidst_a_workbook_is_one_message(tmp_path: Path) -> None:
+    """What openpyxl had begun complained on stderr as it was cleared away."""
+    write_tables(tmp_path / "x.csv", lambda: written(5000, ()))
+    script = (
+        "import resource, sys\nfrom ragg_runtime.cli.main import main\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))\nmain(sys.argv[1:])"
+    )
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    command = [sys.executable, "-c", script, "convert", str(tmp_path / "x.csv"), str(tmp_path / "y.xlsx")]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"ragg: {tmp_path / 'y.xlsx'}: the file cannot be written")
+    assert len(done.stderr.splitlines()) == 2
+    assert [p.name for p in tmp_path.iterdir()] == ["x.csv"]

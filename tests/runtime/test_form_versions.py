@@ -17,10 +17,10 @@ from ragg_runtime.compensation import saved
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.directory import NAMES
-from ragg_runtime.model_dir.doctor import examined
 from ragg_runtime.model_dir.history import history_text, read_history
 from ragg_runtime.survey import journal, task
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.doctor import examined
 
 NEWER = {"version": 2, "written_by": "ragg 7.1.0"}
 MAPPING = '[time]\ncolumn = "t"\n'

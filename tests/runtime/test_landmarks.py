@@ -10,9 +10,9 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight, write_flight
-from ragg_runtime.flight.landmarks import Landmarks, distinct, landmarks, overlap
+from ragg_runtime.flight.landmarks import Landmarks, distinct, landmarks, overlap, repeated
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.workflow import loop
+from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.simulate import simulated
 
 G0 = 9.8
@@ -52,10 +52,20 @@ def test_as_csv_and_as_parquet_it_is_refused_everywhere(
     write_flight(flight, tmp_path / "x.csv")
     write_flight(flight, tmp_path / "y.parquet")
     both = loop.read_flights(model, [tmp_path / "x.csv", tmp_path / "y.parquet"])
-    for use in (loop.compare, loop.diagnose, lambda m, x: loop.add(m, "lag", x)):
+    assert loop.load(model.directory.path).directory.calibration is None
+    for use in (
+        loop.compare,
+        loop.diagnose,
+        lambda m, x: loop.add(m, "lag", x),
+        lambda m, x: after.calibrate(m, x, save=True),
+        after.compensate,
+        lambda m, x: after.compensate(m, x, "crossed"),
+        after.compare_frozen,
+    ):
         with pytest.raises(UserError, match=r"the same record as .*as evidence it would count twice"):
             use(model, both)
-    assert loop.load(model.directory.path).model.effects == ()
+    kept = loop.load(model.directory.path)
+    assert (kept.model.effects, kept.directory.calibration) == ((), None)
 
 
 def test_overlapping_cuts_with_times_of_their_own(flight: Flight) -> None:
@@ -111,6 +121,36 @@ def test_a_survey_counts_one_record_once(model: loop.Loaded, flight: Flight, tmp
         assert "the same record as" in s.records[1]["error"]["message"]
         assert "landmarks" not in s.records[0]
     assert s.summary.counts["error"] == 1
+
+
+def test_of_many_flights_only_those_that_can_agree_are_compared_and_none_is_missed() -> None:
+    rng = np.random.default_rng(4)
+
+    def some(name: str, digit: float) -> Landmarks:
+        columns = {c: rng.normal(size=12) for c in ("a_x", "a_y", "omega_z", "G_out")}
+        if digit:
+            columns = {c: np.round(v / digit) * digit for c, v in columns.items()}
+        columns["a_y"][3] = np.nan
+        rows = np.sort(rng.choice(5000, 12, replace=False))
+        spread = dict.fromkeys(columns, 1.0)
+        return Landmarks(name, 16.0, rows, columns, dict.fromkeys(columns, digit), spread)
+
+    every = [some(str(k), (0.0, 1e-6, 1e-3)[k % 3]) for k in range(60)]
+    for k in (7, 20, 42):  # printed anew to four digits, cut, and from another time on
+        x = every[k]
+        columns = {c: np.round(v[2:], 4) for c, v in x.columns.items()}
+        every.append(
+            dataclasses.replace(x, rows=x.rows[2:] + 99, columns=columns, digit=dict.fromkeys(columns, 1e-4))
+        )
+    every.append(dataclasses.replace(every[-1], columns={c: every[-1].columns[c] for c in ("a_x", "G_out")}))
+    brute = {}
+    for j, other in enumerate(every):
+        for i in range(j):
+            shared = overlap(every[i], other)
+            if shared is not None:
+                brute.setdefault(j, (i, shared))
+    assert {j: (i, shared) for j, i, shared in repeated(every)} == brute
+    assert {j: i for j, (i, _) in brute.items()} == {60: 7, 61: 20, 62: 42, 63: 42}
 
 
 def test_in_single_precision() -> None:

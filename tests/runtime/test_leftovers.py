@@ -17,8 +17,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import clear_stale, temporary_name
-from ragg_runtime.flight import files, read_flight
+from ragg_runtime.base.files import clear_stale, scratch, temporary_name
+from ragg_runtime.flight import files, lines, read_flight
+from ragg_runtime.flight.formats import open_file
+from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.model import native
 from ragg_runtime.model.native import compiler
 from ragg_runtime.workflow import loop
@@ -159,3 +161,38 @@ def test_an_odd_compiler_is_one_message(cc: str, tmp_path: Path, monkeypatch: py
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
     with pytest.raises(native.BuildError):
         native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
+
+
+def test_folders_of_killed_processes_are_cleared_from_the_temporary_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    script = (
+        "import os\nfrom ragg_runtime.base.files import scratch\n"
+        "with scratch() as folder:\n    (folder / 'x').write_text('x')\n    os._exit(9)"
+    )
+    environment = os.environ | {"TMPDIR": str(tmp_path), "PYTHONPATH": str(Path(loop.__file__).parents[2])}
+    subprocess.run([sys.executable, "-c", script], env=environment, check=False)
+    (left,) = tmp_path.iterdir()
+    with scratch() as folder:
+        assert [p for p in tmp_path.iterdir() if p != folder] == []
+    assert not left.exists()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_of_lines_is_laid_down_without_a_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """400 MB of a killed command stood in the temporary folder."""
+    monkeypatch.setattr(lines, "HELD", 1000)
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "tmp"))
+    (tmp_path / "tmp").mkdir()
+    n = 500
+    columns = [(Column("line", "1"), np.repeat([1.0, 2.0], n)), (Column("time", "s"), np.arange(2.0 * n))]
+    files.write_tables(tmp_path / "x.csv", lambda: [Written(columns)])
+    (table,) = open_file(tmp_path / "x.csv", Look())
+    one, two = lines.split(table, "line")
+    assert list((tmp_path / "tmp").iterdir()) == []
+    for part, first in ((one, 0), (two, n)):
+        times = np.concatenate([b["time"] for b in part.batches()])
+        np.testing.assert_array_equal(times, np.arange(first, first + n))

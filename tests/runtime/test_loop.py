@@ -14,7 +14,7 @@ import pytest
 from commands import ragg
 
 from derive.expression import ExpressionError, from_expression
-from ragg_runtime.diagnosis.comparison import compare
+from ragg_runtime.diagnosis.comparison import compare, nominal_residual
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, write_flight
@@ -127,7 +127,12 @@ def test_what_no_effect_explains_is_called_unexplained_and_named() -> None:
 def test_an_unknown_gradient_is_no_effect_and_hides_none() -> None:
     s = scenario(45, duration=600.0, gradient_rms=20e-9)
     clean = s.simulate({}, record_gradient=False).flight()
-    assert diagnosed(s, clean).verdict == "adequate"
+    d = diagnosed(s, clean)
+    assert d.verdict == "adequate"
+    # as `ragg add` scores the values it has written: no linearised residual is asked for
+    at = d.fitted.calibration.p
+    (scored,) = d.fitted.score((), lambda x: nominal_residual(d.fitted, at, x)[None], 1)
+    assert scored.whole.rms_Eo == pytest.approx(d.before.rms_Eo, rel=1e-3)
     hidden = s.simulate({"thermal-scale": HIDDEN["thermal-scale"]}, record_gradient=False).flight()
     assert "thermal-scale" in claimed(diagnosed(s, hidden))
 

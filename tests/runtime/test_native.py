@@ -10,6 +10,7 @@ import stat
 import subprocess
 import sys
 import threading
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +20,7 @@ import pytest
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import temporary_name
 from ragg_runtime.cli.main import main
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.fit import observation
@@ -32,6 +34,7 @@ from ragg_runtime.model.native import (
     NativeWarning,
     backends,
     build,
+    compiler,
     evaluator,
 )
 from ragg_runtime.model.native.arguments import cut
@@ -298,6 +301,53 @@ def test_two_at_once_make_one_library(tmp_path: Path) -> None:
     assert [m.fresh for m in made].count(True) == 1
     assert len({m.library for m in made}) == 1
     assert sorted(p.suffix for p in tmp_path.iterdir()) == [".so", ".txt"]
+
+
+@needs_compiler
+def test_the_cache_stays_below_its_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was used least recently goes first, with what killed compilations left; nothing that was used just now."""
+
+    def made(n: int) -> Built:
+        return build({"n.c": f"int n(void) {{ return {n}; }}\n"}, tmp_path)
+
+    first = [made(n) for n in range(4)]
+    size = sum(p.stat().st_size for p in tmp_path.iterdir()) // 4
+    for n, built in enumerate(first):
+        for file in (built.library, built.library.with_suffix(".txt")):
+            os.utime(file, (n, n))
+    assert not made(0).fresh  # which is then the one used last
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    left = Path(str(temporary_name(first[0].library)).replace(f"-{os.getpid()}-", f"-{dead.pid}-"))
+    left.mkdir()
+    running = temporary_name(first[0].library)
+    running.mkdir()
+    monkeypatch.setattr(compiler, "MOST_KEPT", 3 * size + size // 2)
+    assert made(4).fresh
+    assert [b.library.exists() for b in first] == [True, False, False, True]
+    assert sum(1 for p in tmp_path.iterdir() if p.is_file()) == 6
+    assert (left.exists(), running.exists()) == (False, True)
+    monkeypatch.setattr(compiler, "MOST_KEPT", 0)
+    assert made(5).fresh  # those used within a minute stay: another process may be about to open them
+    assert [made(n).fresh for n in (0, 4, 5)] == [False, False, False]
+
+
+@needs_compiler
+def test_a_library_that_is_cleared_away_before_it_is_opened_is_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[bool] = []
+
+    def cleared(sources: Mapping[str, str], *, quick: bool = False) -> Built:
+        built = build(sources, tmp_path)
+        asked.append(built.fresh)
+        if len(asked) == 1:
+            built.library.unlink()
+        return built
+
+    monkeypatch.setattr(backends, "build", cleared)
+    assert evaluator(packaged().chain, {"a.c": "int a(void) { return 1; }\n"}, None, "c").backend == "c"
+    assert asked == [True, True]
 
 
 @needs_compiler

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+from importlib import resources
 from pathlib import Path
+from typing import Any
 
 import click
 import h5py
@@ -18,6 +20,7 @@ from ragg_runtime.cli import completion
 from ragg_runtime.cli.main import main
 from ragg_runtime.flight import read_flight
 from ragg_runtime.flight.source import MOST_COLUMNS
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.survey.journal import sha256
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -77,3 +80,19 @@ def test_more_columns_than_a_flight_has(suffix: str, tmp_path: Path) -> None:
         path.write_text(",".join(f"{n} [1]" for n in names) + "\n")
     with pytest.raises(UserError, match="too many columns for a flight"):
         read_flight(path, 9.8)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"noise": 1e308},
+        {"sheet_error": 1e300},
+        {"spin": ["1e300"]},
+        {"spin": ["0.25,0.1@1e300"]},
+    ],
+)
+def test_a_flight_beyond_all_numbers_is_refused(asked: dict[str, Any]) -> None:
+    """It ended in a traceback, or in a file of NaN."""
+    instrument = parse_instrument(resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8"))
+    with pytest.raises(UserError, match="beyond what a number can hold"):
+        simulated(instrument, [], duration=20.0, rate=8.0, **asked)

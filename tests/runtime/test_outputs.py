@@ -116,6 +116,23 @@ def test_a_result_replaces_no_record_that_the_command_does_not_read(
     assert ragg("history", model, "--json", record)[0] == 0
 
 
+def test_a_result_replaces_no_file_of_another_model(given: tuple[Path, Path], tmp_path: Path) -> None:
+    """Of commands that know no model, too."""
+    model, flight = given
+    before = state(model)
+    for command in (("qc", flight, "--report"), ("qc", flight, "--json"), ("effects", "lag", "--json")):
+        for name in ("model.toml", "history.json"):
+            status, said = ragg(*command, model / name)
+            assert status == 2, said
+            assert "over a file of a model directory" in said
+    assert state(model) == before
+    pair = tmp_path / "f.dfn"
+    (tmp_path / "f.dat").write_text("1")
+    pair.write_text("1")
+    status, said = ragg("next-motion", model, pair, "-o", tmp_path / "f.dat")
+    assert (status, "over what the command reads" in said) == (2, True)
+
+
 @pytest.mark.parametrize("command", ["compensate", "online", "next-motion", "simulate"])
 def test_a_series_is_not_written_over_what_is_read(command: str, given: tuple[Path, Path]) -> None:
     model, flight = given
@@ -160,6 +177,13 @@ def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Pa
     assert out.read_text().count('"steps"') == 2
     status, said = ragg("history", model, "--json", pipe)
     assert (status, "nobody reads from it" in said) == (2, True)
+
+
+def test_a_dash_is_stdout_for_what_is_text(
+    given: tuple[Path, Path], capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert commands.ragg("map", given[1], "-o", "-").returncode == 0
+    assert "[time]" in capfd.readouterr().out
 
 
 def test_a_link_is_written_through(given: tuple[Path, Path], tmp_path: Path) -> None:

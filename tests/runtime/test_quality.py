@@ -360,3 +360,32 @@ def test_the_survey_over_vinton_dome() -> None:
     }  # as checkIntersection, mode RMS
     assert crossed["11", "altitude"]["rms"] == pytest.approx(11.040368919040345, rel=1e-12)
     assert q.galileo["gaps"] == []
+
+
+def test_odd_channels_and_the_same_line_twice(tmp_path: Path) -> None:
+    """Values whose squares overflow ended in a traceback, a channel that stands still in a warning."""
+    rng = np.random.default_rng(8)
+    noise = rng.normal(size=90)
+
+    def file(name: str, **channels: np.ndarray) -> Path:
+        columns = [(Column("time", "s"), np.arange(90.0))]
+        write_tables(
+            tmp_path / name,
+            lambda: [Written([*columns, *((Column(n, "Eo"), x) for n, x in channels.items())])],
+        )
+        return tmp_path / name
+
+    good = file("a.csv", inline=noise)
+    others = [
+        file("b.parquet", inline=noise),
+        file("c.csv", inline=1e300 * noise),
+        file("d.csv", inline=0.0 * noise),
+    ]
+    q = qc([good, *others])
+    said = dict(q.read.refused)
+    assert [f.line.name for f in q.lines] == ["a", "d"]
+    assert "the same record as line a of a: it would count twice" in said["b"]
+    assert "out of all proportion" in said["c"]
+    json.dumps(q.as_json(), allow_nan=False)
+    quality_html(q, title="t", command="c")
+    quality_html(qc([others[2]]), title="t", command="c")

@@ -230,4 +230,4 @@ def test_bad_arguments_are_refused() -> None:
     with pytest.raises(UserError, match="duration"):
         run(duration=0.0)
     with pytest.raises(UserError, match="rotations"):
-        run(rotations="second-order")
+        run(rotations="third-order")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import io
 import json
 import multiprocessing
 import os
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 from flights_of_a_survey import COUNT, WITH_EFFECT, lines_of, make, without_effect
 
@@ -26,6 +28,7 @@ from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.table import parquet
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
 
@@ -367,6 +370,23 @@ def record(name: str, found: dict[str, list[str]], value: float = 1.0, log10_p: 
             {"name": "K1", "accelerometer": 2, "value": 1e9 + value % 0.01, "std": 0.1, "unit": "V"},
         ],
     }  # fmt: skip
+
+
+def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey) -> None:
+    rows = pq.read_table(io.BytesIO(parquet(whole.records))).to_pylist()
+    assert parquet(whole.records) == parquet(whole.records)
+    for row, r in zip(rows, whole.records, strict=True):
+        assert (row["flight"], row["file"], row["verdict"]) == (r["flight"], r["file"], r.get("verdict"))
+        if "verdict" not in r:
+            assert row["error"] == r["error"]["message"]
+            assert row["calibrated_Eo"] is None
+            continue
+        assert row["error"] is None
+        assert row["calibrated_Eo"] == r["error"]["calibrated"]["rms_Eo"]
+        assert row["noise_floor_Eo"] == r["noise_floor"]["rms_Eo"]
+        assert row["found"] == r["found"]
+        assert row["parameters"] == [{k: p[k] for k in row["parameters"][0]} for p in r["parameters"]]
+        assert row["ranking"] == r["ranking"]
 
 
 def test_few_flights_are_chance_many_are_not() -> None:

@@ -69,6 +69,10 @@ def test_a_line_beside_a_multiple_of_the_spin_rate_accuses_nothing(frequency: fl
         said = str(d.as_json()["reason"])
         assert f"what {d.found[0]} explains is a constant term at twice the spin rate" in said
         assert "gradient-offset" in said  # of those that would do as well
+        (group,) = d.groups
+        assert group.name == "constant term at twice the spin rate"
+        assert group.effects[0] == d.found[0] and "gradient-offset" in group.effects
+        assert f"MISSING: {group.name} ({d.found[0]} or " in d._repr_html_()
         return
     assert (d.verdict, d.found) == ("unexplained", ())
     said = re.search(r"the output has a line at about ([0-9.]+) Hz", str(d.as_json()["reason"]))

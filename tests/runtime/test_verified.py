@@ -118,11 +118,14 @@ def generated(model: Path) -> Mapping[str, str]:
 
 
 def test_only_so_many_are_kept(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "KEPT", 3)
+    size = len(json.dumps(dict(generated(model))))
+    monkeypatch.setattr(derived_cache, "MOST_KEPT", 3 * size)
+    for file in (model.parent / "cache" / "derived").iterdir():
+        file.unlink()
     for n in range(5):
         derived_cache.keep(f"{n}", generated(model))
         os.utime(model.parent / "cache" / "derived" / f"{n}.json", (n, n))
-    assert [derived_cache.kept(f"{n}") is not None for n in range(5)] == [False, False, False, True, True]
+    assert [derived_cache.kept(f"{n}") is not None for n in range(5)] == [False, False, True, True, True]
 
 
 def test_links_are_not_followed(model: Path, tmp_path: Path) -> None:

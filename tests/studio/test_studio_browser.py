@@ -6,9 +6,11 @@ import json
 import os
 import re
 import shutil
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pyarrow as pa
@@ -145,6 +147,12 @@ def test_04_one_window_of_time_for_all_figures(page: Page) -> None:
     changes(page, ".plot.spectrum", spectrum)
     changes(page, ".plot.spectrogram", gram)
     page.wait_for_timeout(250)
+    page.mouse.move(box["x"] + box["width"] * 0.4, middle)
+    for figure, said in (
+        ("residual", r"^2\d\d.* s · residual −?[\d.]+.* Eo$"),
+        ("measured", " s · measured .* · model "),
+    ):
+        expect(page.locator(f"figure.{figure} .readout")).to_have_text(re.compile(said))  # linked
     assert "from=1" in page.url
     page.mouse.wheel(0, -300)
     page.keyboard.press("[")
@@ -171,6 +179,7 @@ def test_05_a_cell_of_the_map_marks_its_harmonic_and_lays_its_term_over_the_resi
     page.mouse.move(box["x"] + box["width"] * 0.8, y, steps=4)
     page.mouse.up()
     expect(page.locator(".heat tr.marked").first).to_be_attached()
+    expect(page.locator("figure.residual .legend")).to_contain_text("residual of 0.")
     page.mouse.dblclick(box["x"] + 20, y)
     expect(page.locator(".heat tr.marked")).to_have_count(0)
 
@@ -210,6 +219,11 @@ def test_07_undo_redo_and_two_models_side_by_side(page: Page, server: Served) ->
     expect(table).to_be_visible(timeout=PATIENCE)
     expect(table.locator("tr", has_text="calibrated").first).to_contain_text("8.10")
     expect(table.locator("tr", has_text="calibrated").first).to_contain_text("4.11")
+    expect(page.locator("figure", has_text="Spectrum of the residual").locator(".legend")).to_contain_text(
+        "after step 1"
+    )
+    expect(page.locator(".tree circle")).to_have_count(2)
+    expect(page.locator(".tree circle.now")).to_have_count(1)
     idle(page)
 
 
@@ -235,15 +249,22 @@ def test_09_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
     expect(page.locator(".sheet [aria-invalid=true]")).to_have_count(1)
     expect(page.get_by_role("button", name="Save 1 changed parameter")).to_be_disabled()
     field.fill(str(float(old) + 1))
+    sure = page.get_by_label("K0: how sure the sheet is, ug")
+    sure.fill("25; 25")
+    expect(sure).to_have_attribute("aria-invalid", "true")
+    sure.fill("25")
     page.get_by_role("button", name="Save 1 changed parameter").click()
     expect(page.get_by_role("button", name="Nothing changed")).to_be_visible(timeout=PATIENCE)
     expect(page.get_by_label("K0 of A1, ug")).to_have_value(f"{float(old) + 1:g}")
-    assert load_model_dir(server.folder / "model").history[-1].action == "edit"  # type: ignore[attr-defined]
+    changed = load_model_dir(server.folder / "model")  # type: ignore[attr-defined]
+    assert changed.history[-1].action == "edit"
+    assert changed.instrument.sigmas["K0"] == pytest.approx(25e-6 * changed.instrument.g0)
     page.get_by_role("button", name="Cancel").click()
     expect(page.locator("#trouble")).to_contain_text("cancelled", timeout=PATIENCE)
     page.locator("#main").focus()
     page.keyboard.press("u")
     expect(page.get_by_label("K0 of A1, ug")).to_have_value(old, timeout=PATIENCE)
+    expect(sure).to_have_value("")
     idle(page)
 
 
@@ -263,6 +284,11 @@ def test_10_compensated_channels_and_their_quality(page: Page) -> None:
     rows = Path(got.value.path()).read_text().splitlines()
     assert rows[0] == "time [s],inline [Eo],cross [Eo],inline_std [Eo],cross_std [Eo],quality [1]"
     assert len(rows) == 1 + 11520
+    idle(page)
+    page.get_by_role("button", name="Keep the parameters of these flights").click()
+    expect(page.locator(".view-apply")).to_contain_text(
+        "The model keeps a calibration of 2", timeout=PATIENCE
+    )
     idle(page)
     page.get_by_role("button", name="Control the quality").click()
     expect(page.locator(".view-apply .headline")).to_contain_text("1 line", timeout=PATIENCE)
@@ -357,17 +383,26 @@ def test_13_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -
 
 
 def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
-    for name, begin in (("SVG", b"<svg"), ("PNG", b"\x89PNG")):
-        with page.expect_download() as got:
-            page.locator("figure.spectrum").hover()
-            page.locator("figure.spectrum").get_by_role("button", name=name).click()
-        assert Path(got.value.path()).read_bytes().startswith(begin)
+    for figure in ("spectrum", "spectrogram", "terms"):
+        for name, begin in (("SVG", b"<svg"), ("PNG", b"\x89PNG")):
+            with page.expect_download() as got:
+                page.locator(f"figure.{figure}").hover()
+                page.locator(f"figure.{figure}").get_by_role("button", name=name).click()
+            taken = Path(got.value.path()).read_bytes()
+            assert taken.startswith(begin)
+            assert name == "PNG" or ElementTree.fromstring(taken).find("{*}text").text  # type: ignore[union-attr]
     page.keyboard.press("8")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
     commands = Path(got.value.path()).read_text()
     assert "ragg diagnose" in commands
     assert "ragg compensate" in commands
+    assert "# done: ragg add" in commands
+    with page.expect_download() as got:
+        page.get_by_role("link", name="The model in C").click()
+    with zipfile.ZipFile(got.value.path()) as z:
+        assert "model-c/Makefile" in z.namelist()
+        assert z.testzip() is None
     page.keyboard.press("1")
 
 

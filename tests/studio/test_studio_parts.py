@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 import re
 import struct
+import time
 import tomllib
 from pathlib import Path
 
@@ -17,15 +20,21 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.flight import write_flight
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.studio import mapping, session
+from ragg_runtime.studio import mapping, session, views
+from ragg_runtime.studio.branches import branches, tree
+from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
-from ragg_runtime.studio.session import branches
+from ragg_runtime.studio.routes import ACTIONS
+from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.surveys import flights_below
+from ragg_runtime.studio.timeline import missing
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 
 @pytest.fixture(scope="module")
@@ -114,6 +123,20 @@ def test_undo_and_redo_walk_along_a_branch() -> None:
     assert branches(steps[:7]) == ([0, 1, 6], [])
     assert branches(steps[:8]) == ([0, 1], [6])
     assert branches(steps) == ([0, 1, 6], [])
+    kept = [*steps[:2], Step("calibrate", "2026-01-01")]  # leaves the model as it is
+    assert branches([*kept, Step("undo", "2026-01-01", "0", text="0")]) == ([0], [1])
+    went = [*steps[:4], Step("add", "2026-01-01", text="4"), Step("restore", "2026-01-01", "2", text="2")]
+    assert tree(went) == {0: (None, 0), 1: (0, 0), 2: (1, 0), 4: (1, 1), 5: (2, 0)}
+
+
+def test_a_timeline_shows_gaps_and_lone_samples() -> None:
+    valid = np.ones(1000, dtype=bool)
+    valid[:20] = valid[500:504] = valid[700:703] = valid[999] = False
+    assert missing(valid, 10.0) == {"gaps": [[0.0, 2.0], [50.0, 50.4]], "alone": [70.0, 99.9]}
+    valid[np.arange(0, 1000, 5)[:, None] + np.arange(4)[None]] = False
+    many = missing(np.tile(valid, 4), 10.0)
+    assert len(many["gaps"]) == 300
+    assert many["gaps"] == sorted(many["gaps"])
 
 
 def test_modules_import_downwards_alone() -> None:
@@ -161,6 +184,16 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
     assert flight.channels["a_z"] == pytest.approx(raw)
     assert tomllib.loads(found["text"]) == tomllib.loads((tmp_path / "model" / "mapping.toml").read_text())
     assert mapping.begun(m, path)["rows"][0]["unit"] == "m/s^2"
+    (tmp_path / "model" / "mapping.toml").unlink()
+    page = session.Session(Places((tmp_path.resolve(),)))
+    page.open(tmp_path / "model", [])
+    while page.jobs.status.name:
+        time.sleep(0.05)
+    ACTIONS["map"](page, {"flight": str(path), "mapping": given})  # read by the mapping that it has just kept
+    while page.jobs.status.name and not page.state.flights:
+        time.sleep(0.05)
+    page.jobs.cancel()
+    assert page.state.flights[0].channels["a_z"] == pytest.approx(raw)
     given["rows"][0]["sign"] = -1
     with pytest.raises(UserError, match="mapping already"):
         mapping.keep(m, path, given, replace=False)
@@ -190,6 +223,31 @@ def test_a_survey_takes_the_flights_of_a_folder_and_nothing_beside(tmp_path: Pat
     assert flights_below(root, places) == [root / "a" / "b" / "flight.csv"]
     with pytest.raises(UserError, match="a survey needs flights"):
         flights_below(root / "link", places)
+
+
+def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
+    """Its reading, and its failure, ended in a fault of the program: what was left out of the flight before was kept."""
+    m = loop.new(tmp_path / "model")
+    flight = simulated(m.instrument, [], seed=3, duration=30.0, rate=8.0)
+    write_flight(flight, tmp_path / "x.csv")
+    (tmp_path / "y.csv").write_text("x\n1\n")
+    s = Session(Places((tmp_path,)))
+    s._put(loaded=m, paths=(tmp_path / "x.csv",), flights=(flight,), read=(flight,), cuts=((),))
+    s.open(None, [tmp_path / "y.csv"])
+    s.jobs.wait(60)
+    assert s.jobs.status.error is not None
+    assert views.overview(s.state, "0")["flights"] == []
+    assert views.commands(s.state)
+
+
+def test_what_the_system_refuses_is_no_fault_of_the_program() -> None:
+    def work(part: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "/tmp/x\n")
+
+    jobs = Jobs()
+    jobs.start("x", work)
+    jobs.wait(10)
+    assert jobs.status.error == {"what": os.strerror(errno.ENOSPC), "where": "/tmp/x\\n"}
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

@@ -25,6 +25,12 @@ def write_folder(folder: Path, files: Mapping[str, str]) -> list[Path]:
     written = []
     for name, text in {MARK: "\n".join(sorted(files)) + "\n", **files}.items():
         place = folder / name
+        if place.is_symlink() or (place.parent != folder and place.parent.is_symlink()):
+            raise UserError(
+                "a link stands where the export is to be written",
+                where=place,
+                remedy="name another folder, or remove the link",
+            )
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:

@@ -230,6 +230,17 @@ def _accelerometer(j: int, count: int) -> int:
     return j
 
 
+def _loaded(sources: Mapping[str, str], *, quick: bool = False) -> Library:
+    """The library of these sources; made anew where another process has cleared it away before it was opened."""
+    built = build(sources, quick=quick)
+    try:
+        return Library(built.library)
+    except BuildError:
+        if built.library.exists():
+            raise
+        return Library(build(sources, quick=quick).library)
+
+
 _said: list[str] = []
 
 
@@ -250,7 +261,7 @@ def evaluator(
     if backend == "numpy":
         return Interpreted(chain, layout, folded)
     try:
-        return Compiled(chain, layout, Library(build(sources).library), "folded.c" in sources)
+        return Compiled(chain, layout, _loaded(sources), "folded.c" in sources)
     except BuildError as error:
         if backend == "c":
             raise UserError("the model cannot be compiled", found=str(error)) from None
@@ -303,7 +314,7 @@ class _ForFits(Mapping[str, Evaluator]):
         own = {n: text for n, text in self._sources.items() if n.partition(".")[0] == name}
         if own:
             try:
-                library = Library(build(own, quick=self._quick).library)
+                library = _loaded(own, quick=self._quick)
                 return Compiled(module, self._layout, library, False, name=name)
             except BuildError:
                 pass

@@ -16,7 +16,6 @@ import shlex
 import shutil
 import signal
 import subprocess
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -25,7 +24,8 @@ from pathlib import Path
 import platformdirs
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.files import clear_stale, temporary_name
+from ragg_runtime.base.files import clear_stale, scratch, temporary_name
+from ragg_runtime.base.kept import keep_below
 from ragg_runtime.base.lock import locked
 from ragg_runtime.base.ownership import belongs_to_user
 
@@ -54,6 +54,9 @@ HANGING = 9.0
 
 PATIENT = 3.0
 """As often it is said what is waited for, s: nobody should wonder for more than five."""
+
+MOST_KEPT = 1 << 26
+"""Bytes of libraries that are kept, some forty thousand each; what was used least recently goes first."""
 
 _hung: dict[str, str] = {}
 """Compilers that were given up in this process, and why: they are not waited for again."""
@@ -103,16 +106,20 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
     identity = "\0".join((text, version, *compiler, effort, *COMMON, repr(FOR_PROCESSOR), processor()))
     name = hashlib.sha256(identity.encode()).hexdigest()[:32]
     library, record = place / f"{name}.so", place / f"{name}.txt"
-    if not _whole(library, record):
+    command = _kept(library, record)
+    if command is None:
         try:
             with locked(place, _PATIENCE):
-                if not _whole(library, record):
-                    return Built(library, _compile([*compiler, effort], sources, library, record), True)
+                command = _kept(library, record)
+                if command is None:
+                    command = _compile([*compiler, effort], sources, library, record)
+                    keep_below(place, MOST_KEPT)
+                    return Built(library, command, True)
         except TimeoutError:
             raise BuildError(f"another process keeps the cache {place} locked") from None
         except OSError as error:
             raise BuildError(f"the cache {place} cannot be written: {error.strerror}") from None
-    return Built(library, record.read_text("utf-8").split("\n", 1)[1].strip(), False)
+    return Built(library, command, False)
 
 
 def find_compiler() -> Sequence[str]:
@@ -145,9 +152,9 @@ def private_folder(folder: Path | None = None) -> Path:
 
 @cache
 def _own_folder() -> Path:
-    place = Path(tempfile.mkdtemp(prefix="ragg-native-"))
-    atexit.register(shutil.rmtree, place, ignore_errors=True)
-    return place
+    stack = contextlib.ExitStack()
+    atexit.register(stack.close)
+    return stack.enter_context(scratch())
 
 
 @cache
@@ -238,13 +245,16 @@ def _answer(process: subprocess.Popen[str], name: str, patience: float) -> tuple
     return process.communicate(timeout=patience)
 
 
-def _whole(library: Path, record: Path) -> bool:
-    """Whether a library is there as it was made, and is the user's."""
+def _kept(library: Path, record: Path) -> str | None:
+    """The command that made a library, if it is there as it was made, and is the user's."""
     try:
-        text = record.read_text("utf-8")
-        return belongs_to_user(library.stat()) and text.split("\n", 1)[0] == _digest(library)
+        with contextlib.suppress(PermissionError):
+            os.utime(library)  # used last: others go first
+        digest, _, command = record.read_text("utf-8").partition("\n")
+        whole = belongs_to_user(library.stat()) and digest == _digest(library)
     except (OSError, UnicodeDecodeError):
-        return False
+        return None
+    return command.strip() if whole else None
 
 
 def _digest(file: Path) -> str:

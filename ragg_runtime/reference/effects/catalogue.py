@@ -66,6 +66,7 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
     "bias-drift": _each("(m/s^2)/s", "dK0_dt"),
     "gain-drift": _each("1/s", "dK1_dt"),
     "gain-step": _each("1", "dK1") | _shared("s", "t_step"),
+    "arm-length": _shared("m", "delta_R"),
     "arm-stretch": _each("m/(m/s^2)", "c_r"),
     "arm-sag": _each("m/(m/s^2)", "c_z"),
     "mount-compliance": _each("rad/(m/s^2)", "c_yx", "c_yy", "c_yz", "c_zx", "c_zy", "c_zz"),

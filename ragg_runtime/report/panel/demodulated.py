@@ -5,7 +5,7 @@ from __future__ import annotations
 from ragg_runtime.report import figures, page, panels, series
 from ragg_runtime.report.panel import Panel, Shown
 
-REPORTS = ("compare", "add")
+REPORTS = ("compare", "diagnose", "add")
 
 
 def panel(shown: Shown) -> Panel:

@@ -25,6 +25,12 @@ STANDARD_G = 9.80665
 SHORTEST = 30
 """Samples below which a line has no statistics."""
 
+LARGEST = 1e100
+"""Largest value of a channel, SI: the squares of all that are larger cannot be summed up."""
+
+SAME = 1e-6
+"""Difference, by the largest value, up to which channels are the same: in single precision, or printed to seven digits."""
+
 _NAMED = ("easting", "northing", "altitude", "clearance")
 _OWN: Mapping[str, str] = {
     **dict.fromkeys(_NAMED, "m"),
@@ -102,7 +108,9 @@ def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:
             notes |= dict.fromkeys(s.notes)
             name = s.line if s.line is not None else flight_name(path)
             try:
-                lines.append(_line(s, name, flight_name(path)))
+                line = _line(s, name, flight_name(path))
+                _check_new(line, lines)
+                lines.append(line)
             except UserError as error:
                 if len(sources) == 1 and len(paths) == 1:
                     raise
@@ -121,6 +129,30 @@ def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:
         files=tuple((p.name, file_digest(p)) for p in paths),
         notes=tuple(notes),
     )
+
+
+def _check_new(line: SurveyLine, before: Sequence[SurveyLine]) -> None:
+    """UserError if the same line was read before: it would agree with itself, and count twice."""
+    for other in before:
+        if len(other) == len(line) and other.gradients == line.gradients and _same(line, other):
+            raise UserError(
+                f"the same record as line {other.name} of {other.flight}: it would count twice",
+                where=f"line {line.name} of {line.flight}",
+                remedy="give each line once",
+            )
+
+
+def _same(line: SurveyLine, other: SurveyLine) -> bool:
+    for n in line.gradients:
+        a, b = line.channels[n], other.channels[n]
+        if not np.allclose(a, b, rtol=0.0, atol=SAME * _size(a), equal_nan=True):
+            return False
+    return True
+
+
+def _size(values: Array) -> float:
+    """The largest value, without its sign; 0 if there is none."""
+    return float(np.max(np.abs(values), initial=0.0, where=~np.isnan(values)))
 
 
 def _begins(line: SurveyLine) -> tuple[float, float]:
@@ -148,6 +180,13 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
         where = at(source.path, f"column {c.name!r}")
         raw = np.concatenate([np.empty(0), *(b[c.name] for b in batches)])
         found[c.name] = known.to_si(raw, c.unit, wanted[c.name], where)
+        if _size(found[c.name]) > LARGEST:
+            raise UserError(
+                "a value is out of all proportion",
+                where=where,
+                found=f"{_size(found[c.name]):g}",
+                expected=f"at most {LARGEST:g}",
+            )
     time = found.pop("time")
     if len(time) < SHORTEST:
         raise UserError(

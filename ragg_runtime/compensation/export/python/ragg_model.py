@@ -153,16 +153,23 @@ def disc_angle(t, f):
 
 
 def read(lines):
-    """Columns of a CSV with a header of `name [unit]`; SystemExit at a unit that is not the one in model.json."""
+    """Columns of a CSV with a header of `name [unit]`; SystemExit at what is none, or in other units than model.json's."""
     rows = csv.reader(line for line in lines if line.strip() and not line.startswith("#"))
     units = {x["column"]: x["unit"] for x in MODEL["inputs"]} | {"time": "s"}
     units |= {o["spin_angle"]: "rad" for o in MODEL["outputs"]}
-    header = [name.strip().rstrip("]").split("[") for name in next(rows)]
+    header = [name.strip().rstrip("]").split("[") for name in next(rows, ())]
+    if "time" not in (name[0].strip() for name in header):
+        raise SystemExit("ragg_model: the column time is missing; use: ragg_model.py < MOTION.csv > OUT.csv")
     for name, *unit in header:
         wanted = units.get(name.strip())
         if wanted is not None and (not unit or unit[0].strip() != wanted):
             raise SystemExit(f"ragg_model: the column {name.strip()} is not in SI units; expected {wanted}")
-    values = np.array([[float(x) if x.strip() else np.nan for x in row] for row in rows])
+    try:
+        values = np.array([[float(x) if x.strip() else np.nan for x in row] for row in rows])
+    except ValueError:
+        raise SystemExit("ragg_model: expected a number in every cell, and as many in every row") from None
+    if values.ndim != 2 or len(values) < 2 or values.shape[1] != len(header):
+        raise SystemExit("ragg_model: expected two rows or more, each with as many cells as the header")
     return {name[0].strip(): values[:, k] for k, name in enumerate(header)}
 
 

@@ -1,9 +1,9 @@
 // Two states: what the server knows (server), and what this page looks at (view), which stands in the address.
 
 const DEFAULTS = {
-  view: "loop", flight: 0, from: null, to: null, unit: "Eo", ticked: [], open: "", term: "", low: null, high: null, theme: "",
+  view: "loop", flight: 0, output: 0, from: null, to: null, unit: "Eo", ticked: [], open: "", term: "", low: null, high: null, theme: "",
 };
-const NUMBERS = new Set(["flight", "from", "to", "low", "high"]);
+const NUMBERS = new Set(["flight", "output", "from", "to", "low", "high"]);
 
 export const server = { state: null };
 export const view = { ...DEFAULTS };

@@ -11,7 +11,7 @@ const fonts = () => {
 };
 export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
-const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
+const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2).replaceAll("\u202f", "") : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
 
 export function axis(label, more = {}) {
   return {
@@ -32,16 +32,20 @@ export const logValues = (u, found) => {
     const m = v / 10 ** Math.floor(Math.log10(v) + 1e-9);
     const keep = decades > 3.2 ? m < 1.01 : m < 1.01 || Math.abs(m - 2) < 0.01 || Math.abs(m - 5) < 0.01;
     if (!keep) return "";
-    return v >= 1e-3 && v < 1e5 ? String(Number(v.toPrecision(3))) : `10${superscript(Math.round(Math.log10(v)))}`;
+    return v >= 1e-3 && v < 1e5 ? String(Number(v.toPrecision(3))) : `${m > 1.01 ? `${Math.round(m)}·` : ""}10${superscript(Math.floor(Math.log10(v) + 1e-9))}`;
   });
 };
 
-/** A plot that fills its box and is drawn anew when that or the colours change. */
-export function mounted(box, options, data) {
+/**
+ * A plot that fills its box and is drawn anew when that or the colours change.
+ * `told(u, k)` says in words what stands at sample k below the pointer; it is shown in the figure's heading.
+ */
+export function mounted(box, options, data, told) {
   const size = () => ({ width: Math.max(200, box.clientWidth), height: Math.max(60, box.clientHeight) });
   const plot = new uPlot({ ...size(), ...options, legend: { show: false } }, data, box);
   const watcher = new ResizeObserver(() => plot.setSize(size()));
   watcher.observe(box);
+  if (told) reading(plot, box, told);
   const themed = () => plot.redraw(false);
   document.addEventListener("themed", themed);
   return {
@@ -53,6 +57,23 @@ export function mounted(box, options, data) {
     },
   };
 }
+
+function reading(plot, box, told) {
+  const place = () => box.closest("figure") && box.closest("figure").querySelector(".readout");
+  const say = () => {
+    const at = place(), { left, idx } = plot.cursor;
+    const text = left >= 0 && idx !== null && idx !== undefined ? told(plot, idx) : "";
+    if (at && at.textContent !== text) at.textContent = text;
+  };
+  // linked plots move their cursors together, and each says what stands there
+  (plot.hooks.setCursor ||= []).push(say);
+}
+
+/** A number as it is read off an axis. */
+export const plain = (v) => String(Number(v.toPrecision(6))).replace("-", "−");
+
+/** Least and greatest value of a series in words; once, where they are one sample. */
+export const span = (low, high) => (low === high || number(low, 4) === number(high, 4) ? number(low, 4) : `${number(low, 4)} … ${number(high, 4)}`);
 
 /** Wheel zooms about the pointer, Shift or a horizontal wheel pans; `moved` is given the new limits. */
 export function wheel(plot, moved) {
@@ -75,5 +96,3 @@ export function wheel(plot, moved) {
     { passive: false },
   );
 }
-
-

@@ -3,10 +3,10 @@ import { h, number, s } from "../dom.js";
 
 const MOST = 7;
 
-/** steps: [{label, value, kind: "start" | "step" | "foreseen"}] */
-export function stepBars(steps, noise) {
+/** steps: [{label, value, kind: "start" | "step" | "foreseen"}]; one more than was `seen` falls from the height of the one before it. */
+export function stepBars(steps, noise, seen = []) {
   const shown = steps.slice(-MOST);
-  const width = 96 * Math.max(shown.length, 3), height = 150, base = 106;
+  const width = 96 * Math.max(shown.length + 0.7, 3), height = 150, base = 106;
   const top = Math.max(...shown.map((b) => b.value), noise * 1.1);
   const log = top > 12 * noise;
   const bottom = log ? noise / 2 : 0;
@@ -22,8 +22,11 @@ export function stepBars(steps, noise) {
   shown.forEach((b, k) => {
     const x = 96 * k + 18;
     const y = at(b.value);
+    const falls = b.kind === "step" && k === shown.length - 1 && k > 0 && seen.length === steps.length - 1;
+    const bar = s("rect", { class: `step-bar ${b.kind}`, x, y, width: 60, height: Math.max(0, base - y) });
+    if (falls) fall(bar, at(shown[k - 1].value), y, base);
     made.append(
-      s("rect", { class: `step-bar ${b.kind}`, x, y, width: 60, height: Math.max(0, base - y) }),
+      bar,
       s("text", { class: "value", x: x + 30, y: y - 5, "text-anchor": "middle" }, number(b.value)),
       ...wrapped(b.label).map((line, i) => s("text", { class: "label", x: x + 30, y: base + 15 + 13 * i, "text-anchor": "middle" }, line)),
     );
@@ -31,6 +34,15 @@ export function stepBars(steps, noise) {
   const y = at(noise);
   made.append(s("line", { class: "floor", x1: 0, x2: width, y1: y, y2: y }), s("text", { class: "floor-label", x: width - 2, y: y - 4, "text-anchor": "end" }, `noise ${number(noise)}`));
   return h("div.steps-box", {}, made);
+}
+
+function fall(bar, from, to, base) {
+  const place = (y) => {
+    bar.setAttribute("y", y);
+    bar.setAttribute("height", Math.max(0, base - y));
+  };
+  place(from);
+  requestAnimationFrame(() => requestAnimationFrame(() => place(to)));
 }
 
 function wrapped(text) {

@@ -1,5 +1,6 @@
 // Values of many flights side by side: a dot each, its standard deviation as a bar, levels as dashed steps.
 import uPlot from "../../vendor/uPlot.esm.js";
+import { number } from "../dom.js";
 import { axis, colour, logValues, mounted, rem } from "./axes.js";
 
 /**
@@ -14,7 +15,7 @@ export function dotPlot(box, { label, rows, log, picked }) {
   const made = mounted(
     box,
     {
-      scales: { x: { time: false, range: () => [-0.7, flights.length - 0.3] }, y: wide ? { distr: 3 } : {} },
+      scales: { x: { time: false, range: () => [-0.7, flights.length - 0.3] }, y: wide ? { distr: 3 } : { range: (u, a, b) => reach(rows, a, b) } },
       series: [{}, ...rows.map((r) => (r.step
         ? { label: r.name, stroke: () => colour(r.colour), width: 1.2, dash: [6, 4], points: { show: false }, paths: uPlot.paths.stepped({ align: 1 }) }
         : { label: r.name, stroke: () => colour(r.colour), fill: () => colour(r.colour), paths: () => null, points: { show: true, size, width: 0, fill: () => colour(r.colour) } }))],
@@ -26,12 +27,21 @@ export function dotPlot(box, { label, rows, log, picked }) {
       hooks: { draw: [(u) => rows.forEach((r) => r.stds && bars(u, r))] },
     },
     [flights, ...rows.map((r) => r.values)],
+    (u, k) => [`flight ${k}`, ...rows.map((r) => (r.values[k] === null ? "" : `${r.name} ${number(r.values[k], 4)}${r.stds && r.stds[k] !== null ? ` ± ${number(r.stds[k], 2)}` : ""}`))].filter(Boolean).join(" · "),
   );
   made.plot.over.addEventListener("click", () => {
     const k = made.plot.cursor.idx;
     if (k !== null && k !== undefined) picked(k);
   });
   return made;
+}
+
+/** From the lowest to the highest end of a bar, with a margin. */
+function reach(rows, a, b) {
+  const ends = rows.flatMap((r) => r.values.flatMap((v, k) => (v === null ? [] : [v - ((r.stds && r.stds[k]) || 0), v + ((r.stds && r.stds[k]) || 0)])));
+  if (!ends.length) return [a ?? 0, b ?? 1];
+  const [low, high] = [Math.min(...ends), Math.max(...ends)], margin = 0.08 * (high - low || Math.abs(high) || 1);
+  return [low - margin, high + margin];
 }
 
 function bars(u, { colour: name, values, stds }) {

@@ -1,4 +1,4 @@
-// Every plot as PNG and as SVG: the PNG is its canvas on paper, the SVG is written from its data.
+// Every figure as SVG and as PNG, with its heading and legend: curves from their data, drawings and tables from what is seen.
 import { colour } from "./axes.js";
 
 function saved(name, blob) {
@@ -9,30 +9,79 @@ function saved(name, blob) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-export function png(plot, name) {
-  const from = plot.ctx.canvas;
-  const canvas = document.createElement("canvas");
-  canvas.width = from.width;
-  canvas.height = from.height;
-  const c = canvas.getContext("2d");
-  c.fillStyle = colour("paper");
-  c.fillRect(0, 0, canvas.width, canvas.height);
-  c.drawImage(from, 0, 0);
-  canvas.toBlob((blob) => saved(`${name}.png`, blob), "image/png");
+const escaped = (t) => String(t).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
+const HEAD = 40; // pixels above a figure for its heading and legend
+
+/** Heading and legend of the figure that holds `box`. */
+function headed(box) {
+  const figure = box.closest("figure");
+  const keys = figure ? [...figure.querySelectorAll(".legend > span")] : [];
+  return {
+    title: figure ? figure.querySelector("h2").textContent : "",
+    keys: keys.map((k) => {
+      const mark = k.querySelector(".key"), style = mark && getComputedStyle(mark);
+      return { text: k.dataset.words || k.textContent, stroke: style && style.borderTopColor, dashed: Boolean(style) && style.borderTopStyle === "dashed" };
+    }),
+  };
 }
 
-const escaped = (t) => String(t).replace(/[<>&"]/g, (c) => ({ "<": "&lt;", ">": "&gt;", "&": "&amp;", '"': "&quot;" })[c]);
+function heading(box, x, y) {
+  const { title, keys } = headed(box);
+  if (!title) return "";
+  let at = x;
+  const marks = keys.map(({ text, stroke, dashed }) => {
+    const line = stroke ? `<line x1="${at}" x2="${at + 18}" y1="${y + 14}" y2="${y + 14}" stroke="${stroke}" stroke-width="2.5"${dashed ? ' stroke-dasharray="5 3"' : ""}/>` : "";
+    const made = `${line}<text x="${at + (stroke ? 24 : 0)}" y="${y + 18}" font-size="11">${escaped(text)}</text>`;
+    at += (stroke ? 24 : 0) + 6.2 * text.length + 18;
+    return made;
+  });
+  return `<text x="${x}" y="${y}" font-weight="600">${escaped(title)}</text>${marks.join("")}`;
+}
 
-function path(plot, k, x) {
-  const s = plot.series[k];
+const wrapped = (x, y, width, height, inner) => `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="${x} ${y} ${width} ${height}" font-family="system-ui, Arial, sans-serif" font-size="12" fill="${colour("ink")}">
+<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${colour("paper")}"/>
+${inner}</svg>\n`;
+
+const inside = (plot, x) => x >= plot.scales.x.min && x <= plot.scales.x.max;
+const held = (v) => v !== null && v !== undefined && !Number.isNaN(v);
+const stroked = (plot, k) => (typeof plot.series[k].stroke === "function" ? plot.series[k].stroke(plot, k) : plot.series[k].stroke);
+
+function path(plot, k) {
+  const x = plot.data[0], s = plot.series[k];
   let d = "", pen = "M";
   for (let i = 0; i < x.length; i++) {
     const v = plot.data[k][i];
-    if (v === null || v === undefined || Number.isNaN(v) || x[i] < plot.scales.x.min || x[i] > plot.scales.x.max) { pen = "M"; continue; }
-    d += `${pen}${plot.valToPos(x[i], "x").toFixed(1)} ${plot.valToPos(v, s.scale).toFixed(1)}`;
+    if (!held(v) || !inside(plot, x[i])) { pen = "M"; continue; }
+    const at = plot.valToPos(x[i], "x").toFixed(1);
+    d += `${pen}${at} ${plot.valToPos(v, s.scale).toFixed(1)}`;
+    if (s.paired && plot.data[k + 1][i] !== v) d += `V${plot.valToPos(plot.data[k + 1][i], s.scale).toFixed(1)}`;
     pen = "L";
   }
   return d;
+}
+
+function curve(plot, k) {
+  const s = plot.series[k], stroke = stroked(plot, k);
+  if (!s.show || !plot.data[k] || !stroke || plot.series[k - 1].paired) return ""; // the other half of a pair is drawn with it
+  const points = s.points && typeof s.points.show === "boolean" && s.points.show;
+  if (points) {
+    return plot.data[0].map((x, i) => (held(plot.data[k][i]) && inside(plot, x) ? `<circle cx="${plot.valToPos(x, "x").toFixed(1)}" cy="${plot.valToPos(plot.data[k][i], s.scale).toFixed(1)}" r="3" fill="${stroke}"/>` : "")).join("");
+  }
+  return `<path d="${path(plot, k)}" fill="none" stroke="${stroke}" stroke-width="${typeof s.width === "number" ? s.width : 1}"${s.dash ? ` stroke-dasharray="${s.dash.join(" ")}"` : ""}/>`;
+}
+
+/** What lies between two series, run by run. */
+function area(plot, { series: [upper, lower], fill }) {
+  const x = plot.data[0], scale = plot.series[upper].scale;
+  const at = (i, k) => `${plot.valToPos(x[i], "x").toFixed(1)} ${plot.valToPos(plot.data[k][i], scale).toFixed(1)}`;
+  let d = "", run = [];
+  const end = () => {
+    if (run.length > 1) d += `M${run.map((i) => at(i, upper)).join("L")}L${run.reverse().map((i) => at(i, lower)).join("L")}Z`;
+    run = [];
+  };
+  for (let i = 0; i < x.length; i++) held(plot.data[upper][i]) && held(plot.data[lower][i]) && inside(plot, x[i]) ? run.push(i) : end();
+  end();
+  return d ? `<path d="${d}" fill="${typeof fill === "function" ? fill(plot) : fill}"/>` : "";
 }
 
 function ticks(plot, k, box) {
@@ -52,26 +101,63 @@ function ticks(plot, k, box) {
   const label = escaped(typeof a.label === "function" ? a.label(plot, k) : a.label || "");
   made.push(k === 0
     ? `<text x="${box.w / 2}" y="${box.h + 34}" text-anchor="middle">${label}</text>`
-    : `<text transform="translate(-46 ${box.h / 2}) rotate(-90)" text-anchor="middle">${label}</text>`);
+    : `<text transform="translate(-54 ${box.h / 2}) rotate(-90)" text-anchor="middle">${label}</text>`);
   return made.join("");
 }
 
-/** The plot as SVG text; `image` is a data address that lies below the curves (a spectrogram). */
-export function svgText(plot, image) {
+/** Curves as SVG text; `image` {href, x, y, width, height} lies below them (a spectrogram), `level` a line to either side of zero. */
+export function curvesText(plot, { image, level } = {}) {
   const box = { w: plot.over.clientWidth, h: plot.over.clientHeight };
-  const x = plot.data[0];
-  const lines = plot.series.slice(1).map((s, k) => {
-    if (!s.show || !plot.data[k + 1]) return "";
-    const stroke = typeof s.stroke === "function" ? s.stroke(plot, k + 1) : s.stroke;
-    const width = typeof s.width === "number" ? s.width : 1;
-    return `<path d="${path(plot, k + 1, x)}" fill="none" stroke="${stroke}" stroke-width="${width}"${s.dash ? ` stroke-dasharray="${s.dash.join(" ")}"` : ""}/>`;
-  });
-  const under = image ? `<image href="${image}" x="0" y="0" width="${box.w}" height="${box.h}" preserveAspectRatio="none"/>` : "";
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="-64 -12 ${box.w + 84} ${box.h + 56}" font-family="system-ui, Arial, sans-serif" font-size="12" fill="${colour("ink")}">
-<rect x="-64" y="-12" width="${box.w + 84}" height="${box.h + 56}" fill="${colour("paper")}"/>
-${image ? under + ticks(plot, 0, box) + ticks(plot, 1, box) : ticks(plot, 0, box) + ticks(plot, 1, box)}
-<clipPath id="c"><rect width="${box.w}" height="${box.h}"/></clipPath><g clip-path="url(#c)">${lines.join("\n")}</g>
-<rect width="${box.w}" height="${box.h}" fill="none" stroke="${colour("line")}"/></svg>\n`;
+  const series = plot.series.slice(1).map((s, k) => curve(plot, k + 1));
+  const areas = (plot.bands || []).map((b) => area(plot, b));
+  const under = image ? `<g clip-path="url(#c)"><image href="${image.href}" x="${image.x}" y="${image.y}" width="${image.width}" height="${image.height}" preserveAspectRatio="none" image-rendering="pixelated"/></g>` : "";
+  const levels = level ? [level, -level].map((v) => plot.valToPos(v, "y")).map((y) => `<line x1="0" x2="${box.w}" y1="${y}" y2="${y}" stroke="${colour("noise")}" stroke-dasharray="5 4"/>`).join("") : "";
+  return wrapped(-74, -16 - HEAD, box.w + 94, box.h + 60 + HEAD, `${heading(plot.over, 0, -34)}
+${ticks(plot, 0, box)}${ticks(plot, 1, box)}${under}
+<clipPath id="c"><rect width="${box.w}" height="${box.h}"/></clipPath><g clip-path="url(#c)">${areas.join("\n")}${series.join("\n")}${levels}</g>
+<rect width="${box.w}" height="${box.h}" fill="none" stroke="${colour("line")}"/>`);
 }
 
-export const svg = (plot, name, image) => saved(`${name}.svg`, new Blob([svgText(plot, image)], { type: "image/svg+xml" }));
+const STYLES = ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-weight", "font-family", "text-anchor", "opacity"];
+
+/** A drawing of the page with the style that it has there. */
+export function drawingText(svg) {
+  const made = svg.cloneNode(true), from = [svg, ...svg.querySelectorAll("*")];
+  [made, ...made.querySelectorAll("*")].forEach((x, k) => {
+    const style = getComputedStyle(from[k]);
+    for (const name of STYLES) x.setAttribute(name, style.getPropertyValue(name));
+    x.removeAttribute("class");
+  });
+  const { width, height } = svg.viewBox.baseVal;
+  const head = heading(svg, 0, -34), above = head ? HEAD : 0;
+  return wrapped(-16, -16 - above, width + 32, height + 32 + above, head + made.innerHTML);
+}
+
+/** A table of cells as they are seen. */
+export function tableText(table) {
+  const origin = table.getBoundingClientRect(), made = [];
+  for (const cell of table.querySelectorAll("th, td")) {
+    const button = cell.querySelector("button"), r = (button || cell).getBoundingClientRect();
+    const [x, y] = [r.left - origin.left, r.top - origin.top];
+    if (button) made.push(`<rect x="${x}" y="${y}" width="${r.width}" height="${r.height}" fill="${getComputedStyle(button).backgroundColor}"/>`);
+    const text = escaped(cell.textContent), ink = getComputedStyle(button || cell).color;
+    if (!text) continue;
+    if (cell.querySelector("span")) made.push(`<text transform="translate(${x + r.width / 2 + 4} ${y + r.height - 4}) rotate(-90)" fill="${ink}" font-size="11">${text}</text>`);
+    else if (button) made.push(`<text x="${x + r.width / 2}" y="${y + r.height / 2 + 4}" text-anchor="middle" fill="${ink}" font-size="11">${text}</text>`);
+    else made.push(`<text x="${x + r.width - 6}" y="${y + r.height / 2 + 4}" text-anchor="end" fill="${ink}" font-size="11">${text}</text>`);
+  }
+  return wrapped(-16, -16 - HEAD, origin.width + 32, origin.height + 32 + HEAD, heading(table, 0, -34) + made.join("\n"));
+}
+
+/** Hand an SVG text over as a file, or as a PNG of twice its size. */
+export async function take(name, text, kind) {
+  const blob = new Blob([text], { type: "image/svg+xml" });
+  if (kind === "svg") return saved(`${name}.svg`, blob);
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+  await image.decode();
+  const canvas = document.createElement("canvas");
+  [canvas.width, canvas.height] = [2 * image.width, 2 * image.height];
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  canvas.toBlob((png) => saved(`${name}.png`, png), "image/png");
+}

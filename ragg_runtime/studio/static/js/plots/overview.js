@@ -2,7 +2,7 @@
 import { h } from "../dom.js";
 import { axis, colour, mounted, rem } from "./axes.js";
 
-export function overview(box, { whole, limits, moved }) {
+export function overview(box, { whole, limits, moved, marks }) {
   const made = mounted(
     box,
     {
@@ -10,9 +10,9 @@ export function overview(box, { whole, limits, moved }) {
       series: [{}, { stroke: () => colour("before"), width: 1, points: { show: false } }, { stroke: () => colour("before"), width: 1, points: { show: false } }],
       bands: [{ series: [2, 1], fill: () => colour("before") }],
       axes: [axis(undefined, { labelSize: 0, label: undefined }), { show: false }],
-      padding: [2, rem(), 0, 4.2 * rem()],
+      padding: [2, rem(), 0, 4.6 * rem()],
       cursor: { show: false },
-      hooks: { draw: [() => shade()] },
+      hooks: { drawAxes: [(u) => marked(u, marks())], draw: [() => shade()] },
     },
     [[0, 1], [null, null], [null, null]],
   );
@@ -56,4 +56,26 @@ export function overview(box, { whole, limits, moved }) {
       plot.setData([found.x, clean(found.low), clean(found.high)]);
     },
   };
+}
+
+/** Gaps as pale columns, lone missing samples as ticks along the top, what is left out by hand crossed out. */
+function marked(u, { gaps, alone, cuts }) {
+  const { ctx, bbox } = u;
+  const px = devicePixelRatio;
+  const place = (t) => Math.min(Math.max(u.valToPos(t, "x", true), bbox.left), bbox.left + bbox.width);
+  ctx.save();
+  for (const [spans, name] of [[gaps, "gap"], [cuts, "cut"]]) {
+    ctx.fillStyle = colour(name);
+    for (const [a, b] of spans) ctx.fillRect(place(a), bbox.top, Math.max(px, place(b) - place(a)), bbox.height);
+  }
+  ctx.fillStyle = colour("noise");
+  for (const t of alone) {
+    const x = place(t);
+    ctx.beginPath();
+    ctx.moveTo(x - 3 * px, bbox.top);
+    ctx.lineTo(x + 3 * px, bbox.top);
+    ctx.lineTo(x, bbox.top + 6 * px);
+    ctx.fill();
+  }
+  ctx.restore();
 }

@@ -1,4 +1,5 @@
 // Density over time and frequency as an image below a plot's axes; time and band are brushed together.
+import { number } from "../dom.js";
 import { axis, mounted, rem, wheel } from "./axes.js";
 
 // cividis, which colour-blind people read as everyone does (Nunez, Anderton, Renslow 2018), in nine steps
@@ -34,6 +35,18 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
     },
     [[0, 1], [null, null]],
   );
+  made.plot.over.addEventListener("pointermove", () => tell(made.plot.cursor));
+  made.plot.over.addEventListener("pointerleave", () => tell(null));
+  function tell(cursor) {
+    const place = box.closest("figure").querySelector(".readout");
+    if (!place) return;
+    if (!cursor || !found || cursor.left < 0) return void (place.textContent = "");
+    const t = made.plot.posToVal(cursor.left, "x"), f = made.plot.posToVal(cursor.top, "y");
+    const at = ([a, b], n, v) => (n > 1 ? Math.round(((v - a) / (b - a)) * (n - 1)) : 0);
+    const i = at(found.time, found.width, t), k = at(found.frequency, found.height, f);
+    const v = i >= 0 && i < found.width && k >= 0 && k < found.height ? found.density[k * found.width + i] : NaN;
+    place.textContent = Number.isFinite(v) ? `${number(t, 5)} s · ${number(f, 3)} Hz · ${number(v)} Eo/√Hz` : "";
+  }
   wheel(made.plot, moved);
   made.plot.over.addEventListener("dblclick", () => (moved(null, null), banded(null, null)));
 
@@ -45,12 +58,9 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
       ctx.beginPath();
       ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
       ctx.clip();
-      const step = found.width > 1 ? (found.time[1] - found.time[0]) / (found.width - 1) : 1;
-      const rise = found.height > 1 ? (found.frequency[1] - found.frequency[0]) / (found.height - 1) : 1;
-      const x0 = u.valToPos(found.time[0] - step / 2, "x", true), x1 = u.valToPos(found.time[1] + step / 2, "x", true);
-      const y0 = u.valToPos(found.frequency[0] - rise / 2, "y", true), y1 = u.valToPos(found.frequency[1] + rise / 2, "y", true);
       ctx.imageSmoothingEnabled = false;
-      ctx.drawImage(image, x0, y1, x1 - x0, y0 - y1);
+      const { x, y, width, height } = placed(u, true);
+      ctx.drawImage(image, x, y, width, height);
       const [low, high] = band();
       ctx.strokeStyle = "#ffffff";
       ctx.lineWidth = px;
@@ -72,9 +82,17 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
     }
   }
 
+  /** Where the image lies, in pixels of the canvas or of the page. */
+  function placed(u, canvas) {
+    const step = found.width > 1 ? (found.time[1] - found.time[0]) / (found.width - 1) : 1;
+    const rise = found.height > 1 ? (found.frequency[1] - found.frequency[0]) / (found.height - 1) : 1;
+    const x = u.valToPos(found.time[0] - step / 2, "x", canvas), y = u.valToPos(found.frequency[1] + rise / 2, "y", canvas);
+    return { x, y, width: u.valToPos(found.time[1] + step / 2, "x", canvas) - x, height: u.valToPos(found.frequency[0] - rise / 2, "y", canvas) - y };
+  }
+
   return {
     ...made,
-    show(data, floor) {
+    show(data) {
       found = data;
       const { width, height, density } = data;
       const shown = [...density].filter(Number.isFinite).sort((a, b) => a - b);
@@ -98,7 +116,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
       return { low: Math.exp(low), high: Math.exp(high) };
     },
     marked: () => made.plot.redraw(false),
-    image: () => (image ? image.toDataURL() : null),
+    image: () => (image && found ? { href: image.toDataURL(), ...placed(made.plot, false) } : null),
     zoomed: () => made.plot.setScale("x", { min: limits()[0], max: limits()[1] }),
   };
 }

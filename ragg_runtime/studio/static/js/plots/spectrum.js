@@ -1,11 +1,13 @@
 // Amplitude densities on logarithmic axes, the multiples of the spin marked; a band can be brushed.
-import { axis, colour, logValues, mounted, rem } from "./axes.js";
+import { number } from "../dom.js";
+import { axis, colour, logValues, mounted, plain, rem } from "./axes.js";
 
 const LINES = [
-  { id: "before", name: "before the last step", colour: "before", width: 1.6 },
+  { id: "beside", name: "model beside it", colour: "beside", width: 1.6 },
+  { id: "before", name: "before the last step", short: "before", colour: "before", width: 1.6 },
   { id: "residual", name: "residual", colour: "residual", width: 1.4 },
-  { id: "left", name: "with what is ticked", colour: "effect", width: 1.4 },
-  { id: "noise", name: "noise, as estimated", colour: "noise", width: 1.3, dash: [6, 4] },
+  { id: "left", name: "with what is ticked", short: "ticked", colour: "effect", width: 1.4 },
+  { id: "noise", name: "noise, as estimated", short: "noise", colour: "noise", width: 1.3, dash: [6, 4] },
 ];
 
 // only the labelled lines of a logarithmic grid
@@ -38,6 +40,10 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
       },
     },
     [[0.1, 1], ...LINES.map(() => [null, null])],
+    (u, k) => [
+      `${plain(Number(u.data[0][k].toPrecision(4)))} Hz${spin ? ` = ${number(u.data[0][k] / spin, 3)} Ω` : ""}`,
+      ...LINES.map((l, i) => (u.data[1 + i][k] === null || u.data[1 + i][k] === undefined ? "" : `${l.short || l.name} ${number(u.data[1 + i][k])}`)),
+    ].filter(Boolean).join(" · "),
   );
   made.plot.over.addEventListener("dblclick", () => banded(null, null));
   return {

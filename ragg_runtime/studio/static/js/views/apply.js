@@ -2,6 +2,8 @@
 import { Refused, series } from "../api.js";
 import { counted, fill, h } from "../dom.js";
 import { on, server, view } from "../store.js";
+import { curvesText } from "../plots/export.js";
+import { fileName, frame } from "../plots/figure.js";
 import { timePlot } from "../plots/time.js";
 import { doing } from "../doing.js";
 
@@ -30,6 +32,9 @@ export function applyView(main) {
       h("p.note", {}, "The gravity gradient as the instrument saw it: all removed that the model explains, demodulated, with one standard uncertainty of parameters and noise together."),
       h("div.row.choices", {}, choice("calibration", "parameters", KINDS), choice("demodulator", "demodulator", DEMODULATORS),
         h("button.main", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("compensate", chosen) }, "Compensate")),
+      h("div.row", {},
+        h("button", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
+        h("p.note", {}, state.model.calibrated ? `The model keeps a calibration ${state.model.calibrated}.` : "The model keeps no calibration yet: it is what “as kept with the model” and the exported C use.")),
       c ? c.outputs.map((x) => [
         h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
         h("p.note", {}, `${counted(x.good)} of ${counted(x.samples)} samples have a value; ${c.demodulator.what}.`, x.quality.map(([n, what]) => ` ${counted(n)}: ${what}.`)),
@@ -66,12 +71,12 @@ export function applyView(main) {
     drop();
     figures.hidden = !c;
     if (!c) return;
-    const panels = c.channels.map((name) => ({ name, body: h("div.plot") }));
-    fill(figures, panels.map(({ name, body }) => h("figure", { "aria-label": `${name}, compensated` },
-      h("figcaption", {}, h("h2", {}, `${name}, Eo`), h("div.legend", {}, h("span", {}, h("i.key.residual"), "value"), h("span", {}, h("i.key.band"), "± one standard uncertainty"))), body)));
-    plots = panels.map(({ name, body }, k) => ({ name, box: body, made: timePlot(body, {
-      limits, moved, label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
-      lines: [{ name: "band", colour: "before", width: 0, alpha: "80" }, { name: "value", colour: "residual", width: 1.2 }],
+    const panels = c.channels.map((name, k) => frame({ id: name, title: `${name}, Eo`, kind: "figure", name: () => fileName(server.state.flights[view.flight] && server.state.flights[view.flight].name, name), text: () => curvesText(plots[k].made.plot) }));
+    panels.forEach((p) => p.keys([["value", "residual"], ["± one standard uncertainty", "band"]]));
+    fill(figures, panels.map((p) => p.element));
+    plots = panels.map(({ body }, k) => ({ name: c.channels[k], box: body, made: timePlot(body, {
+      limits, moved, unit: () => "Eo", label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
+      lines: [{ name: "±", colour: "before", band: true, alpha: "80" }, { name: "value", colour: "residual" }],
     }) }));
     draw();
   };

@@ -1,9 +1,13 @@
 // Verdict, errors and noise, and the error after every step with what is foreseen.
 import { fill, h, number } from "../dom.js";
-import { on, server, view } from "../store.js";
+import { look, on, server, view } from "../store.js";
 import { stepBars } from "../plots/bars.js";
+import { drawingText } from "../plots/export.js";
+import { fileName, saves } from "../plots/figure.js";
 import { foreseen } from "./foresee.js";
 import { doing } from "../doing.js";
+
+let seen = []; // the steps that were shown last: what has been added since is seen to fall
 
 export function banner(box) {
   const known = () => {
@@ -11,7 +15,10 @@ export function banner(box) {
     const b = state && state.banner;
     if (!b) {
       const busy = state && state.status.job;
-      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : state.flights[0].glanced ? (busy ? "Reading and examining the flight …" : "This record could not be read as a flight; what is drawn is its output alone.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !state.flights[0].glanced && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null));
+      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : state.flights[0].glanced ? (busy ? "Reading and examining the flight …" : "This record could not be read as a flight; what is drawn is its output alone.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !state.flights[0].glanced && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+        state && !state.flights.length && !busy ? h("p.row", {},
+          (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files", columns: path }) }, `Say what the columns of ${path.split("/").at(-1)} are`)),
+          h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));
       return;
     }
     const times = b.errors[1].rms_Eo / b.noise.rms_Eo;
@@ -23,7 +30,7 @@ export function banner(box) {
         b.lead.map((t) => h("p.lead", {}, t)),
         h("p.flags", {},
           b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
-          h("span.flag", {}, times < 1.15 ? "down to the noise" : `${number(times, 2)} × the noise`),
+          h("span.flag", {}, (b.adequate && b.verdict !== "unexplained") || times < 1 ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
           h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
       ),
       h("dl.errors", {},
@@ -42,7 +49,9 @@ export function banner(box) {
     if (now && view.ticked.length) {
       steps.push({ label: view.ticked.length > 1 ? `${view.ticked.length} effects?` : `${view.ticked[0]}?`, value: now.rms_Eo, kind: "foreseen" });
     }
-    place.replaceChildren(stepBars(steps, state.banner.noise.rms_Eo));
+    const made = stepBars(steps, state.banner.noise.rms_Eo, seen);
+    fill(place, made, saves("Error after every step", () => fileName(state.model.name, "steps"), () => drawingText(made.querySelector("svg"))));
+    if (!view.ticked.length) seen = steps;
   };
   const off = on("foreseen", bars);
   return { known, gone: off };

@@ -69,6 +69,7 @@ export function effectsPane(box) {
     h("dl.facts", {},
       h("dt", {}, "alone"), h("dd", {}, `${number(e.after_Eo)} Eo, held out ${number(e.holdout_Eo)} Eo; p ${e.p}; ΔBIC ${e.delta_bic}`),
       e.indistinguishable.length ? [h("dt", {}, "not told from"), h("dd", {}, e.indistinguishable.map((t, k) => [k ? ", " : "", h("code", {}, t)]))] : null,
+      e.seen_from.length ? [h("dt", {}, "seen from"), h("dd", {}, e.seen_from.join("; "), " on (3 σ)")] : null,
       e.channels && e.channels.length ? [h("dt", {}, "needs"), h("dd", {}, e.channels.join(", "))] : null,
       e.limits ? [h("dt", {}, "limits"), h("dd", {}, e.limits)] : null,
       e.source ? [h("dt", {}, "source"), h("dd", {}, e.source)] : null),

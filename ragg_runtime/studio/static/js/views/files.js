@@ -1,7 +1,7 @@
 // Choose or drop files: model directories, test sheets, flights, below the folders that were named at the start.
 import { ask, Refused, upload } from "../api.js";
 import { counted, fill, h, number } from "../dom.js";
-import { look, on, server } from "../store.js";
+import { look, on, server, view } from "../store.js";
 import { doing, trouble } from "../doing.js";
 import { mappingPane } from "./mapping.js";
 
@@ -32,7 +32,7 @@ export function filesView(main) {
     fill(
       list,
       h("h2", {}, "Open"),
-      h("p.path", {}, found.roots.map((r) => h("button.quiet", { type: "button", onclick: () => show(r) }, r))),
+      found.roots.length > 1 && h("p.path", {}, found.roots.map((r) => h("button.quiet", { type: "button", onclick: () => show(r) }, r))),
       h("p.path", {}, h("code", {}, found.folder), found.above ? h("button", { type: "button", onclick: () => show(found.above) }, "↑ up") : null),
       h("ul.entries", {}, found.entries.map((e) => h("li", { class: e.kind },
         e.kind === "folder" ? h("button.quiet", { type: "button", onclick: () => show(e.path) }, `${e.name}/`)
@@ -49,7 +49,7 @@ export function filesView(main) {
   };
 
   const drop = h("section.card.drop", {},
-    h("p", {}, "Drop flights here (CSV, Parquet, NetCDF), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
+    h("p", {}, "Drop flights here (CSV, Parquet, NetCDF, HDF5, MATLAB, Excel, Geosoft XYZ, ASEG-GDF2), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
     h("p.note", {}, "They are laid into the folder flights of the model directory, never over another file. Columns carry their units: time [s], a_x [m/s^2], omega_x [deg/h], G_out [V] …"));
   const take = async (files) => {
     const paths = [];
@@ -75,6 +75,10 @@ export function filesView(main) {
   };
   fill(main, now, columns, drop, list);
   known();
+  if (view.columns) {
+    mappingPane(columns, view.columns, trouble);
+    look({ columns: "" }, true);
+  }
   show("");
   return on("server", known);
 }

@@ -11,7 +11,7 @@ const KEYS = [
   ["+, −", "zoom in and out"],
   ["[, ]", "move left and right"],
   ["0", "the whole flight"],
-  ["f", "next flight"],
+  ["f, o", "next flight, next output"],
   ["u, r", "undo, redo"],
   ["d", "light or dark"],
   ["wheel", "zoom about the pointer; with Shift: move"],

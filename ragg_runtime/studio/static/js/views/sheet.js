@@ -1,10 +1,14 @@
-// The test sheet as a table that can be edited: values of A1 ... A4 in display units, and how far they may be off.
+// The test sheet as a table that can be edited: values of every accelerometer in display units, and how sure the sheet is of them.
 import { fill, h, number, symbol } from "../dom.js";
 import { on, server } from "../store.js";
 import { doing } from "../doing.js";
 
+const parsed = (text) => (text.trim() === "" ? NaN : Number(text.trim().replace("−", "-").replace(",", ".")));
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+const plain = (v) => (Math.abs(v) >= 1e6 ? v.toExponential().replace("e+", "e") : String(v));
+
 export function sheetView(main) {
-  const changed = new Map();
+  const changed = new Map(); // name -> { value, sigma }, NaN where something is no number
   let shown = "";
 
   const known = () => {
@@ -14,7 +18,7 @@ export function sheetView(main) {
     if (key !== shown) {
       shown = key;
       changed.clear();
-      draw(state);
+      draw(state.sheet);
     }
     foot();
   };
@@ -22,43 +26,50 @@ export function sheetView(main) {
   const save = h("button.main", { type: "button", onclick: () => send() });
   const revert = h("button", { type: "button", onclick: () => ((shown = ""), known()) }, "Discard");
 
-  const draw = (state) =>
+  const sure = ({ sigma }) => (sigma === null ? "" : sigma.every((v) => v === sigma[0]) ? plain(sigma[0]) : sigma.map(plain).join("; "));
+  const draw = ({ names, rows }) =>
     fill(
       main,
       h("section.card", {},
         h("h2", {}, "Test sheet"),
-        h("p.note", {}, "The nominal values, as model.toml holds them; comments there are kept. “Plausible” is the size of error that would not surprise: the calibration moves a value by a few of these."),
-        h("div.wide", {}, h("table.numbers.sheet", {},
-          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), ["A1", "A2", "A3", "A4"].map((a) => h("th.n", {}, a)), h("th.n", {}, "plausible ±"))),
-          h("tbody", {}, state.sheet.map((row) => h("tr", {},
-            h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit),
-            row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: String(v), "aria-label": `${row.name} of A${k + 1}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, k, e.target) }))),
+        h("p.note", {}, "The nominal values, as model.toml holds them; comments there are kept. “Sure to” is how far the sheet says a value may be off, one standard deviation: one number for all accelerometers, or one for each with semicolons between. Where it is empty, the plausible error counts: one that would not surprise. The calibration moves a value by a few of these."),
+        h("div.wide", {}, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
+          h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "sure to ±"), h("th.n", {}, "plausible ±"))),
+          h("tbody", {}, rows.map((row) => h("tr", {},
+            h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
+            row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: plain(v), "aria-label": `${row.name} of ${names[k]}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.value[k] = parsed(e.target.value))) }))),
+            h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: number(row.plausible[0]), "aria-label": `${row.name}: how sure the sheet is, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
     );
 
-  const edit = (row, k, input) => {
-    const value = Number(input.value.replace("−", "-").replace(",", "."));
-    const good = input.value.trim() !== "" && Number.isFinite(value);
-    input.setAttribute("aria-invalid", String(!good));
-    const values = changed.get(row.name) || [...row.values];
-    values[k] = good ? value : NaN;
-    if (values.every((v, i) => v === row.values[i])) changed.delete(row.name);
-    else changed.set(row.name, values);
-    input.classList.toggle("edited", values[k] !== row.values[k]);
-    foot();
+  const sigmas = (text, count) => {
+    if (!text.trim()) return null;
+    const found = text.split(";").map(parsed), all = found.length === 1 ? Array(count).fill(found[0]) : found;
+    return all.length === count && all.every((v) => v > 0) ? all : [NaN];
   };
 
+  const edit = (row, input, set) => {
+    const now = changed.get(row.name) || { value: [...row.values], sigma: row.sigma };
+    set(now);
+    input.setAttribute("aria-invalid", String(invalid(input)));
+    if (same(now, { value: row.values, sigma: row.sigma })) changed.delete(row.name);
+    else changed.set(row.name, now);
+    input.classList.toggle("edited", changed.has(row.name) && input.value !== input.defaultValue);
+    foot();
+  };
+  const invalid = (input) => (input.placeholder ? bad({ value: [], sigma: sigmas(input.value, server.state.sheet.names.length) }) : !Number.isFinite(parsed(input.value)));
+
+  const bad = ({ value, sigma }) => [...value, ...(sigma || [])].some((v) => !Number.isFinite(v));
   const foot = () => {
-    const bad = [...changed.values()].some((v) => v.some(Number.isNaN));
     save.textContent = changed.size ? `Save ${changed.size} changed ${changed.size > 1 ? "parameters" : "parameter"}` : "Nothing changed";
-    save.disabled = !changed.size || bad || Boolean(server.state.status.job);
+    save.disabled = !changed.size || [...changed.values()].some(bad) || Boolean(server.state.status.job);
     revert.hidden = !changed.size;
   };
 
   const send = () => {
-    const values = Object.fromEntries([...changed].map(([name, value]) => [name, { value, unit: server.state.sheet.find((r) => r.name === name).unit }]));
-    doing("edit", { values });
+    const unit = (name) => server.state.sheet.rows.find((r) => r.name === name).unit;
+    doing("edit", { values: Object.fromEntries([...changed].map(([name, now]) => [name, { ...now, unit: unit(name) }])) });
   };
 
   known();

@@ -3,6 +3,8 @@ import { ask, Refused } from "../api.js";
 import { fill, h, number } from "../dom.js";
 import { look, on, server } from "../store.js";
 import { dotPlot } from "../plots/dots.js";
+import { curvesText } from "../plots/export.js";
+import { fileName, frame } from "../plots/figure.js";
 import { doing, trouble } from "../doing.js";
 
 const head = (names, words = 1) => h("thead", {}, h("tr", {}, names.map((n, k) => h(k < words ? "th" : "th.n", { scope: "col" }, n))));
@@ -45,12 +47,12 @@ export function surveyView(main) {
       x.of_this_model ? null : h("p.note", {}, "Made with an earlier state of the model: survey again to see this one."),
       h("p.row", {}, h("a", { href: "/api/take/survey.html", download: "survey.html" }, "The report"), h("a", { href: "/api/take/survey.json", download: "survey.json" }, "As JSON")),
       x.effects.length ? h("div.wide", {}, h("table.numbers", {}, head(["effect", "found in", "perhaps in", "testable in"]), h("tbody", {}, x.effects.map((e) => h("tr", {}, h("th", { scope: "row" }, h("code", {}, e.effect)), [e.found, e.perhaps, e.testable].map((n) => h("td.n", {}, String(n)))))))) : null);
-    const place_ = h("div.plot");
     const kinds = [["before", "calibrated, as the model is", 1], ["residual", "with the effects found", 3]];
-    fill(errors, h("figure", { "aria-label": "Error of every flight" }, h("figcaption", {}, h("h2", {}, "Error of every flight, Eo rms"),
-      h("div.legend", {}, kinds.map(([c, name]) => h("span", {}, h(`i.key.${c}`), name)), h("span", {}, h("i.key.noise"), "noise"))), place_));
     errors.hidden = !x.flights.length;
-    if (x.flights.length) plots.push(dotPlot(place_, { label: "Eo rms", log: true, picked: marked,
+    const figure = frame({ id: "errors-of-flights", title: "Error of every flight, Eo rms", kind: "figure", name: () => fileName("survey", "errors"), text: () => curvesText(plots[0].plot) });
+    figure.keys([...kinds.map(([c, name]) => [name, c]), ["noise", "noise", "dashed"]]);
+    fill(errors, figure.element);
+    if (x.flights.length) plots.push(dotPlot(figure.body, { label: "Eo rms", log: true, picked: marked,
       rows: [...kinds.map(([colour, name, k]) => ({ name, colour, values: x.flights.map((f) => f.errors[k]) })), { name: "noise", colour: "noise", step: true, values: x.flights.map((f) => f.errors[4]) }] }));
     drifting(x);
     fill(list, h("h2", {}, "Flights"), h("p.note", {}, "Error before demodulation, Eo rms. A name opens the flight."),
@@ -62,11 +64,13 @@ export function surveyView(main) {
     drift.hidden = !x.drawn.length;
     if (drift.hidden) return;
     chosen = Math.min(chosen, x.drawn.length - 1);
-    const t = x.drawn[chosen], box = h("div.plot");
-    fill(drift, h("figure", { "aria-label": "A parameter over the flights" }, h("figcaption", {}, h("h2", {}, "A parameter over the flights"),
-      h("select", { "aria-label": "Parameter", onchange: (e) => ((chosen = Number(e.target.value)), dropped(1), drifting(x)) }, x.drawn.map((d, k) => h("option", { value: String(k), selected: k === chosen }, `${d.label}, ${d.unit}${x.trends[k].varies ? " · varies" : ""}`)))),
-      h("p.note", {}, `Mean ${x.trends[chosen].mean} ${x.trends[chosen].unit}, scatter ${x.trends[chosen].scatter}; χ² per degree of freedom ${x.trends[chosen].chi2} over ${x.trends[chosen].count} flights. Bars: one standard uncertainty. The least constant parameters come first.`), box));
-    plots.push(dotPlot(box, { label: x.trends[chosen].unit, log: false, picked: marked, rows: [{ name: t.label, colour: "residual", values: t.values, stds: t.stds }] }));
+    const t = x.drawn[chosen], trend = x.trends[chosen];
+    const select = h("select", { "aria-label": "Parameter", onchange: (e) => ((chosen = Number(e.target.value)), dropped(1), drifting(x)) }, x.drawn.map((d, k) => h("option", { value: String(k), selected: k === chosen }, `${d.label}, ${d.unit}${x.trends[k].varies ? " · varies" : ""}`)));
+    const figure = frame({ id: "drift", title: "A parameter over the flights", kind: "figure", more: [select], name: () => fileName("survey", t.label), text: () => curvesText(plots[1].plot) });
+    fill(drift, figure.element);
+    const unit = trend.unit ? ` ${trend.unit}` : "";
+    figure.say(`Mean ${trend.mean}${unit}, scatter ${trend.scatter}${unit}; χ² per degree of freedom ${trend.chi2} over ${trend.count} flights. Bars: one standard uncertainty. The least constant parameters come first.`);
+    plots.push(dotPlot(figure.body, { label: trend.unit || t.label, log: false, picked: marked, rows: [{ name: t.label, colour: "residual", values: t.values, stds: t.stds }] }));
   };
   const marked = (k) => {
     list.querySelectorAll("tr.picked").forEach((r) => r.classList.remove("picked"));

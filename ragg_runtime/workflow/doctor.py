@@ -12,15 +12,21 @@ from pathlib import Path
 
 from ragg_runtime.base import transaction
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import read_text
 from ragg_runtime.base.folder import Folder, kind
 from ragg_runtime.base.form_version import NewerFormError
 from ragg_runtime.base.lock import locked
+from ragg_runtime.compensation import saved
+from ragg_runtime.flight.mapping import read_mapping
 from ragg_runtime.model_dir import derive, derived_cache
 from ragg_runtime.model_dir.directory import (
+    CALIBRATION,
     GENERATED,
     HISTORY,
+    LONGEST,
     MODEL,
     NAMES,
+    ModelDir,
     load_model_dir,
     replace_model_dir,
 )
@@ -59,7 +65,7 @@ def examined(path: Path, *, mend: bool) -> tuple[Finding, ...]:
         with contextlib.ExitStack() as held:
             if mend:
                 held.enter_context(locked(path, _PATIENCE))
-            found = [*_change(path, mend), *_history(path, mend)]
+            found = [*_change(path, mend), *_kept(path, mend)]
     except TimeoutError:
         raise UserError(
             "another command is changing the model", where=path, remedy="wait for it to end and try again"
@@ -71,7 +77,9 @@ def examined(path: Path, *, mend: bool) -> tuple[Finding, ...]:
     if not mend and any(f.open for f in found):
         return tuple(found)  # what else is wrong shows when that is mended
     try:
-        found += _code(path, mend)
+        current = load_model_dir(path)
+        found += _mapping(current)
+        found += _code(current, mend)
     except UserError as error:
         found.append(Finding(what=error.message, way_back="", open=True))
     return tuple(found)
@@ -111,30 +119,47 @@ def _change(path: Path, mend: bool) -> Iterator[Finding]:
     )
 
 
-def _history(path: Path, mend: bool) -> Iterator[Finding]:
-    """A history that cannot be read, or is no file."""
-    with Folder.at(path) as top:
-        status = top.status(HISTORY)
-    if status is None:
+def _kept(path: Path, mend: bool) -> Iterator[Finding]:
+    """A history or a calibration that cannot be read, or is no file; a mapping is left to whoever wrote it."""
+    for name, what, read, then in (
+        (HISTORY, "history", read_history, "a new history begins with the next step"),
+        (CALIBRATION, "saved calibration", _calibration, "without it: ragg calibrate ... --save"),
+    ):
+        with Folder.at(path) as top:
+            status = top.status(name)
+        if status is None:
+            continue
+        try:
+            if kind(status) != "a file":
+                raise UserError(f"the {what} is no file", where=path / name, found=kind(status))
+            read(path / name)
+        except NewerFormError:
+            raise
+        except UserError as error:
+            kept = _aside(path, name, f"{name}.damaged") if mend else ""
+            done = f"kept as {kept}; {then}"
+            yield Finding(what=error.message, way_back=done if mend else "", open=not mend)
+
+
+def _calibration(path: Path) -> object:
+    return saved.read(read_text(path, LONGEST), str(path))
+
+
+def _mapping(current: ModelDir) -> Iterator[Finding]:
+    """A mapping that is none."""
+    if current.mapping is None:
         return
     try:
-        if kind(status) != "a file":
-            raise UserError("the history is no file", where=path / HISTORY, found=kind(status))
-        read_history(path / HISTORY)
+        read_mapping(current.mapping)
     except NewerFormError:
         raise
     except UserError as error:
-        kept = _aside(path, HISTORY, f"{HISTORY}.damaged") if mend else ""
-        yield Finding(
-            what=error.message,
-            way_back=f"kept as {kept}; a new history begins with the next step" if mend else "",
-            open=not mend,
-        )
+        way_back = "mend it by hand, or remove it: ragg map FLIGHT writes a new one"
+        yield Finding(what=error.message, way_back=way_back, open=True)
 
 
-def _code(path: Path, mend: bool) -> Iterator[Finding]:
+def _code(current: ModelDir, mend: bool) -> Iterator[Finding]:
     """Code that is not what model.toml derives. Raises UserError where model.toml itself is wrong."""
-    current = load_model_dir(path)
     expected = derive.files_of(current.instrument)
     held = {} if current.generated is None else derived_cache.read(current.generated)
     if held == expected or current.unfinished:

@@ -1,0 +1,41 @@
+"""The radius of the circle on which the accelerometers sit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from derive.effect import Effect, EffectParameter, Values
+
+if TYPE_CHECKING:
+    from derive.context import Context
+
+
+def instrument(k: Mapping[str, sp.Expr], p: Values, c: Context) -> dict[str, sp.Expr]:
+    return {"dR": k["dR"] + p.delta_R}
+
+
+EFFECT = Effect(
+    id="arm-length",
+    title="Arms longer or shorter than the sheet says",
+    physics=(
+        "All accelerometers sit farther from the axis than the test sheet's radius, or nearer, by one length: another "
+        "drawing, a circle through the cases instead of the sensing elements, a diameter in place of a radius."
+    ),
+    source="paper, Eq. 5 to 9 (radius R of the disc)",
+    equation=r"R_j \leftarrow R_j + \Delta R",
+    limits=(
+        "What the four share; each one's own error is dR of the sheet, which takes it where the sheet is not sure of it. "
+        "In G_out alone it is the scale of everything but the specific force, as a scale of the accelerometers is."
+    ),
+    parameters=(
+        EffectParameter(
+            "delta_R", r"\Delta R", "mm", "arms less the sheet's radius", 0.1, shared=True, like="dR"
+        ),
+    ),
+    common_of="dR",
+    told_from=("K1",),
+    instrument=instrument,
+)
