@@ -167,12 +167,15 @@ def survey(
     """Diagnose many flights, each by itself, and sum them up."""
     from ragg_runtime.report import survey_text as text
     from ragg_runtime.survey import progress
+    from ragg_runtime.survey.table import check_place
     from ragg_runtime.survey.tls import say_unproven, tls_of
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.origin import of_survey
 
     tls = tls_of(tls_ca, tls_cert, tls_key)
     m = load(model_dir)
+    if table_file is not None:
+        check_place(Path(table_file))
     say_unproven(scheduler)
     with progress.results_file(resume) as file, progress.shown() as show:
         s = loop.survey(

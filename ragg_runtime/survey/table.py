@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import io
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.survey.task import Record
 
 TOGETHER = 512
@@ -57,6 +59,23 @@ def parquet(records: Sequence[Record]) -> bytes:
             rows = [_row(r) for r in records[start : start + TOGETHER]]
             writer.write_table(pa.Table.from_pylist(rows, schema=_SCHEMA))
     return stream.getvalue()
+
+
+def check_place(path: Path) -> None:
+    """UserError if a file stands there that is neither empty nor such a table: a record may be a Parquet file too."""
+    if not path.is_file() or not path.stat().st_size:
+        return
+    try:
+        known = pq.read_schema(path).names == _SCHEMA.names
+    except (OSError, pa.ArrowException):
+        known = False
+    if not known:
+        raise UserError(
+            "a table would be written over something else",
+            where=path,
+            found="a file that is no table of a survey",
+            remedy="name another file, or delete this one first",
+        )
 
 
 def _row(r: Record) -> dict[str, Any]:

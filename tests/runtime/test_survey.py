@@ -28,7 +28,7 @@ from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.table import parquet
+from ragg_runtime.survey.table import check_place, parquet
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
 
@@ -438,3 +438,15 @@ def test_trends_tell_constant_drifting_and_scattered_parameters() -> None:
     large = next(t for t in constant.summary.trends if t.name == "K1")
     assert 1e9 <= large.mean <= 1e9 + 0.01  # no digits lost to the large mean
     assert large.chi2 < 1.0
+
+
+def test_a_table_takes_the_place_of_a_table_alone(tmp_path: Path) -> None:
+    """A record was destroyed: it is a Parquet file as well."""
+    place = tmp_path / "x.parquet"
+    check_place(place)
+    for other in (b"PAR1", b"x"):
+        place.write_bytes(other)
+        with pytest.raises(UserError, match="written over something else"):
+            check_place(place)
+    place.write_bytes(parquet([]))
+    check_place(place)
