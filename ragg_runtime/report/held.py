@@ -45,7 +45,7 @@ def section(h: Held) -> dict[str, Any]:
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))[:MOVED]
     text = [
         f"{r['flight']}: {r['name']} was {r['frozen']:.5g} ± {r['frozen_std']:.2g}, is {r['value']:.5g} ± {r['std']:.2g}"
-        f" {r['unit']} ({r['z']:+.1f} standard deviations)."
+        f" {r['unit']} ({r['z']:+.1f} σ)."
         for r in rows
     ]
     text += [
