@@ -111,10 +111,11 @@ def _one_by_one(hooked: Hooked, c: Context) -> Iterator[tuple[Effect, Values]]:
 def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
     """Stage 1: the motion at the disc centre, by the axes of the disc at rest."""
     let = c.tape.let
+    c.standing = AXES if layout.has(AXES[0, 0]) else None
     for e, p in _one_by_one(hooked, c):
         if e.sensing:
             c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
-    if layout.has(AXES[0, 0]):
+    if c.standing is not None:
         c.axes = AXES
         c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
 

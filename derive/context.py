@@ -37,7 +37,8 @@ class Context:
 
     ``motion``, ``geometry``, ``force`` and ``sensed`` are those of the stages already passed; a hook of
     the stage ``instrument`` sees the force of the unchanged instrument. ``spin`` is that of the true disc
-    angle, ``case`` the motion of what stands on the disc. ``small`` are parameters at zero of which only the first order
+    angle, ``case`` the motion of what stands on the disc, ``standing`` the axes of a disc at rest that is not level, from
+    before the stage ``sensing`` on. ``small`` are parameters at zero of which only the first order
     counts, ``about`` what of a time derivative does.
     """
 
@@ -53,6 +54,7 @@ class Context:
     Omega: sp.Expr = OMEGA
     spin: Spin = RECORDED_SPIN
     axes: sp.Matrix | None = None
+    standing: sp.Matrix | None = None
     small: frozenset[sp.Symbol] = frozenset()
     about: About = EVERYTHING
 

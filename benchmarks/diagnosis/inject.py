@@ -19,6 +19,7 @@ from dataclasses import asdict, dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.evidence import sheet
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight, unknown_gradient
 from ragg_runtime.fit.columns import Column
@@ -124,8 +125,11 @@ def drawn(
     Several directions are tried. With ``beside`` (n, rows), projected columns of another effect, the strength
     is of what is left beside them.
     """
-    kind = next(e.kind for e in bench.fitted.model.candidates if e.id == effect)
+    candidate = next(e for e in bench.fitted.model.candidates if e.id == effect)
+    kind = candidate.kind
     if effect == "imu-saturation":  # its samples are left out: it has no strength
+        return None
+    if candidate.told_from and sheet.doubtful(bench.fitted, candidate):  # it is not offered
         return None
     if kind == "output":
         return _quantised(bench, strength) if effect == "quantisation" else _saturated(bench, strength)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
 from benchmarks.diagnosis import plan, score
 from benchmarks.diagnosis.score import OURS, Line, Peer, Share, of_kind, share
+
+CAMPAIGNS = Path(__file__).with_name("campaigns.md")
+"""What other campaigns measured, by hand; it stands at the end of the page."""
 
 PEERS = ("stepwise BIC", "lasso (BIC)", "PySINDy (SSR)", "FROLS")
 
@@ -20,6 +24,7 @@ def page(lines: Sequence[Line], *, complete: bool, sample: int = 0) -> str:
     introduction = _INTRODUCTION + (_NOT_INDEPENDENT if sample == 0 else _sample(sample))
     sections = [introduction + note, _targets(lines), _peers(lines), _groups(lines), _calibration(lines)]
     sections += [_effects(lines), _outside(lines), _failures(lines), _conditions(lines, sample)]
+    sections += [CAMPAIGNS.read_text("utf-8")] if sample == 0 else []
     return "\n".join(sections).rstrip() + "\n"
 
 

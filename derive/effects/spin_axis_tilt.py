@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 def sensing(m: Motion, p: Values, c: Context) -> Motion:
     # Seen by a disc that leans by alpha, everything else leans by -alpha: the spin axis stays its z.
     back = small_rotation(sp.Matrix([-p.alpha_x, -p.alpha_y, 0]), "tilt", c)
+    if (
+        c.standing is not None
+    ):  # about the disc's own axes: about the measurement frame's, one may be the spin's
+        own = c.standing * back * c.standing.T
+        back = sp.Matrix(3, 3, lambda i, k: c.tape.let(f"tilt_on_disc_{'xyz'[i]}{'xyz'[k]}", own[i, k]))
     return Motion(back * m.a, back * m.omega, back * m.omegadot, back * m.Gamma * back.T)
 
 
@@ -37,7 +42,14 @@ EFFECT = Effect(
         "but for the gradients, which alpha turns as well."
     ),
     parameters=tuple(
-        EffectParameter(f"alpha_{k}", rf"\alpha_{k}", "rad", f"lean about measurement {k}", 1e-4, shared=True)
+        EffectParameter(
+            f"alpha_{k}",
+            rf"\alpha_{k}",
+            "rad",
+            f"lean about the {k} axis of the disc at rest",
+            1e-4,
+            shared=True,
+        )
         for k in "xy"
     ),
     sensing=sensing,

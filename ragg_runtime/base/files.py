@@ -37,6 +37,12 @@ def replacing(path: Path) -> Iterator[Path]:
         target.place()
 
 
+def require_room(path: Path, size: int) -> None:
+    """OSError where so many bytes do not fit beside ``path``: for libraries that do not survive a full disc (HDF5)."""
+    if shutil.disk_usage(path.parent).free < size:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+
 class Target:
     """A file to be written: made and checked at once, prepared, put in its place, or given up by ``close``.
 

@@ -16,7 +16,8 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import replacing
+from ragg_runtime.base.files import replacing, require_room
+from ragg_runtime.flight.hdf5_file import COLUMN, TABLE
 
 ENDINGS: Mapping[str, str] = MappingProxyType(
     {
@@ -105,6 +106,7 @@ def _text(path: Path, compressed: bool) -> Iterator[IO[bytes]]:
 def _netcdf(path: Path, units: Mapping[str, str], samples: int) -> Iterator[Write]:
     import h5netcdf  # slow to import, and only this format needs it
 
+    require_room(path, TABLE + len(units) * (samples * 8 + COLUMN))
     with h5netcdf.File(path, "w") as file:
         file.dimensions = {"time": samples}
         for n, unit in units.items():

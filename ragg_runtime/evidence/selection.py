@@ -56,6 +56,8 @@ class Field:
         Degrees of freedom from which the noise is known.
     blocks
         Triangles of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
+    freed
+        Effect id -> the field as if the sheet did not know the parameter that the effect is the common part of (``sheet``).
     """
 
     T: Array
@@ -65,6 +67,7 @@ class Field:
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
     blocks: tuple[Array, ...] = ()
+    freed: Mapping[str, Field] = field(default_factory=dict)
     norms: Array = field(init=False)
     P: Array = field(init=False)
     _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
@@ -113,17 +116,33 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given
         }
-        return {e: self._tempered(t, given, floor) for e, t in found.items()} if self.blocks else found
+        if self.blocks and any(map(self._raises, found.values())):
+            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
+        return found
 
-    def _tempered(self, t: Test, given: Sequence[str], floor: Array) -> Test:
-        """A test as sure as the scores in blocks of time are; those that say nothing anyway stay as they are."""
-        if not t.rank or t.log_p > np.log(FAMILY):
-            return t
-        n = self.n_base
-        before = [*range(n), *(n + k for e in given for k, _ in self.candidates[e])]
-        tested = [n + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        by = uneven.inflation(self.T, self.blocks, before, tested)
-        return uneven.tempered(t, by, self.freedom, len(self.blocks))
+    def _raises(self, t: Test) -> bool:
+        """Whether a test says anything: those that do not stay as they are."""
+        return t.rank > 0 and t.log_p <= np.log(FAMILY)
+
+    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are."""
+        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
+
+    def plain(self, best: str, tests: Mapping[str, Test], given: Sequence[str], count: int) -> str:
+        """The effect that tests put first, or one that says what it says in plain words: that a length of the sheet is wrong.
+
+        That is so if it is as sure, and the first nothing any more beside a sheet that does not know the length.
+        """
+        for e, free in self.freed.items():
+            t = tests.get(e)
+            if t is None or e == best or t.log_p > tests[best].log_p + AS_SURE:
+                continue
+            if significant(t, count) and not significant(free.tests(given)[best], count):
+                return e
+        return best
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -168,11 +187,11 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
             remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
         ):
             break
-        best = ranked[0][1]
+        best = f.plain(ranked[0][1], remaining, chosen, count)
         chosen.append(best)
         blocks[best] = remaining[best].which
         if len(chosen) > 1:
-            chosen, blocks = _swap(f, chosen, blocks)
+            chosen, blocks = _swap(f, chosen, blocks, count)
         chosen, blocks = _drop(f, chosen, blocks, count)
         remaining = f.tests(chosen)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
@@ -180,14 +199,14 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
 
 
 def _swap(
-    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]]
+    f: Field, chosen: list[str], blocks: dict[str, tuple[int, ...]], count: int
 ) -> tuple[list[str], dict[str, tuple[int, ...]]]:
     for old in tuple(chosen):
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         ranked = sorted((t.log_p, e) for e, t in conditional.items())
-        if ranked and ranked[0][1] != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
-            best = ranked[0][1]
+        best = f.plain(ranked[0][1], conditional, others, count) if ranked else old
+        if best != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
     return chosen, blocks
@@ -230,7 +249,12 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
     freedom = sum(n.freedom for n in f.calibration.noise)
     blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
     T = f.whole if T is None else T
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks)
+    common = [e for e in f.model.candidates if e.id in kept and e.common_of is not None]
+    free = {
+        e.id: Field(f.freed(str(e.common_of), range(f.size - f.n_base)), f.n_base, kept, f.calibration.rows)
+        for e in common
+    }
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, freed=free)
 
 
 def testable_effects(f: Fitted) -> list[str]:

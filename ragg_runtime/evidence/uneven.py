@@ -10,7 +10,7 @@ That ratio is known from so many blocks: the test then follows Fisher's F, as on
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,25 +27,58 @@ DIRECTIONS = 1e-7
 """Relative size below which a direction of the tested columns is rounding."""
 
 
-def inflation(T: Array, blocks: Sequence[Array], given: Sequence[int], tested: Sequence[int]) -> float:
+@dataclass(frozen=True)
+class Beside:
+    """A triangle [columns | data] and those of blocks of time, whatever is in the model projected out.
+
+    Attributes
+    ----------
+    T, blocks
+        Triangles: of everything, and of those blocks in which there is any sample.
+    base, others
+        What is in the model: the first so many columns, and others.
+    B
+        (base + others, columns + 1): what these explain of every column, and of the data.
+    data
+        What is left of the data, of everything and of each block.
+    """
+
+    T: Array
+    blocks: Sequence[Array]
+    base: int
+    others: Sequence[int]
+    B: Array = field(init=False)
+    data: tuple[Array, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        given = [*range(self.base), *self.others]
+        object.__setattr__(self, "B", np.linalg.lstsq(self.T[:, given], self.T, rcond=None)[0])
+        object.__setattr__(self, "data", tuple(self.left(t, [-1])[:, 0] for t in (self.T, *self.blocks)))
+
+    def left(self, t: Array, columns: Sequence[int]) -> Array:
+        """What is left of some columns of the triangle of everything, or of a block."""
+        n = self.base
+        found = t[:, columns] - t[:, :n] @ self.B[:n, columns]
+        return np.asarray(found - t[:, self.others] @ self.B[n:, columns] if self.others else found)
+
+
+def inflation(beside: Beside, tested: Sequence[int]) -> float:
     """How much more the scores vary than they should: at least 1.
 
-    That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions.
-    ``T`` is the triangle [columns | data], ``blocks`` those of blocks of time with any sample; ``given`` are in the model, ``tested``
-    beside them. What is left of the data has both fitted, so that what is tested raises no doubt about itself.
+    That is the variance of a block's scores, relative to that of noise of unit variance, mean over directions. What is left
+    of the data has the columns ``tested`` fitted, too, so that what is tested raises no doubt about itself.
     """
-    if len(blocks) < FEWEST:
+    if len(beside.blocks) < FEWEST:
         return 1.0
-    B = np.linalg.lstsq(T[:, given], T[:, tested], rcond=None)[0]
-    X = T[:, tested] - T[:, given] @ B
-    _, s, Vt = np.linalg.svd(X, full_matrices=False)
+    whole, *parts = beside.data
+    U, s, Vt = np.linalg.svd(beside.left(beside.T, tested), full_matrices=False)
     known = s > DIRECTIONS * s[0]
     W = Vt[known].T / s[known]
-    fitted = [*given, *tested]
-    g = np.linalg.lstsq(T[:, fitted], T[:, -1], rcond=None)[0]
+    g = W @ (U[:, known].T @ whole)
     power = 0.0
-    for t in blocks:
-        score = W.T @ (t[:, tested] - t[:, given] @ B).T @ (t[:, -1] - t[:, fitted] @ g)
+    for t, y in zip(beside.blocks, parts, strict=True):
+        X = beside.left(t, tested)
+        score = W.T @ (X.T @ (y - X @ g))
         power += float(score @ score)
     return max(1.0, power / int(np.sum(known)))
 

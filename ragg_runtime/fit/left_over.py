@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
+from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.signals.fir import GROUP, filtered
@@ -172,11 +173,17 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     bins = size // 2 + 1
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
-    for k in range(0, len(columns), GROUP):
-        part = columns[k : k + GROUP]
-        x = np.zeros((len(part), n))
-        x[:, valid] = part * window[valid]
-        waves[k : k + GROUP] = fft.rfft(x, size, axis=1)[:, some]
+
+    def seen(group: slice) -> None:
+        part = columns[group] * window[valid]
+        if not valid.all():
+            x = np.zeros((len(part), n))
+            x[:, valid] = part
+            part = x
+        waves[group] = fft.rfft(part, size, axis=1)[:, some]
+
+    for _ in mapped(seen, stretches(len(columns), GROUP)):
+        pass
     taken = np.sum(np.abs(directions.T @ waves) ** 2, axis=0)
     left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
     return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, np.maximum(left, 0.0)))

@@ -81,9 +81,23 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as numbers of 17 digits, what is missing as empty cells; a sheet for each line."""
     from openpyxl import Workbook  # slow to import, and only this format needs it
-    from openpyxl.cell import WriteOnlyCell
 
     book = Workbook(write_only=True)
+    try:
+        _fill(book, path, tables)
+        book.save(path)
+    except OSError:
+        for sheet in book.worksheets:  # else they complain on stderr when they are cleared away
+            for half in (sheet._rows, sheet._writer.xf):
+                with contextlib.suppress(OSError, AttributeError):
+                    half.close()
+        raise
+    _undated(path)
+
+
+def _fill(book: Any, path: Path, tables: Sequence[Written]) -> None:
+    from openpyxl.cell import WriteOnlyCell
+
     taken: set[str] = set()
     for number, table in enumerate(tables, 1):
         rows = len(table.columns[0][1]) if table.columns else 0
@@ -107,8 +121,6 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
             part = np.column_stack([np.asarray(v[start : start + _AT_ONCE]) for _, v in table.columns])
             for row in part.tolist():
                 sheet.append([_number(sheet, v) if np.isfinite(v) else None for v in row])
-    book.save(path)
-    _undated(path)
 
 
 def _number(sheet: Any, value: float) -> Any:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import require_room
 from ragg_runtime.flight.shapes import Place, places
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
 
@@ -48,6 +49,7 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
 
     from ragg_runtime.flight.hdf5_attributes import write_text
 
+    require_room(path, room_for(tables))
     with h5py.File(path, "w", track_order=True) as file:
         for number, table in enumerate(tables):
             group = file
@@ -59,6 +61,16 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
                 write_text(data, "name", column.name)
                 if column.unit:
                     write_text(data, "units", column.unit)
+
+
+COLUMN, TABLE = 8192, 1 << 16
+"""Bytes that a column takes beside its numbers, and a table beside its columns, with room to spare."""
+
+
+def room_for(tables: Sequence[Written]) -> int:
+    """Bytes that a file of these tables takes at most."""
+    columns = [np.asarray(v) for t in tables for _, v in t.columns]
+    return TABLE * (len(tables) + 1) + sum(8 * x.size + COLUMN for x in columns)
 
 
 def tables_of(path: Path, look: Look, unit: UnitOf) -> list[Table]:

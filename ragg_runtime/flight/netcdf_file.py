@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import require_room
 from ragg_runtime.flight import hdf5_file
 from ragg_runtime.flight.one_table import joined
 from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading
@@ -75,6 +76,7 @@ def write_tables(path: Path, tables: Sequence[Written]) -> None:
                 "flag_meanings": " ".join("_".join(n.split()) for n in names),
             }
         variables[c.name] = ("time", values, attributes)
+    require_room(path, hdf5_file.room_for(tables))
     xarray.Dataset(variables).to_netcdf(path, engine="h5netcdf")
 
 

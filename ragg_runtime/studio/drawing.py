@@ -162,8 +162,8 @@ def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
         spin or top / MULTIPLES,
         min(top, r.rate / 2),
     )
-    if found is None:
-        raise UserError("the stretch is too short for a spectrogram")
+    if found is None or not np.isfinite(found.density).any():
+        raise UserError("no stretch without gaps is long enough for a spectrogram")
     t, g = found.time, found.frequency
     head = struct.pack("<4sIIdddd", b"RAGS", len(t), len(g), t[0], t[-1], g[0], g[-1])
     return head + np.ascontiguousarray(found.density, dtype="<f4").tobytes()

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.errors import UserError, one_line
 
 
 class Cancelled(Exception):
@@ -113,6 +113,8 @@ class Jobs:
         except UserError as e:
             facts = ("what", "where", "found", "expected", "remedy")
             error = {k: getattr(e, k) for k in facts}
+        except OSError as e:
+            error = {"what": e.strerror or "the system refuses", "where": _shown(e.filename)}
         except MemoryError:
             error = {"what": "there is not enough memory for this; nothing was changed"}
         except Exception:
@@ -120,3 +122,7 @@ class Jobs:
             error = {"what": "this is a fault of the program, not of your input; the terminal shows where"}
         finally:
             self._tell(name="", share=0.0, error=error)
+
+
+def _shown(name: object) -> str | None:
+    return None if name is None else one_line(str(name))

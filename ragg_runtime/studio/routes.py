@@ -263,12 +263,19 @@ async def _body(request: Request) -> dict[str, Any]:
     if request.headers.get("content-type", "").split(";")[0] != "application/json":
         raise UserError("the body must be JSON", where=str(request.url.path))
     try:
-        body = json.loads(await request.body())
+        body = json.loads(await request.body(), parse_int=_whole)
     except (ValueError, RecursionError):
         raise UserError("the body is no JSON", where=str(request.url.path)) from None
     if not isinstance(body, dict):
         raise UserError("the body is no table", where=str(request.url.path))
     return body
+
+
+def _whole(text: str) -> int:
+    """A whole number that a float holds as well: whatever the page asks for is far smaller."""
+    if abs(number := int(text)) > 1 << 53:
+        raise ValueError("a number is out of range")
+    return number
 
 
 async def _do(session: Session, request: Request) -> Response:

@@ -138,7 +138,7 @@ class Session:
             part("reading the flights", 1.0)
             g0 = self.state.model.instrument.g0
             looks = tuple(_drawn(glance(p, g0)) for p in flights)
-            self._put(**_nothing(), paths=flights, flights=(), glances=looks)
+            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks)
             part("reading and examining the flights", 1.0)
             read = tuple(loop.read_flights(self.state.model, flights))
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights

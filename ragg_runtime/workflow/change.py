@@ -137,7 +137,9 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
     """The effect as model.toml will list it, its values still open but for the instant of a step; UserError if it
     cannot be added.
     """
-    symbolic = derive.offered(m.instrument, effect)
+    # a candidate of the model tells all that is asked here: the derivation, half a second to begin, is for others
+    found = next((e for e in m.model.candidates if e.id == effect), None)
+    offered = derive.offered(m.instrument, effect) if found is None else found
     present = next((s for s in m.instrument.effects if s.id == effect), None)
     if present is not None and present.values:
         raise UserError(
@@ -147,7 +149,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
             remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
         )
     for x in flights:
-        missing = missing_channels(symbolic, x.channels)
+        missing = missing_channels(offered, x.channels)
         if missing:
             raise UserError(
                 f"the effect {effect} needs a channel that the flight lacks",
@@ -157,7 +159,7 @@ def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting
                 remedy="record it, or choose another effect",
             )
     values: dict[str, RawQuantity] = {}
-    if symbolic.kind == "step" and flights:
+    if offered.kind == "step" and flights:
         values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
     expression = present.expression if present is not None else None
     return EffectSetting(effect, MappingProxyType(values), expression)

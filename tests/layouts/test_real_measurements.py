@@ -10,6 +10,7 @@ import pytest
 
 from examples.mimu import by_hand, clocks, record, story, variants, what_remains
 from examples.mimu.sheet import sheet
+from ragg_runtime.evidence.sheet import doubtful
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
@@ -26,6 +27,15 @@ def calibrated(i: Instrument, *names: str) -> Fitted:
     model, _ = derive.derived((), (), i.form, i.layout)
     flights = [read_flight(HERE / f"{n}.parquet", i.g0, accelerometers=i.layout) for n in names]
     return fit(model, i, observations_of(flights, i))
+
+
+def calibrated_beside(i: Instrument) -> Fitted:
+    """The motion alone, with the candidates' columns."""
+    return fit(
+        derive.model_of(i),
+        i,
+        observations_of([read_flight(HERE / "motion.parquet", i.g0, accelerometers=i.layout)], i),
+    )
 
 
 def values(c: Calibration, name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -99,6 +109,22 @@ def test_the_lever_arm_that_is_left_out_is_found_and_agrees_with_the_survey() ->
         assert abs(arm[name].value - known) < 3 * arm[name].std
     assert arm["l_z"].std < 3e-4
     assert "more than accelerometers of this sheet can have" in str(d.remark)
+
+
+def test_the_arm_length_that_is_left_out_is_found_and_agrees_with_the_survey() -> None:
+    d = story.diagnosed(story.LEFT_OUT["arm length"])
+    assert set(d.found) == {"arm-length", "gyro-delay"}
+    (length,) = (q for r in d.ranking if r.effect == "arm-length" for q in r.parameters)
+    assert abs(length.value - story.SHORT) < 3 * length.std
+    assert length.std < 0.15
+
+
+def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
+    text = story.LEFT_OUT["arm length"].replace("11.96 mm", "13.364 mm")
+    i = parse_instrument(text.replace("dR = { value = 0,", "dR = { value = [-3, 0, 0, 0],"))
+    f = calibrated_beside(i)
+    (longer,) = (e for e in f.model.candidates if e.id == "arm-length")
+    assert "not what all accelerometers have in common" in str(doubtful(f, longer))
 
 
 def test_saturation_that_is_left_unmarked_is_found(tmp_path: Path) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -20,6 +22,7 @@ from ragg_runtime.flight import mat_file
 from ragg_runtime.flight.convert import convert
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.formats import ALL, open_file
+from ragg_runtime.flight.hdf5_file import room_for
 from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.survey.journal import sha256
@@ -204,3 +207,37 @@ def test_a_killed_writer_of_a_workbook_leaves_what_the_next_clears_away(tmp_path
     assert list(temporary.iterdir()) == []
     write_tables(target, lambda: written(5, ()))
     assert sorted(p.name for p in tmp_path.iterdir()) == ["tmp", "x.xlsx"]
+
+
+@pytest.mark.parametrize("ending", [".nc", ".h5"])
+def test_a_disc_without_room_is_asked_beforehand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str
+) -> None:
+    """HDF5 does not survive a write that fails: it ended in a crash as the process ended."""
+    path, tables = tmp_path / f"x{ending}", written(500, ("10", "20"))
+    room = room_for(tables)
+    full = shutil.disk_usage(tmp_path)._replace(free=room - 1)
+    with monkeypatch.context() as patch:
+        patch.setattr(shutil, "disk_usage", lambda place: full)
+        with pytest.raises(UserError, match=os.strerror(errno.ENOSPC)):
+            write_tables(path, lambda: tables)
+    assert list(tmp_path.iterdir()) == []
+    write_tables(path, lambda: tables)
+    assert path.stat().st_size <= room
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
+def test_a_full_disc_amidst_a_workbook_is_one_message(tmp_path: Path) -> None:
+    """What openpyxl had begun complained on stderr as it was cleared away."""
+    write_tables(tmp_path / "x.csv", lambda: written(5000, ()))
+    script = (
+        "import resource, sys\nfrom ragg_runtime.cli.main import main\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))\nmain(sys.argv[1:])"
+    )
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    command = [sys.executable, "-c", script, "convert", str(tmp_path / "x.csv"), str(tmp_path / "y.xlsx")]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"ragg: {tmp_path / 'y.xlsx'}: the file cannot be written")
+    assert len(done.stderr.splitlines()) == 2
+    assert [p.name for p in tmp_path.iterdir()] == ["x.csv"]

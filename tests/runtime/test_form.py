@@ -134,13 +134,13 @@ def test_a_flight_without_noise_is_predicted_by_the_form_that_flew(form: Form) -
     """Nominal error below 0.1 Eo; measured below 1e-5."""
     instrument = replace(parse_instrument(EXAMPLE), form=form)
     flight = simulated(instrument, (), noise=0.0, sheet_error=0.0, duration=120.0)
-    model = derive.model_of(instrument)
+    model = derive.without_signatures(instrument, form)
     p = vector(model, instrument)
     r = record(flight, instrument)
     left = (flight.outputs["G_out"] - output(model.chain, r, p)) / scale_factor(model, p)
     assert np.sqrt(np.mean(left**2)) < 1e-5
     other = replace(instrument, form=PAPER if form == EXACT else EXACT)
-    away = derive.model_of(other)
+    away = derive.without_signatures(other, other.form)
     q = vector(away, other)
     left = (flight.outputs["G_out"] - output(away.chain, r, q)) / scale_factor(away, q)
     assert np.sqrt(np.mean(left**2)) > 0.1

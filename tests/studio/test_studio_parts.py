@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import math
+import os
 import re
 import struct
 import time
@@ -18,17 +20,21 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.flight import write_flight
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.studio import mapping, session
+from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.branches import branches, tree
+from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
+from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.surveys import flights_below
 from ragg_runtime.studio.timeline import missing
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.simulate import simulated
 
 
 @pytest.fixture(scope="module")
@@ -217,6 +223,31 @@ def test_a_survey_takes_the_flights_of_a_folder_and_nothing_beside(tmp_path: Pat
     assert flights_below(root, places) == [root / "a" / "b" / "flight.csv"]
     with pytest.raises(UserError, match="a survey needs flights"):
         flights_below(root / "link", places)
+
+
+def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
+    """Its reading, and its failure, ended in a fault of the program: what was left out of the flight before was kept."""
+    m = loop.new(tmp_path / "model")
+    flight = simulated(m.instrument, [], seed=3, duration=30.0, rate=8.0)
+    write_flight(flight, tmp_path / "x.csv")
+    (tmp_path / "y.csv").write_text("x\n1\n")
+    s = Session(Places((tmp_path,)))
+    s._put(loaded=m, paths=(tmp_path / "x.csv",), flights=(flight,), read=(flight,), cuts=((),))
+    s.open(None, [tmp_path / "y.csv"])
+    s.jobs.wait(60)
+    assert s.jobs.status.error is not None
+    assert views.overview(s.state, "0")["flights"] == []
+    assert views.commands(s.state)
+
+
+def test_what_the_system_refuses_is_no_fault_of_the_program() -> None:
+    def work(part: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "/tmp/x\n")
+
+    jobs = Jobs()
+    jobs.start("x", work)
+    jobs.wait(10)
+    assert jobs.status.error == {"what": os.strerror(errno.ENOSPC), "where": "/tmp/x\\n"}
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:

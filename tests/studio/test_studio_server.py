@@ -203,6 +203,10 @@ def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
         assert client.post("/api/mapping", json=body).status_code == 400
     assert client.get("/api/mapping", params={"flight": "/etc/passwd"}).status_code == 400
     assert client.post("/api/do/compensate", json={"calibration": 3}).status_code == 400
+    for huge in (10**400, -(10**30)):  # no float holds the first
+        values = {"K0": {"value": [huge, 0, 0, 0], "unit": "ug"}}
+        assert client.post("/api/do/edit", json={"values": values}).status_code == 400
+        assert client.post("/api/do/leave", json={"flight": 0, "from": huge, "to": 1}).status_code == 400
     assert client.post("/api/do/restore", json={"step": True}).status_code == 400
     assert client.post("/api/do/unheard-of", json={}).status_code == 400
 

@@ -11,7 +11,7 @@ const fonts = () => {
 };
 export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
 
-const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2) : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
+const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2).replaceAll("\u202f", "") : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
 
 export function axis(label, more = {}) {
   return {
@@ -32,7 +32,7 @@ export const logValues = (u, found) => {
     const m = v / 10 ** Math.floor(Math.log10(v) + 1e-9);
     const keep = decades > 3.2 ? m < 1.01 : m < 1.01 || Math.abs(m - 2) < 0.01 || Math.abs(m - 5) < 0.01;
     if (!keep) return "";
-    return v >= 1e-3 && v < 1e5 ? String(Number(v.toPrecision(3))) : `10${superscript(Math.round(Math.log10(v)))}`;
+    return v >= 1e-3 && v < 1e5 ? String(Number(v.toPrecision(3))) : `${m > 1.01 ? `${Math.round(m)}·` : ""}10${superscript(Math.floor(Math.log10(v) + 1e-9))}`;
   });
 };
 

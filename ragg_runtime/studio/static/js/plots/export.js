@@ -52,7 +52,9 @@ function path(plot, k) {
   for (let i = 0; i < x.length; i++) {
     const v = plot.data[k][i];
     if (!held(v) || !inside(plot, x[i])) { pen = "M"; continue; }
-    d += `${pen}${plot.valToPos(x[i], "x").toFixed(1)} ${plot.valToPos(v, s.scale).toFixed(1)}`;
+    const at = plot.valToPos(x[i], "x").toFixed(1);
+    d += `${pen}${at} ${plot.valToPos(v, s.scale).toFixed(1)}`;
+    if (s.paired && plot.data[k + 1][i] !== v) d += `V${plot.valToPos(plot.data[k + 1][i], s.scale).toFixed(1)}`;
     pen = "L";
   }
   return d;
@@ -60,7 +62,7 @@ function path(plot, k) {
 
 function curve(plot, k) {
   const s = plot.series[k], stroke = stroked(plot, k);
-  if (!s.show || !plot.data[k] || !stroke) return "";
+  if (!s.show || !plot.data[k] || !stroke || plot.series[k - 1].paired) return ""; // the other half of a pair is drawn with it
   const points = s.points && typeof s.points.show === "boolean" && s.points.show;
   if (points) {
     return plot.data[0].map((x, i) => (held(plot.data[k][i]) && inside(plot, x) ? `<circle cx="${plot.valToPos(x, "x").toFixed(1)}" cy="${plot.valToPos(plot.data[k][i], s.scale).toFixed(1)}" r="3" fill="${stroke}"/>` : "")).join("");

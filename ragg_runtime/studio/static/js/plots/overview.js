@@ -10,7 +10,7 @@ export function overview(box, { whole, limits, moved, marks }) {
       series: [{}, { stroke: () => colour("before"), width: 1, points: { show: false } }, { stroke: () => colour("before"), width: 1, points: { show: false } }],
       bands: [{ series: [2, 1], fill: () => colour("before") }],
       axes: [axis(undefined, { labelSize: 0, label: undefined }), { show: false }],
-      padding: [2, rem(), 0, 4.2 * rem()],
+      padding: [2, rem(), 0, 4.6 * rem()],
       cursor: { show: false },
       hooks: { drawAxes: [(u) => marked(u, marks())], draw: [() => shade()] },
     },

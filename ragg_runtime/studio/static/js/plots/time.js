@@ -15,17 +15,43 @@ function aligned(base, other, which) {
 }
 
 /**
- * @param lines [{name, colour, width, dash}] in the order in which they are drawn
+ * From least to greatest value and on to the next stretch, in one stroke: a tenth of the time that two outlines and what lies between
+ * them take to paint. Series k holds the least values, series k + 1 the greatest.
+ */
+function zigzag(u, k, first, last) {
+  const [x, low, high] = [u.data[0], u.data[k], u.data[k + 1]], { left, top, width, height } = u.bbox;
+  const { min: x0, max: x1 } = u.scales.x, { min: y0, max: y1 } = u.scales.y;
+  const across = width / (x1 - x0), up = height / (y1 - y0), stroke = new Path2D();
+  u.ctx.lineJoin = "bevel"; // round ones cost more than the lines
+  let pen = false;
+  for (let i = first; i <= last; i++) {
+    if (low[i] === null || low[i] === undefined) {
+      pen = false;
+      continue;
+    }
+    const at = left + (x[i] - x0) * across;
+    if (pen) stroke.lineTo(at, top + (y1 - low[i]) * up);
+    else stroke.moveTo(at, top + (y1 - low[i]) * up);
+    if (high[i] !== low[i]) stroke.lineTo(at, top + (y1 - high[i]) * up);
+    pen = true;
+  }
+  return { stroke, fill: null, clip: null, band: null, gaps: null, flags: 0 };
+}
+
+/**
+ * @param lines [{name, colour, dash, alpha, band}] in the order in which they are drawn; a band is filled between its edges
  * @param moved is given the limits that the user wants
  */
 export function timePlot(box, { label, lines, moved, level, limits, unit }) {
   const series = [{}];
   const bands = [];
   for (const line of lines) {
-    const stroke = () => colour(line.colour) + (line.dimmed && line.dimmed() ? "70" : "");
-    const common = { stroke, width: line.width || 1, dash: line.dash, points: { show: false }, spanGaps: false };
-    series.push({ ...common, label: line.name }, { ...common, label: `${line.name} ` });
-    bands.push({ series: [series.length - 1, series.length - 2], fill: () => `${colour(line.colour)}${line.dimmed && line.dimmed() ? "30" : line.alpha || "a0"}` });
+    const stroke = () => colour(line.colour) + (line.dimmed && line.dimmed() ? "70" : line.alpha || "");
+    // one pixel: wider strokes take ten times as long where no graphics card paints
+    const common = { stroke, width: line.band ? 0 : 1, dash: line.dash, points: { show: false }, spanGaps: false };
+    const drawn = line.band ? [{}, {}] : [{ paths: zigzag, paired: true }, { paths: () => null }];
+    series.push({ ...common, label: line.name, ...drawn[0] }, { ...common, label: `${line.name} `, ...drawn[1] });
+    if (line.band) bands.push({ series: [series.length - 1, series.length - 2], fill: stroke });
   }
   const made = mounted(
     box,
@@ -35,7 +61,7 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
         y: { range: (u, low, high) => reach(low, high, level ? level() : 0) },
       },
       series, bands,
-      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.2 * rem() })],
+      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.6 * rem() })],
       cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {
         draw: [(u) => noise(u, level)],

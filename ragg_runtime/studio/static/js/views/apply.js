@@ -76,7 +76,7 @@ export function applyView(main) {
     fill(figures, panels.map((p) => p.element));
     plots = panels.map(({ body }, k) => ({ name: c.channels[k], box: body, made: timePlot(body, {
       limits, moved, unit: () => "Eo", label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
-      lines: [{ name: "±", colour: "before", width: 0, alpha: "80" }, { name: "value", colour: "residual", width: 1.2 }],
+      lines: [{ name: "±", colour: "before", band: true, alpha: "80" }, { name: "value", colour: "residual" }],
     }) }));
     draw();
   };

@@ -30,7 +30,7 @@ export function banner(box) {
         b.lead.map((t) => h("p.lead", {}, t)),
         h("p.flags", {},
           b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
-          h("span.flag", {}, b.adequate && b.verdict !== "unexplained" ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
+          h("span.flag", {}, (b.adequate && b.verdict !== "unexplained") || times < 1 ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
           h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
       ),
       h("dl.errors", {},

@@ -46,10 +46,10 @@ export function figures(box) {
 
   const plots = {
     strip: overview(strip, { whole, limits, moved, marks }),
-    measured: timePlot(measured.body, { limits, moved, unit: unitName, lines: [{ name: "measured", colour: "before", width: 1.5 }, { name: "model", colour: "residual", width: 1 }] }),
+    measured: timePlot(measured.body, { limits, moved, unit: unitName, lines: [{ name: "measured", colour: "before" }, { name: "model", colour: "residual" }] }),
     residual: timePlot(residual.body, {
       label: "time since the first sample, s", limits, moved, level, unit: unitName,
-      lines: [{ name: "before", colour: "before", width: 1, alpha: "30" }, { name: "residual", colour: "residual", width: 1, dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", width: 1.8, alpha: "66" }],
+      lines: [{ name: "before", colour: "before" }, { name: "residual", colour: "residual", dimmed: () => Boolean(laid()) }, { name: "laid over it", colour: "effect", alpha: "d0" }],
     }),
     spectrum: spectrumPlot(spectrum.body, { band, banded, harmonic }),
     spectrogram: spectrogramPlot(gram.body, { limits, moved, band, banded, harmonic, spin }),
