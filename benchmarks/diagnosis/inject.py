@@ -129,7 +129,7 @@ def drawn(
     kind = candidate.kind
     if effect == "imu-saturation":  # its samples are left out: it has no strength
         return None
-    if candidate.told_from and sheet.doubtful(bench.fitted, candidate):  # it is not offered
+    if candidate.told_from and sheet.doubtful(bench.fitted, effect):  # it is not offered
         return None
     if kind == "output":
         return _quantised(bench, strength) if effect == "quantisation" else _saturated(bench, strength)

@@ -124,7 +124,7 @@ def questions(c: Case) -> Iterator[tuple[str, bool, str]]:
         d = ask(c, sheet(height="0 mm", lift="0.3"))
         yield "lever arm", *agrees(d, "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
     free = flat if same else sheet(height=own, lift="10")
-    short = sheet(height="0 mm" if same else own, lift="10", radius=f"{RADIUS - SHORT:.4g} mm", arm="0.02")
+    short = sheet(height="0 mm" if same else own, lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02")
     yield "arm length", *agrees(ask(c, short), "arm-length", {"delta_R": SHORT}, SCATTER)
     yield "gyro scale", *agrees(ask(c, free, MISREAD), "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)
     d = ask(c, sure_of_angles(free))

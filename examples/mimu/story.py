@@ -65,7 +65,7 @@ SHORT = 1.4
 
 LEFT_OUT: Mapping[str, str] = {
     "lever arm": sheet(height="0 mm", lift="0.3"),
-    "arm length": sheet(height="0 mm", lift="10", radius=f"{RADIUS - SHORT:.4g} mm", arm="0.02"),
+    "arm length": sheet(height="0 mm", lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02"),
     "misalignments": sure_of_angles(UNLIFTED),
     "gyro scale": UNLIFTED,
 }

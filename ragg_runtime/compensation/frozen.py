@@ -239,6 +239,14 @@ class Held:
     def holds(self) -> bool:
         return self.change.holds
 
+    @property
+    def chi2(self) -> float:
+        return self.change.chi2
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        return len(self.change.z)
+
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
         f = self.comparison.fitted

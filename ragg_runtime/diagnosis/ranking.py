@@ -170,7 +170,7 @@ def _not_testable(f: Fitted, field: Field) -> list[NotTestable]:
             found.append(NotTestable(e.id, f"the flight has no channel {', '.join(missing)}"))
         elif e.id in field.candidates and not field.testable(e.id):
             found.append(NotTestable(e.id, _absorbed(f, field, e)))
-        elif e.kind == "deterministic" and (why := sheet.doubtful(f, e)):
+        elif e.kind == "deterministic" and (why := sheet.doubtful(f, e.id)):
             found.append(NotTestable(e.id, why))
     return found
 

@@ -263,5 +263,7 @@ def testable_effects(f: Fitted) -> list[str]:
     return [
         e.id
         for e in f.model.candidates
-        if e.kind == "deterministic" and not any(e.missing(h) for h in have) and sheet.doubtful(f, e) is None
+        if e.kind == "deterministic"
+        and not any(e.missing(h) for h in have)
+        and sheet.doubtful(f, e.id) is None
     ]

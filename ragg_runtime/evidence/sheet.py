@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ragg_runtime.evidence import likelihood_ratio
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.model.model import Effect
 
 Array = NDArray[np.float64]
 
@@ -23,11 +22,12 @@ a parameter explains, accelerometer by accelerometer, that the effect must expla
 has a quarter in common with all, two have the half."""
 
 
-def doubtful(f: Fitted, e: Effect) -> str | None:
+def doubtful(f: Fitted, effect: str) -> str | None:
     """Why an effect is not offered on these flights, in words: the sheet would do as well if it was wrong."""
-    if not e.told_from and e.common_of is None:
+    e = f.model.effect(effect)
+    if e is None or (not e.told_from and e.common_of is None):
         return None
-    own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == e.id]
+    own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == effect]
     P = likelihood_ratio.project(f.whole, f.n_base)
     known = float(np.linalg.norm(P[:, own]))
     for name in e.told_from:

@@ -24,7 +24,7 @@ from ragg_runtime.fit.significance import log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.spectral_line import Periodogram
 from ragg_runtime.lack_of_fit.time_varying import BlockScores
-from ragg_runtime.lack_of_fit.whitened_terms import STRETCH, Directions, products, squares
+from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -199,11 +199,8 @@ class Scores:
         """Inner products of some whitened terms, base projected out, by another pass over the flight."""
 
         def inner(piece: Piece) -> Array:
-            X, total = self.whitened(piece, places), np.zeros((len(places), len(places)))
-            for start in range(0, X.shape[1], STRETCH):  # in double: beside the base a millionth may be left
-                part = X[:, start : start + STRETCH].astype(np.float64)
-                total += part @ part.T
-            return total
+            X = self.whitened(piece, places)
+            return np.asarray(X @ X.T)
 
         G = np.zeros((len(places), len(places)))
         for part in self.prepared.each(inner):
@@ -319,13 +316,13 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         if first >= np.log(FAMILY):
             return Omnibus(first, tried, (), 0.0, s.sums.square)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
-    # where single precision knows a term's own square no better, nothing is known of it beside another one
+    # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
     left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
     taken: list[Found] = []
     chi2 = 0.0
-    while len(taken) < most and chi2 <= s.sums.square:
+    while len(taken) < most:
         now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
         if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
             break

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.diagnosis.comparison import LOUD, Comparison
 from ragg_runtime.report import figures, held, page, panels, parameters, series
 from ragg_runtime.report.page import Origin
@@ -24,7 +23,7 @@ def compare_html(
     command: str,
     sources: Sequence[tuple[str, str]],
     notes: Sequence[str] = (),
-    frozen: Held | None = None,
+    frozen: held.Held | None = None,
 ) -> str:
     """The report as one HTML document.
 

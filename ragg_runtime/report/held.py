@@ -2,14 +2,49 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol
 
-from ragg_runtime.compensation.frozen import Held
+from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.fit.score import Error
 from ragg_runtime.report import panels
 from ragg_runtime.wording import numbers
 
 MOVED = 8
 """Combinations that are listed, those that moved furthest first."""
+
+
+class Held(Protocol):
+    """How a saved calibration holds on flights: see ``compensation/frozen.py``."""
+
+    @property
+    def comparison(self) -> Comparison:
+        """Model and flights, with the parameters as they were saved."""
+
+    @property
+    def free(self) -> Error:
+        """The error if they were fitted to these flights."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether the step between both may be chance."""
+
+    @property
+    def p_value(self) -> float:
+        """Of that step."""
+
+    @property
+    def chi2(self) -> float:
+        """Of that step."""
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Directions in which it is tested."""
+
+    def drift(self) -> list[dict[str, Any]]:
+        """Every visible combination, then and now."""
+
+    def suspects(self) -> list[dict[str, Any]]:
+        """Single parameters that would explain the step."""
 
 
 def headline(h: Held) -> str:
@@ -23,8 +58,8 @@ def headline(h: Held) -> str:
 def lead(h: Held, said: list[str]) -> list[str]:
     """What follows: the test, and what is said of any error; no diagnosis is advised where the instrument changed."""
     test = (
-        f"Chi-square of the step from the saved parameters to what this record says: {numbers.number(h.change.chi2)} in"
-        f" {len(h.change.z)} directions (p = {h.p_value:.2g})."
+        f"Chi-square of the step from the saved parameters to what this record says: {numbers.number(h.chi2)} in"
+        f" {h.degrees_of_freedom} directions (p = {h.p_value:.2g})."
     )
     return [test, *(said if h.holds else [x for x in said if "ragg diagnose" not in x])]
 
@@ -45,7 +80,7 @@ def section(h: Held) -> dict[str, Any]:
     rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))[:MOVED]
     text = [
         f"{r['flight']}: {r['name']} was {r['frozen']:.5g} ± {r['frozen_std']:.2g}, is {r['value']:.5g} ± {r['std']:.2g}"
-        f" {r['unit']} ({r['z']:+.1f} standard deviations)."
+        f" {r['unit']} ({r['z']:+.1f} σ)."
         for r in rows
     ]
     text += [

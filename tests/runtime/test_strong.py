@@ -46,7 +46,7 @@ def diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
 STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
     "time-offset": ({"time-offset": {"delta_t": 8e-4}}, {"time-offset"}),
     "gain-drift": ({"gain-drift": {"dK1_dt": [1e-9, -1e-9, 5e-10, 0]}}, {"gain-drift"}),
-    "gain-step": ({"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 350.0}}, {"gain-step"}),
+    "gain-step": ({"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 240.0}}, {"gain-step"}),
     "unequal pair": (
         {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}, "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}},
         {"thermal-scale", "cubic-input"},
@@ -57,7 +57,7 @@ STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
 @pytest.mark.parametrize("name", sorted(STRONG))
 def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
     hidden, right = STRONG[name]
-    s = scenario(57, duration=600.0)
+    s = scenario(57, duration=400.0)
     run = s.simulate(hidden)
     d = diagnosed(s, run.flight())
     assert d.staged
@@ -72,7 +72,7 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(STRONG))
 def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str) -> None:
-    s = scenario(57, duration=600.0)
+    s = scenario(57, duration=400.0)
     c = compare(load.packaged(), s.sheet, [s.simulate(STRONG[name][0]).flight()])
     assert c.converged
     assert not c.adequate
@@ -96,7 +96,7 @@ def sheet_of_a_mems(s: Scenario) -> dict[str, Any]:
 
 @pytest.mark.parametrize("density", [2e-9, 1e-5])
 def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(density: float) -> None:
-    s = scenario(1, duration=600.0, noise_density=density)
+    s = scenario(1, duration=400.0, noise_density=density)
     rng = np.random.default_rng(77)
     sigmas = sheet_of_a_mems(s)
     a = s.sheet.accelerometers
@@ -116,7 +116,7 @@ def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(densit
 
 
 def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
-    s = scenario(3, duration=600.0)
+    s = scenario(3, duration=400.0)
     K1 = s.instrument.accelerometers["K1"] * np.array([1.0, 1.04, 1.0, 1.0])
     c = compare(
         load.packaged(),
@@ -144,7 +144,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     tmp_path: Path, never_arrives: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     m = ragg.new(tmp_path / "m")
-    s = scenario(5, duration=600.0)
+    s = scenario(5, duration=400.0)
     flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
     c, d = ragg.compare(m, [flight]), ragg.diagnose(m, [flight])
     for result in (c.as_json(), d.as_json()):
