@@ -38,9 +38,15 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def require_room(path: Path, size: int) -> None:
-    """OSError where so many bytes do not fit beside ``path``: for libraries that do not survive a full disc (HDF5)."""
+    """OSError where so many bytes do not fit beside ``path``, on the disc or into what its user may take of it.
+
+    For libraries that do not survive a full disc (HDF5).
+    """
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+    if hasattr(os, "posix_fallocate"):  # a quota shows itself only when the room is taken
+        with tempfile.TemporaryFile(dir=path.parent) as trial:
+            os.posix_fallocate(trial.fileno(), 0, max(size, 1))
 
 
 class Target:

@@ -102,6 +102,7 @@ BASE: Mapping[str, str] = {
     "g^2": "m**2/s**4",
     "m": "m",
     "mA/g": "A*s**2/m",
+    "mm": "m",
     "rad": "rad",
     "rad/g": "rad*s**2/m",
     "rad/s^0.5": "rad/s**0.5",

@@ -221,6 +221,14 @@ def test_a_disc_without_room_is_asked_beforehand(
         patch.setattr(shutil, "disk_usage", lambda place: full)
         with pytest.raises(UserError, match=os.strerror(errno.ENOSPC)):
             write_tables(path, lambda: tables)
+    with monkeypatch.context() as patch:
+
+        def over(handle: int, offset: int, size: int) -> None:
+            raise OSError(errno.EDQUOT, os.strerror(errno.EDQUOT))
+
+        patch.setattr(os, "posix_fallocate", over)
+        with pytest.raises(UserError, match=os.strerror(errno.EDQUOT)):
+            write_tables(path, lambda: tables)
     assert list(tmp_path.iterdir()) == []
     write_tables(path, lambda: tables)
     assert path.stat().st_size <= room
