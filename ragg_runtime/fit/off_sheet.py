@@ -70,6 +70,10 @@ WIDE = 2.0
 """Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
 (or than is plausible), by that factor: a sheet for an instrument of another class, say. Of an effect, the largest distance."""
 
+MOST_ROOM = 3.0
+"""Factor by which the prior of an effect is widened at the most (thirty times its usual size): with more, a gyroscope's bias of
+7,000 deg/h passed for a term that no effect of the catalogue makes, to the noise."""
+
 QUIET = 2.0
 """Excess of chi-square up to which the record says so, not an effect that is missing."""
 
@@ -92,13 +96,15 @@ def with_room(model: Model, instrument: Instrument, c: Calibration) -> Instrumen
     """The instrument with the prior of every effect in the model as wide as the record says its parameters are large.
 
     Of a fault nothing is known but what size is usual: a prior that holds it there against the data would leave some of it in
-    the residual, and another one in its place would be taken for it. ``None`` if all are wide enough.
+    the residual, and another one in its place would be taken for it. Beyond ``MOST_ROOM`` it is held: that is no such fault any
+    more. ``None`` if all are wide enough.
     """
     largest = {e.id: 0.0 for e in model.effects}
     for q, x in _off(model, instrument, c):
         if q.effect is not None:
             largest[q.effect] = max(largest[q.effect], abs(x))
-    wider = {e: x * instrument.widths.get(e, 1.0) for e, x in largest.items() if x >= WIDE}
+    now = {e: instrument.widths.get(e, 1.0) for e in largest}
+    wider = {e: min(x * now[e], MOST_ROOM) for e, x in largest.items() if x >= WIDE and now[e] < MOST_ROOM}
     if not wider or c.excess > QUIET:
         return None
     return replace(instrument, widths=MappingProxyType({**instrument.widths, **wider}))
