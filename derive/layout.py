@@ -55,18 +55,16 @@ class Layout:
     rest
         What the exact cosines and sines of the angles have beyond ``constants``: of places that balance each other
         the sum vanishes as it should, and a specific force of 1 g leaves nothing of their rounding.
-    put_in
-        Constants that stand in the expressions already (``common``): four quarter turns on a vertical disc have no
-        others than the paper's, and are another instrument.
     own
-        Whether each accelerometer has a radius and a spin frequency of its own, even where all stand as the paper's do.
+        Whether each accelerometer has a radius and a spin frequency of its own, even where all stand as the paper's do: four
+        quarter turns on a vertical disc have no other constants than the paper's once the axis is put in, and are another
+        instrument.
     """
 
     names: tuple[str, ...]
     constants: Mapping[str, tuple[float, ...]] = field(hash=False)
     outputs: tuple[Output, ...]
     rest: Mapping[str, tuple[float, ...]] = field(hash=False, default_factory=dict)
-    put_in: tuple[str, ...] = ()
     own: bool = False
 
     @property
@@ -91,11 +89,8 @@ class Layout:
 
     def without_common(self) -> Layout:
         """The layout with the other constants alone."""
-        known = tuple(s.name for s in self.common)
-        if not known:
-            return self
-        left = {n: v for n, v in self.constants.items() if n not in known}
-        return replace(self, constants=left, put_in=known)
+        known = {s.name for s in self.common}
+        return replace(self, constants={n: v for n, v in self.constants.items() if n not in known})
 
     def has(self, constant: sp.Symbol) -> bool:
         return constant.name in self.constants

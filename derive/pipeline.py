@@ -190,8 +190,7 @@ def _complete(
 def _told(form: Form) -> Mapping[str, object]:
     """A form in the manifest; the paper's layout is not worth a word."""
     described = dataclasses.asdict(form)
-    for name in ("put_in", "own"):  # they follow from the rest of model.toml
-        del described["layout"][name]
+    del described["layout"]["own"]  # it follows from the rest of model.toml
     if form.layout.is_paper:
         del described["layout"]
     return described
