@@ -16,9 +16,9 @@ from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import bursts, columns, convergence, fitted, unknown_gradient
+from ragg_runtime.fit import bursts, columns, convergence, fitted
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
-from ragg_runtime.fit.observation import as_output, observations_of
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
@@ -294,8 +294,7 @@ def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
     predicted = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
-    e = np.where(o.record.valid, o.data - predicted, 0.0)
-    (left,) = as_output(o, unknown_gradient.without(e[None], piece.windows, o.record.valid))
+    (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
     return np.asarray(left)
 
 

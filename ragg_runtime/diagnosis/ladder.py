@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.fit import columns, unknown_gradient
+from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.observation import as_output, observations_of
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error
 from ragg_runtime.flight import Flight
@@ -93,8 +93,7 @@ def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
             found.append(
                 here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
             )
-        left = np.stack([np.where(o.record.valid, x, 0.0) for x in found])
-        return as_output(o, unknown_gradient.without(left, piece.windows, o.record.valid))
+        return piece.observed(np.stack([np.where(o.record.valid, x, 0.0) for x in found]))
 
     count = 1 if below is None else 2
     scored = f.score([f.vector(np.zeros(f.n_base))], further, count)

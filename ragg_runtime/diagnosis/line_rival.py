@@ -101,7 +101,7 @@ class Steady:
 
     @property
     def name(self) -> str:
-        """What it is called, with those that would do as well."""
+        """What it is called."""
         times = {1: "the spin rate", 2: "twice the spin rate"}.get(
             self.turns, f"{self.turns} times the spin rate"
         )

@@ -67,13 +67,14 @@ class Piece:
     def left(self, coefficients: Array) -> Array:
         """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
         n = coefficients.shape[1]
-        return self._observed(self.columns[-1] - np.tensordot(coefficients, self.columns[:n], 1))
+        return self.observed(self.columns[-1] - np.tensordot(coefficients, self.columns[:n], 1))
 
     def unexplained(self) -> Array:
         """Residual of G_out (1, N), V, at the point itself; no unknown gradient."""
-        return self._observed(self.columns[-1:])
+        return self.observed(self.columns[-1:])
 
-    def _observed(self, e: Array) -> Array:
+    def observed(self, e: Array) -> Array:
+        """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
         e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
         return as_output(self.observation, e)
 
