@@ -100,10 +100,10 @@ def compensate(
     under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, out)
-    origin = terminal.origin(m, read, command_line()) | {
-        "notes": [*c.as_json().get("notes", ()), *odd, *terminal.notes(m, read)]
-    }
-    emit(c.as_json() | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
+    result = c.as_json()
+    notes = [*result.get("notes", ()), *odd, *terminal.notes(m, read)]
+    origin = terminal.origin(m, read, command_line()) | {"notes": notes}
+    emit(result | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
 
 
 @click.command(cls=Command)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import replacing, require_room
-from ragg_runtime.flight.hdf5_file import COLUMN, TABLE
+from ragg_runtime.flight.hdf5_file import room
 
 ENDINGS: Mapping[str, str] = MappingProxyType(
     {
@@ -106,7 +106,7 @@ def _text(path: Path, compressed: bool) -> Iterator[IO[bytes]]:
 def _netcdf(path: Path, units: Mapping[str, str], samples: int) -> Iterator[Write]:
     import h5netcdf  # slow to import, and only this format needs it
 
-    require_room(path, TABLE + len(units) * (samples * 8 + COLUMN))
+    require_room(path, room([samples] * len(units)))
     with h5netcdf.File(path, "w") as file:
         file.dimensions = {"time": samples}
         for n, unit in units.items():

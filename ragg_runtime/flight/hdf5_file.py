@@ -69,8 +69,12 @@ COLUMN, TABLE = 8192, 1 << 16
 
 def room_for(tables: Sequence[Written]) -> int:
     """Bytes that a file of these tables takes at most."""
-    columns = [np.asarray(v) for t in tables for _, v in t.columns]
-    return TABLE * (len(tables) + 1) + sum(8 * x.size + COLUMN for x in columns)
+    return room([np.asarray(v).size for t in tables for _, v in t.columns], len(tables) + 1)
+
+
+def room(sizes: Sequence[int], tables: int = 1) -> int:
+    """Bytes that columns of so many numbers take at most."""
+    return TABLE * tables + sum(8 * n + COLUMN for n in sizes)
 
 
 def tables_of(path: Path, look: Look, unit: UnitOf) -> list[Table]:

@@ -45,7 +45,10 @@ def compare_html(
         "kind": "Model against flight",
         "state": "good" if comparison.adequate else "bad",
         "headline": headline(comparison) if frozen is None else held.headline(frozen),
-        "lead": lead(comparison) if frozen is None else held.lead(frozen, lead(comparison)),
+        # where the instrument changed, its parameters are others: no effect is missing
+        "lead": lead(comparison)
+        if frozen is None
+        else held.lead(frozen, lead(comparison, advise=frozen.holds)),
         "facts": panels.facts(f),
         "errors": errors(comparison) if frozen is None else held.errors(frozen),
         "sections": [
@@ -85,8 +88,8 @@ def headline(c: Comparison) -> str:
     )
 
 
-def lead(c: Comparison) -> list[str]:
-    """What follows the headline: the channels, and where the error is largest."""
+def lead(c: Comparison, *, advise: bool = True) -> list[str]:
+    """What follows the headline: the channels, where the error is largest, and if ``advise`` that a diagnosis says why."""
     f = c.fitted
     inline, cross = series.channel_noise(f)
     noise = panels.error_of_noise(c.noise_floor, inline, cross, f.k_ggi)
@@ -118,7 +121,7 @@ def lead(c: Comparison) -> list[str]:
             f"to {numbers.fixed(float(str(b['to_s'])), digits)} s"
             f"{where}, with {numbers.number(float(str(b['rms_Eo'])))} Eo."
         )
-    if not c.adequate:
+    if advise and not c.adequate:
         said.append("The command ragg diagnose looks for the physical effect that would account for it.")
     return said
 

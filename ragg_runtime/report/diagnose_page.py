@@ -48,7 +48,7 @@ def diagnose_html(
         "sections": [*_sections(d), *panels_of("diagnose", _shown(d))],
         "ranking": ranking(d),
         "evidence": evidence(d, "evidence"),
-        "groups": groups(d),
+        "groups": [(main, others) for main, others, _ in groups(d) if others],
         "unexplained": unexplained(d) if d.verdict == "unexplained" else None,
         "physics": physics(d),
         "headlines": [(r.effect, _headlines(r)) for r in d.ranking if r.effect in d.found],
@@ -98,10 +98,9 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
                 sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
                 instead = _instead(effect_values.values(d.fitted, r))
                 said.append(f"{numbers.clean(r.effect)}: {sizes_}{instead}.")
-    for g in d.groups:
-        main, *others = [numbers.clean(e) for e in g.effects]
-        if g.name is not None:
-            said.append(f"All that this record shows of {main} is a {g.name}.")
+    for main, others, name in groups(d):
+        if name is not None:
+            said.append(f"All that this record shows of {main} is a {name}.")
         if others:
             said.append(
                 f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
@@ -220,13 +219,9 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     return page.figure(svg, caption)
 
 
-def groups(d: Diagnosis) -> list[tuple[str, list[str]]]:
-    """(found effect, those that the record cannot tell from it)."""
-    return [
-        (numbers.clean(r.effect), [numbers.clean(e) for e in r.indistinguishable_from])
-        for r in d.ranking
-        if r.indistinguishable_from and r.effect in d.found
-    ]
+def groups(d: Diagnosis) -> list[tuple[str, list[str], str | None]]:
+    """(found effect, those that the record cannot tell from it, a name for them all)."""
+    return [(main, others, g.name) for g in d.groups for main, *others in [map(numbers.clean, g.effects)]]
 
 
 def effect_rows(d: Diagnosis, table: Callable[[Fitted], list[Row]]) -> list[Row]:

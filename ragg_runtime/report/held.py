@@ -56,12 +56,12 @@ def headline(h: Held) -> str:
 
 
 def lead(h: Held, said: list[str]) -> list[str]:
-    """What follows: the test, and what is said of any error; no diagnosis is advised where the instrument changed."""
+    """What follows: the test, and what is ``said`` of any error."""
     test = (
         f"Chi-square of the step from the saved parameters to what this record says: {numbers.number(h.chi2)} in"
         f" {h.degrees_of_freedom} directions (p = {h.p_value:.2g})."
     )
-    return [test, *(said if h.holds else [x for x in said if "ragg diagnose" not in x])]
+    return [test, *said]
 
 
 def errors(h: Held) -> list[dict[str, Any]]:
