@@ -51,6 +51,10 @@ SI_UNITS: Mapping[str, str] = MappingProxyType(
 """SI unit of every column whose meaning is fixed. Other auxiliary channels are held in SI base units."""
 
 
+WIDEST_SPIKE = 3
+"""Most samples in a row that are a spike; a longer excursion is the signal, a longer stretch without samples a gap."""
+
+
 def is_demodulated(name: str) -> bool:
     """Whether a column is a demodulated channel by its name: ``inline``, ``cross_A``, ``inline_1`` ..."""
     return name.partition("_")[0] in DEMODULATED

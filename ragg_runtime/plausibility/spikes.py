@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from ragg_runtime.flight.record import WIDEST_SPIKE
 from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
@@ -15,9 +16,6 @@ Mask = NDArray[np.bool_]
 
 SIDE = 5
 """Samples before and after that a sample is held against."""
-
-WIDEST = 3
-"""Most samples in a row that are a spike; a longer excursion is the signal."""
 
 BLOCK = 256
 """Samples over which the usual scatter is taken: it changes with the motion."""
@@ -60,7 +58,7 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
         Samples that are looked at together: the memory that a long record takes.
 
     A spike stands off the medians of the samples before and of those after it, to the same side: a step does
-    not. It is at most ``WIDEST`` samples wide and ``FAR`` beyond the usual scatter of the whole record and of
+    not. It is at most ``WIDEST_SPIKE`` samples wide and ``FAR`` beyond the usual scatter of the whole record and of
     its own stretch of it. Where more than ``MOST`` of the samples would be spikes, none is.
     """
     n = len(residual)
@@ -88,7 +86,7 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
     limit = FAR * np.maximum(np.repeat(usual, BLOCK)[: len(e)], everywhere)
     far = distance > limit
     for run in runs(far):
-        if run.stop - run.start > WIDEST:
+        if run.stop - run.start > WIDEST_SPIKE:
             far[run] = False
     if everywhere == 0 or not far.any() or np.mean(far) > MOST:
         return found
