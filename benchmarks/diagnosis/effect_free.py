@@ -20,7 +20,6 @@ when the diagnosis had learned to say so.
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 import traceback
@@ -33,6 +32,7 @@ from numpy.typing import NDArray
 
 from benchmarks.diagnosis import awkward, score
 from benchmarks.diagnosis.awkward import DURATION, RATE, Change
+from benchmarks.diagnosis.kept import Kept
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -250,18 +250,12 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--cache", type=Path, default=CACHE)
     parser.add_argument("--table", action="store_true", help="fly nothing: print what is there")
     options = parser.parse_args(arguments)
-    path = options.cache.with_name(f"{options.cache.stem}-{options.seed}.jsonl")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    lines = [json.loads(x) for x in path.read_text("utf-8").splitlines()] if path.exists() else []
-    done = {x["id"] for x in lines}
-    wanted = [(k, n) for n in range(options.flights) for k in options.only or KINDS]  # the kinds in turn
-    with path.open("a", encoding="utf-8") as file:
-        for k, n in wanted if not options.table else ():
-            if f"{k}/{n:03d}" not in done:
-                lines.append(flown(k, n, options.seed))
-                file.write(json.dumps(lines[-1]) + "\n")
-                file.flush()
-    print("\n".join(summary(lines)))
+    kept = Kept(options.cache, options.seed)
+    for n in range(0 if options.table else options.flights):
+        for k in options.only or KINDS:  # the kinds in turn
+            if f"{k}/{n:03d}" not in kept:
+                kept.add(flown(k, n, options.seed))
+    print("\n".join(summary(kept.lines)))
     return 0
 
 

@@ -33,6 +33,7 @@ from numpy.typing import NDArray
 
 import ragg
 from benchmarks.diagnosis import effect_free, oracle, score
+from benchmarks.diagnosis.kept import Kept
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
@@ -346,17 +347,11 @@ def main(arguments: Sequence[str]) -> int:
         print(json.dumps(flown(n, options.seed), indent=1))
     if options.flight:
         return 0
-    path = options.cache.with_name(f"{options.cache.stem}-{options.seed}.jsonl")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    lines = [json.loads(x) for x in path.read_text("utf-8").splitlines()] if path.exists() else []
-    done = {x["id"] for x in lines}
-    with path.open("a", encoding="utf-8") as file:
-        for n in range(0 if options.table else options.flights):
-            if f"{n:03d}" not in done:
-                lines.append(flown(n, options.seed))
-                file.write(json.dumps(lines[-1]) + "\n")
-                file.flush()
-    print("\n".join(summary(lines)))
+    kept = Kept(options.cache, options.seed)
+    for n in range(0 if options.table else options.flights):
+        if f"{n:03d}" not in kept:
+            kept.add(flown(n, options.seed))
+    print("\n".join(summary(kept.lines)))
     return 0
 
 

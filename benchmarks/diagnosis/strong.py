@@ -39,6 +39,7 @@ from scipy import optimize
 
 from benchmarks.diagnosis import fly, inject, oracle, plan, score
 from benchmarks.diagnosis.inject import Bench, Hidden
+from benchmarks.diagnosis.kept import Kept
 from benchmarks.diagnosis.plan import Spec, scenario_of
 from ragg_runtime.diagnosis import comparison, diagnose
 from ragg_runtime.fit import columns as design
@@ -343,22 +344,14 @@ def main(arguments: Sequence[str]) -> int:
             if case.id in options.flight:
                 print(json.dumps(flown(case, options.verdicts), indent=1))
         return 0
-    path = options.cache.with_name(f"{options.cache.stem}-{options.seed}.jsonl")
-    path.parent.mkdir(parents=True, exist_ok=True)
-    lines = [json.loads(x) for x in path.read_text("utf-8").splitlines()] if path.exists() else []
-    done = {x["id"] for x in lines}
-    todo = [] if options.table else [c for c in wanted if c.id not in done]
+    kept = Kept(options.cache, options.seed)
+    todo = [] if options.table else [c for c in wanted if c.id not in kept]
     context = multiprocessing.get_context("spawn")
-    with (
-        path.open("a", encoding="utf-8") as file,
-        ProcessPoolExecutor(options.jobs, mp_context=context) as pool,
-    ):
+    with ProcessPoolExecutor(options.jobs, mp_context=context) as pool:
         for n, future in enumerate(as_completed([pool.submit(flown, c, options.verdicts) for c in todo]), 1):
-            lines.append(future.result())
-            file.write(json.dumps(lines[-1]) + "\n")
-            file.flush()
-            print(f"{n} of {len(todo)}: {lines[-1]['id']}", file=sys.stderr)
-    print("\n".join(summary(lines)))
+            kept.add(future.result())
+            print(f"{n} of {len(todo)}: {kept.lines[-1]['id']}", file=sys.stderr)
+    print("\n".join(summary(kept.lines)))
     return 0
 
 
