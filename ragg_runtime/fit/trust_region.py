@@ -47,6 +47,9 @@ CORRECTIONS = 2
 FAITHFUL = 0.01
 """Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
 
+GRAIN = 1e3
+"""Length of a step, over the smallest that is tried, below which a change of chi-square is rounding."""
+
 MOST = 150
 """Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
 thousand times narrower, and a hundred steps lead along it."""
@@ -173,7 +176,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     at = linearise(x)
     if not np.isfinite(at.cost):
         return Minimum(x, at, False, "the model has no finite output where the fit begins", 1)
-    radius, faithful, trials = np.inf, False, 1
+    radius, grain, faithful, trials = np.inf, 0.0, False, 1
     while trials < most:
         if settled(at):
             return Minimum(x, at, True, "nothing is left to gain", trials, faithful)
@@ -183,6 +186,8 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
         trials += tried
         fallen = at.cost - ahead.cost
         ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
+        if length < GRAIN * _smallest(x):
+            grain = max(grain, abs(fallen))
         if ratio < POOR:
             radius = length * _shrunk(at.slope(step), fallen)
         elif ratio > GOOD:
@@ -193,7 +198,8 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             if fallen < SETTLED and at.decrement < VALLEY:
                 return Minimum(x, at, True, "nothing worth having is left to gain", trials)
         elif radius < _smallest(x):
-            if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
+            # twice as much of a promise is hidden by rounding, of a record without noise for one
+            if at.decrement < VALLEY + 2.0 * min(grain, VALLEY):
                 return Minimum(x, at, True, "nothing worth having is left to gain", trials)
             return Minimum(x, at, False, "no step, however small, lowers the misfit", trials)
     return Minimum(x, at, settled(at), f"it was stopped after {most} trials", trials)
