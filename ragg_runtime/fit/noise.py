@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,16 +117,28 @@ def _parts(at: Point, o: Observation) -> list[_Part]:
         if np.sum(valid) < SHORTEST:
             return None
         each = np.split(piece.white, len(o.series), axis=1)
+        known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
-            outputs=tuple(left_over(flat, valid, rate, band) for flat in each),
+            outputs=tuple(left_over(x, valid, rate, band, t) for x, t in zip(each, known, strict=True)),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={e: tuple(flat[place] ** 2 for flat in each) for place, e in shown if e is not None},
         )
 
     chosen = spread(flight_segments(o), NOISE_SEGMENTS)
     return [p for p in passed(at, o, unwhitened, part, chosen=chosen) if p is not None]
+
+
+def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
+    """Columns (k, rows) of one output without what an unknown gradient spans."""
+    if not piece.windows:
+        return columns
+    wide = np.zeros((len(columns), outputs, columns.shape[1]))
+    wide[:, m] = columns
+    flat = wide.reshape(len(columns), -1)
+    unknown_gradient.project(flat, piece.windows)
+    return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
