@@ -28,9 +28,10 @@ direction, well below what noise does to any estimate."""
 RELATIVE = 1e-5
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
-VALLEY = 0.5
+VALLEY = 1.0
 """Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: the way there is a
-curved valley, and what is at its end is not worth half a standard deviation."""
+curved valley, or lost in the rounding of a record without noise, and what is at its end is not worth a standard deviation in
+one direction of the dozens that are fitted."""
 
 ACCEPTED = 1e-4
 """Least share of the promised decrease for which a step is taken."""
@@ -46,9 +47,6 @@ CORRECTIONS = 2
 
 FAITHFUL = 0.01
 """Difference between a step's fall and what was promised of it, as a share, up to which the problem counts as linear."""
-
-GRAIN = 1e3
-"""Length of a step, over the smallest that is tried, below which a change of chi-square is rounding."""
 
 MOST = 150
 """Most trials of a fit; usual are two or three. Where there is no noise but the last digits of a file the floor of the valley is a
@@ -176,7 +174,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     at = linearise(x)
     if not np.isfinite(at.cost):
         return Minimum(x, at, False, "the model has no finite output where the fit begins", 1)
-    radius, grain, faithful, trials = np.inf, 0.0, False, 1
+    radius, faithful, trials = np.inf, False, 1
     while trials < most:
         if settled(at):
             return Minimum(x, at, True, "nothing is left to gain", trials, faithful)
@@ -186,8 +184,6 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
         trials += tried
         fallen = at.cost - ahead.cost
         ratio = fallen / at.promised(step) if np.isfinite(fallen) else -np.inf
-        if length < GRAIN * _smallest(x):
-            grain = max(grain, abs(fallen))
         if ratio < POOR:
             radius = length * _shrunk(at.slope(step), fallen)
         elif ratio > GOOD:
@@ -198,8 +194,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             if fallen < SETTLED and at.decrement < VALLEY:
                 return Minimum(x, at, True, "nothing worth having is left to gain", trials)
         elif radius < _smallest(x):
-            # twice as much of a promise is hidden by rounding, of a record without noise for one
-            if at.decrement < VALLEY + 2.0 * min(grain, VALLEY):
+            if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
                 return Minimum(x, at, True, "nothing worth having is left to gain", trials)
             return Minimum(x, at, False, "no step, however small, lowers the misfit", trials)
     return Minimum(x, at, settled(at), f"it was stopped after {most} trials", trials)

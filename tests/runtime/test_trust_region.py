@@ -99,13 +99,14 @@ def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     assert not settled(found.at)
 
 
-@pytest.mark.parametrize(("rounding", "converged"), [(0.2, True), (0.01, False), (1e4, False)])
-def test_a_promise_that_drowns_in_rounding_is_none(rounding: float, converged: bool) -> None:
+@pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.0, False)])
+def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converged: bool) -> None:
     """Of a record without noise the sum of squares scatters by some tenths from one point to the next."""
-    promise = 0.9 if rounding < 1.0 else 2.0  # a jump of the model is no rounding
 
     def grainy(x: Array) -> Linear:
-        return Linear(np.eye(2), np.array([promise, 0.0]), 10.0 + rounding * float(np.sin(1e13 * np.sum(x))))
+        return Linear(
+            np.eye(2), np.array([promise**0.5, 0.0]), 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x)))
+        )
 
     assert minimise(grainy, np.zeros(2)).converged is converged
 
