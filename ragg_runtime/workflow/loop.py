@@ -40,6 +40,7 @@ from ragg_runtime.workflow.change import errors_of as errors_of
 from ragg_runtime.workflow.change import remove as remove
 from ragg_runtime.workflow.loaded import NO_FORM as NO_FORM
 from ragg_runtime.workflow.loaded import Loaded as Loaded
+from ragg_runtime.workflow.loaded import example as example
 from ragg_runtime.workflow.loaded import load as load
 from ragg_runtime.workflow.loaded import mapping_of as mapping_of
 from ragg_runtime.workflow.loaded import new as new
