@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -28,7 +29,6 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.instrument.units import read_quantity
-from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import Progress
@@ -72,10 +72,7 @@ def diagnose(
     ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
     """
     distinct(flights)
-
-    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
-        return derive.with_effects(m.instrument, model, ids, candidates=candidates)
-
+    extended = partial(derive.with_effects, m.instrument)
     if compared is not None:
         return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)
