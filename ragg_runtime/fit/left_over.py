@@ -58,7 +58,8 @@ def left_over(
     """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
 
     No line is looked for in ``band``. ``through`` does to columns (k, rows) of lines and jumps what was done to those of
-    ``flat``: an edge of which an unknown gradient took its part would else leave that part as noise. Without ``rate`` (of a demodulated channel) neither they nor ``kept`` are looked for.
+    ``flat``: an edge of which an unknown gradient took its part would else leave that part as noise. Without ``rate`` (of a
+    demodulated channel) neither they nor ``kept`` are looked for.
     """
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:

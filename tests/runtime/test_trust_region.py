@@ -104,9 +104,7 @@ def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converg
     """Of a record without noise the sum of squares scatters by some tenths from one point to the next."""
 
     def grainy(x: Array) -> Linear:
-        return Linear(
-            np.eye(2), np.array([promise**0.5, 0.0]), 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x)))
-        )
+        return Linear(np.eye(2), np.array([promise**0.5, 0.0]), 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x))))
 
     assert minimise(grainy, np.zeros(2)).converged is converged
 
