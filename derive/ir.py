@@ -274,6 +274,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({"either": True} if e.either else {}),
         **({} if e.common_of is None else {"common_of": e.common_of}),
         **({"told_from": list(e.told_from)} if e.told_from else {}),
+        **({"turning": True} if e.turning else {}),
         "kind": e.kind,
         "parameters": [
             {
