@@ -331,7 +331,7 @@ def swell(f: Fitted) -> float:
 def estimated(x: PreparedFlight) -> float:
     """Variance of the estimated noise of what was observed as G_out, V^2."""
     share = x.observation.recorded.noise_share(x.observation.record)
-    return float(share * sum(m.rms**2 for m in x.noise.models))
+    return share * x.noise.variance(x.observation.signs)
 
 
 def noise_floor(f: Fitted) -> float:

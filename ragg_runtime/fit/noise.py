@@ -20,7 +20,7 @@ from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import Segment
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
-from ragg_runtime.signals import noise_level
+from ragg_runtime.signals import combinations, noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
 from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, white_noise
@@ -65,9 +65,14 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
-    parts = _parts(at, o)
+    parts = _parts(at, o, white_noise(o.record.rate, len(o.series)))
     if o.recorded.demodulated:
         return _of_channels(parts, o)
+    apart = combinations.telling(
+        np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1), o.signs
+    )
+    if apart is not None:
+        parts = _parts(at, o, replace(white_noise(o.record.rate, len(o.series)), combinations=apart))
     noise = _of_level(parts, o, Level())
     level = _level(parts, o, noise)
     if level.parts:
@@ -76,7 +81,7 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     words = "; ".join(w for w in said if w is not None) or None
     loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, level=loud, freedom=free)
+    return replace(noise, disturbed=words, level=loud, freedom=free, combinations=apart)
 
 
 def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
@@ -98,9 +103,8 @@ def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
     return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
 
 
-def _parts(at: Point, o: Observation) -> list[_Part]:
-    """What is left of segments that are spread over the flight."""
-    unwhitened = white_noise(o.record.rate, len(o.series))
+def _parts(at: Point, o: Observation, unwhitened: Noise) -> list[_Part]:
+    """What is left of segments that are spread over the flight, of the series as they are or in combinations."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     n_base = len(design.base_columns(at.model, at.instrument))
