@@ -19,7 +19,6 @@ from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS, ROWS
 from ragg_runtime.fit.square_root import below, fold, join, triangle
 from ragg_runtime.fit.square_root import prior as prior_rows
-from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -141,9 +140,7 @@ def sharpened(
     Q = np.concatenate(bases)
 
     def explained(at: int) -> float:
-        X = np.concatenate(
-            [_begun(p, x.noise, at, places) for p, x in zip(pieces, prepared, strict=True)], axis=1
-        )
+        X = np.concatenate([_begun(p, x, at, places) for p, x in zip(pieces, prepared, strict=True)], axis=1)
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T
         seen = np.linalg.norm(X, axis=1) > np.maximum(likelihood_ratio.TESTABLE, 1e-6 * whole)
@@ -167,12 +164,12 @@ def sharpened(
         reach = spacing
 
 
-def _begun(piece: Piece, noise: Noise, at: int, places: Sequence[int]) -> Array:
+def _begun(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int]) -> Array:
     """(places, rows): columns of a whole flight from a sample on, whitened; those of other outputs' accelerometers are zero."""
     columns = piece.columns[list(places)]
     columns[:, :, :at] = 0.0
     own = columns.any(axis=(1, 2))
-    X = whitened_columns(columns[own], noise, None, piece.observation.record)
+    X = whitened_columns(columns[own], prepared.noise, None, piece.observation.record)
     unknown_gradient.project(X, piece.windows)
     found = np.zeros((len(columns), X.shape[1]))
     found[own] = X
