@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,13 +117,11 @@ class Together:
 def together(f: Fitted) -> list[Together]:
     """Of every flight with several turning outputs what they saw."""
     found = []
-    starts = [n for n, o in enumerate(f.observations) if n == 0 or o.place <= f.observations[n - 1].place]
-    for first, last in zip(starts, [*starts[1:], len(f.observations)], strict=True):
+    for first, last in pairwise([*f.first, len(f.observations)]):
         own = [n for n in range(first, last) if f.observations[n].record.turning]
         seen = tuple(s for s in (gradient_seen(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
-            name = f.observations[first].name.removesuffix(f": {f.observations[first].output.name}")
-            found.append(Together(name=name, fitted=f, seen=seen))
+            found.append(Together(name=f.observations[first].flight, fitted=f, seen=seen))
     return found
 
 

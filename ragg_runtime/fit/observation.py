@@ -112,6 +112,11 @@ class Observation:
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
 
     @property
+    def flight(self) -> str:
+        """Name of the flight, without that of the output."""
+        return self.name.removesuffix(f": {self.output.name}")
+
+    @property
     def signs(self) -> Array:
         """(m,): how much each series counts in the output."""
         return self.recorded.signs(self.output)

@@ -6,6 +6,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,15 +107,8 @@ class Tracks:
     @property
     def by_flight(self) -> list[list[Observation]]:
         """What was compared of each flight: one observation of each output that it holds."""
-        found: list[list[Observation]] = []
-        name = None
-        for o in self.fitted.observations:  # those of a flight follow each other, in the order of the outputs
-            own = o.name.removesuffix(f": {o.output.name}")
-            if own != name or o.place <= found[-1][-1].place:
-                found.append([])
-            name = own
-            found[-1].append(o)
-        return found
+        o = self.fitted.observations
+        return [list(o[a:b]) for a, b in pairwise([*self.fitted.first, len(o)])]
 
     def place(self, flight: int, output: int) -> int:
         """Which observation an output of a flight is: what ``flight`` means everywhere below."""

@@ -28,9 +28,9 @@ def test_of_the_papers_disc_they_are_its_sums_and_differences() -> None:
 @pytest.mark.parametrize("signs", [(1, 1), (1, -1), (1, 1, 1), (1, -1, 1, -1), (1, 1, -1, -1, 1, 1, -1, -1)])
 def test_of_any_signs_they_are_orthonormal_and_the_output_is_the_first(signs: tuple[int, ...]) -> None:
     s = np.array(signs, dtype=np.float64)
-    Q = basis(s)
-    assert Q @ Q.T == pytest.approx(np.eye(len(s)))
-    assert Q[0] == pytest.approx(s / np.sqrt(len(s)))
+    rows = basis(s)
+    assert rows @ rows.T == pytest.approx(np.eye(len(s)))
+    assert rows[0] == pytest.approx(s / np.sqrt(len(s)))
 
 
 def test_only_noise_that_is_shared_is_taken_apart() -> None:
@@ -39,9 +39,9 @@ def test_only_noise_that_is_shared_is_taken_apart() -> None:
     assert telling(own, SIGNS) is None
     assert telling(own * np.array([[1.0], [1.0], [1.0], [10.0]]), SIGNS) is None
     assert telling(own[:1], SIGNS[:1]) is None
-    Q = telling(own + 3.0 * rng.standard_normal(2000), SIGNS)
-    assert Q is not None
-    assert Q == pytest.approx(basis(SIGNS))
+    apart = telling(own + 3.0 * rng.standard_normal(2000), SIGNS)
+    assert apart is not None
+    assert apart == pytest.approx(basis(SIGNS))
 
 
 def test_an_effect_is_found_beside_a_shake_that_all_accelerometers_share() -> None:
