@@ -26,14 +26,15 @@ export function applyView(main) {
   fill(main, box, figures, control);
   let plots = [], shown = "", window_ = null;
 
+  const flown = (state) => state.flights.length > 0 && !state.flights[0].glanced;
   const compensation = (state) => {
     const c = state.compensated, busy = Boolean(state.status.job);
     fill(box, h("h2", {}, "Compensated channels"),
       h("p.note", {}, "The gravity gradient as the instrument saw it: all removed that the model explains, demodulated, with one standard uncertainty of parameters and noise together."),
       h("div.row.choices", {}, choice("calibration", "parameters", KINDS), choice("demodulator", "demodulator", DEMODULATORS),
-        h("button.main", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("compensate", chosen) }, "Compensate")),
+        h("button.main", { type: "button", disabled: busy || !flown(state), onclick: () => doing("compensate", chosen) }, "Compensate")),
       h("div.row", {},
-        h("button", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
+        h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
         h("p.note", {}, state.model.calibrated ? `The model keeps a calibration ${state.model.calibrated}.` : "The model keeps no calibration yet: it is what “as kept with the model” and the exported C use.")),
       c ? c.outputs.map((x) => [
         h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
