@@ -19,14 +19,15 @@ const signed = (x) => `${x < 0 ? "−" : "+"}${number(Math.abs(x), 2)}`;
 
 /** rows: [{name, pieces, symbol, sigma}], the farthest first. */
 export function pullBars(rows) {
-  const most = Math.max(FEWEST, ...rows.map((r) => Math.abs(r.sigma))), height = HIGH * rows.length + 20;
+  const most = Math.max(FEWEST, ...rows.map((r) => Math.abs(r.sigma))), height = HIGH * rows.length + 36;
   const at = (sigma) => MIDDLE + (HALF * sigma) / most;
   const said = rows.map((r) => `${r.name} ${r.symbol} ${signed(r.sigma)}`).join(", ");
   const made = s("svg", { viewBox: `0 0 ${WIDE} ${height}`, class: "pulls", role: "img", "aria-label": `Pull of the test sheet in plausible errors: ${said}` });
   for (let k = -Math.floor(most); k <= most; k++) {
-    made.append(s("line", { class: k ? "grid" : "middle", x1: at(k), x2: at(k), y1: 0, y2: height - 18 }));
-    if (k % Math.max(1, Math.round(most / 5)) === 0) made.append(s("text", { class: "tick", x: at(k), y: height - 5, "text-anchor": "middle" }, String(k).replace("-", "−")));
+    made.append(s("line", { class: k ? "grid" : "middle", x1: at(k), x2: at(k), y1: 0, y2: height - 34 }));
+    if (k % Math.max(1, Math.round(most / 5)) === 0) made.append(s("text", { class: "tick", x: at(k), y: height - 21, "text-anchor": "middle" }, String(k).replace("-", "−")));
   }
+  made.append(s("text", { class: "tick", x: MIDDLE, y: height - 5, "text-anchor": "middle" }, "calibrated value less the sheet’s, plausible errors"));
   rows.forEach((r, k) => {
     const y = HIGH * k, [a, b] = [0, r.sigma].sort((p, q) => p - q).map(at);
     made.append(

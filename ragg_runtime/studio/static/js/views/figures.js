@@ -16,10 +16,11 @@ const MARGIN = 1; // windows to either side that are asked for beforehand, so th
 
 /** What an overlay shows: the effect that is pointed at, else the band or the term that is chosen, else what is ticked. */
 function laid() {
-  if (pointedAt()) return { what: "effect", effects: pointedAt(), words: "predicted signature" };
+  const tested = server.state.effects.length > 0; // until then nothing is known of what they would do
+  if (tested && pointedAt()) return { what: "effect", effects: pointedAt(), words: "predicted signature" };
   if (view.low !== null) return { what: `band:${view.low}:${view.high}`, words: `residual of ${number(view.low)} – ${number(view.high)} Hz` };
   if (view.term) return { what: `term:${view.term.replace("|", ":")}`, words: "term, fitted by itself" };
-  if (view.ticked.length) return { what: "effect", effects: view.ticked.join(","), words: "predicted signature" };
+  if (tested && view.ticked.length) return { what: "effect", effects: view.ticked.join(","), words: "predicted signature" };
   return null;
 }
 
@@ -89,7 +90,7 @@ export function figures(box) {
   const drawStrip = () => latest("strip", async () => {
     if (!flight()) return;
     const [a, b] = whole(), { gaps, alone, cuts } = marks();
-    legend("strip", [gaps.length && ["missing", "gap", "block"], alone.length && ["lone sample missing", "lone"], cuts.length && ["left out", "cut", "block"]]);
+    legend("strip", [[ready() ? `residual, ${unitName()}` : "output", "before"], gaps.length && ["missing", "gap", "block"], alone.length && ["lone sample missing", "lone"], cuts.length && ["left out", "cut", "block"]]);
     plots.strip.show(await series({ flight: view.flight, output: view.output, unit: view.unit, what: ready() ? "residual" : "measured", from: a, to: b, points: points() }));
     if (!document.documentElement.dataset.drawn) document.documentElement.dataset.drawn = performance.now().toFixed(0);
   });
@@ -133,7 +134,7 @@ export function figures(box) {
   const drawSpectrogram = () => latest("spectrogram", async () => {
     if (!ready()) return;
     const [from, to] = limits();
-    const found = await spectrogram({ flight: view.flight, output: view.output, from, to, what: view.ticked.length ? "left" : "residual", effects: view.ticked.join(",") });
+    const found = await spectrogram({ flight: view.flight, output: view.output, from, to, what: view.ticked.length && server.state.effects.length ? "left" : "residual", effects: view.ticked.join(",") });
     note("spectrogram", "");
     const scale = plots.spectrogram.show(found);
     const key = h("i.ramp", { "aria-hidden": "true" });
