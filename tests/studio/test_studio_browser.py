@@ -379,11 +379,34 @@ def test_13_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -
     box = page.locator(".plot.residual .u-over").bounding_box()
     assert box is not None
     assert box["width"] > 0.4 * width
+    canvas = page.locator(".plot.residual canvas")
+    drawn = """c => {
+      const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+      return [c.width / c.clientWidth, parseFloat(c.getContext("2d").font) / rem];
+    }"""
+    screen = page.context.new_cdp_session(page)
+    for ratio in (2, 1):  # the window is moved to a screen of finer dots, and back
+        metrics = {"width": width - ratio, "height": height, "deviceScaleFactor": ratio, "mobile": False}
+        screen.send("Emulation.setDeviceMetricsOverride", metrics)
+        for _ in range(100):
+            dots, letters = canvas.evaluate(drawn)
+            if dots == pytest.approx(ratio, rel=0.01) and letters == pytest.approx(0.75 * ratio, rel=0.06):
+                break
+            page.wait_for_timeout(50)
+        else:
+            raise AssertionError((dots, letters))
+    screen.send("Emulation.clearDeviceMetricsOverride")
     page.set_viewport_size({"width": 1440, "height": 900})
 
 
 def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
-    for figure in ("spectrum", "spectrogram", "terms"):
+    page.keyboard.press("2")
+    with page.expect_download() as got:
+        page.locator("figure.drawn").hover()
+        page.get_by_role("button", name="Pull of the test sheet as SVG").click()
+    assert b"plausible errors" in Path(got.value.path()).read_bytes()
+    page.keyboard.press("1")
+    for figure in ("strip", "spectrum", "spectrogram", "terms"):
         for name, begin in (("SVG", b"<svg"), ("PNG", b"\x89PNG")):
             with page.expect_download() as got:
                 page.locator(f"figure.{figure}").hover()

@@ -1,11 +1,12 @@
 // What a model is for: compensated channels with their band, quality control of the flights, and both as files.
 import { Refused, series } from "../api.js";
 import { counted, fill, h } from "../dom.js";
-import { on, server, view } from "../store.js";
+import { look, on, server, view } from "../store.js";
 import { curvesText } from "../plots/export.js";
 import { fileName, frame } from "../plots/figure.js";
 import { timePlot } from "../plots/time.js";
 import { doing } from "../doing.js";
+import { choose } from "./window.js";
 
 const KINDS = [
   ["self", "fitted to these flights", "parameters fitted to all of it: the band is a little narrow"],
@@ -69,12 +70,14 @@ export function applyView(main) {
     const key = JSON.stringify([c && [c.calibration, c.demodulator.name, c.channels, c.outputs.map((x) => x.rows)], view.flight]);
     if (key === shown) return;
     shown = key;
+    window_ = null;
     drop();
     figures.hidden = !c;
     if (!c) return;
     const panels = c.channels.map((name, k) => frame({ id: name, title: `${name}, Eo`, kind: "figure", name: () => fileName(server.state.flights[view.flight] && server.state.flights[view.flight].name, name), text: () => curvesText(plots[k].made.plot) }));
     panels.forEach((p) => p.keys([["value", "residual"], ["± one standard uncertainty", "band"]]));
-    fill(figures, panels.map((p) => p.element));
+    const names = server.state.flights.map((f) => f.name);
+    fill(figures, names.length > 1 ? h("div.row.choices", {}, choose("Flight", names, view.flight, (flight) => look({ flight }))) : null, panels.map((p) => p.element));
     plots = panels.map(({ body }, k) => ({ name: c.channels[k], box: body, made: timePlot(body, {
       limits, moved, unit: () => "Eo", label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
       lines: [{ name: "±", colour: "before", band: true, alpha: "80" }, { name: "value", colour: "residual" }],

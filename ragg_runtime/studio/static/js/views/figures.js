@@ -225,7 +225,9 @@ export function figures(box) {
     on("term", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
     on("low high", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
     windowKeys(),
+    () => document.removeEventListener("themed", drawHeatTable),
   ];
+  document.addEventListener("themed", drawHeatTable);
   const calmHeat = calm(drawHeat, 250);
   return {
     known,

@@ -81,13 +81,14 @@ export const windowText = () => {
   return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : "";
 };
 
-const choose = (label, names, chosen, take) => h("select", { "aria-label": label, onchange: (e) => take(Number(e.target.value)) }, names.map((name, k) => h("option", { value: String(k), selected: k === chosen }, name)));
+export const choose = (label, names, chosen, take) => h("select", { "aria-label": label, onchange: (e) => take(Number(e.target.value)) }, names.map((name, k) => h("option", { value: String(k), selected: k === chosen }, name)));
 
 /** The flights or lines one after the other, as long as they last. */
 function lines(flights) {
   const longest = Math.max(...flights.map((x) => x.duration_s));
+  const last = flights.map((x) => x.name.split(/[/:]/).at(-1)), unique = new Set(last).size === last.length;
   return h("div.lines", { role: "group", "aria-label": "Flights" }, flights.map((x, k) => {
-    const made = h("button", { type: "button", "aria-pressed": String(k === view.flight), onclick: () => goto(k), title: `${x.name}: ${number(x.duration_s, 4)} s` }, x.name.split(/[/:]/).at(-1));
+    const made = h("button", { type: "button", "aria-pressed": String(k === view.flight), onclick: () => goto(k), title: `${x.name}: ${number(x.duration_s, 4)} s` }, unique ? last[k] : x.name);
     made.style.flexGrow = String(Math.max(0.05, x.duration_s / longest));
     return made;
   }));
