@@ -287,7 +287,7 @@ def _quotient(a: str, b: str) -> str:
 
 def _single(f: Fitted, n: int) -> Piece:
     column = f.calibration.columns[n]
-    return Piece("", "", accelerometer(f, column), symbol_of(f, column))
+    return Piece("", "", accelerometer(f, column), symbol_of(column))
 
 
 def pulls(f: Fitted, most: int) -> list[tuple[Piece, float]]:
