@@ -85,7 +85,7 @@ export function figures(box) {
     const [a, b] = limits(), width = b - a;
     return { flight: view.flight, output: view.output, unit: view.unit, from: a - MARGIN * width, to: b + MARGIN * width, points: points * (2 * MARGIN + 1) };
   };
-  const points = () => Math.max(300, Math.round(residual.body.clientWidth));
+  const points = () => Math.max(300, Math.round(measured.body.clientWidth));
 
   const drawStrip = () => latest("strip", async () => {
     if (!flight()) return;
