@@ -260,7 +260,7 @@ def _followed(
     followed = sequential.evidence(target)
     for effect, instant in instants:
         if effect in found and instant is not None:
-            name = target.observations[0].flight
+            name = target.observations[0].flight_name
             change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
             return replace(followed, change=change)
     return followed

@@ -121,7 +121,7 @@ def together(f: Fitted) -> list[Together]:
         own = [n for n in range(first, last) if f.observations[n].record.turning]
         seen = tuple(s for s in (gradient_seen(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
-            found.append(Together(name=f.observations[first].flight, fitted=f, seen=seen))
+            found.append(Together(name=f.observations[first].flight_name, fitted=f, seen=seen))
     return found
 
 
