@@ -113,7 +113,7 @@ def _flight(
         for batch in rest:
             head.append(batch)
             held += _bytes(batch)
-            if held > IN_MEMORY and gathered.settled:
+            if held > IN_MEMORY:
                 return _noted(_long(source, plan, gathered, head, rest, several), source)
         whole = gathered.whole()
         rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in head)]) for c in source.columns}
@@ -129,17 +129,16 @@ def _long(
     rest: Iterator[Batch],
     several: bool,
 ) -> Flight:
-    """A flight too long for memory, read once: on the way it is taken for granted that no channel is one of a lower rate.
+    """A flight too long for memory, read once: on the way it is taken for granted that no channel is one of a lower rate,
+    and that the first batches say how rates are differentiated.
 
     Where that was wrong, it is read again. ``head`` are its first batches, ``rest`` those that follow, all counted by
     ``gathered``.
     """
-    batches = _given_away(head, rest)
-    made = spooled(
-        _chunks(source, plan, gathered.expected(), PART, several, batches), source.path, MOST_BYTES
-    )
+    batches, expected = _given_away(head, rest), gathered.expected()
+    made = spooled(_chunks(source, plan, expected, PART, several, batches), source.path, MOST_BYTES)
     whole = gathered.whole()
-    if whole.slow or whole.left_out:
+    if whole.slow or whole.left_out or whole.derivative != expected.derivative:
         del made  # and its place on the disk
         again = _chunks(source, plan, whole, PART, several, source.batches())
         made = spooled(again, source.path, MOST_BYTES)

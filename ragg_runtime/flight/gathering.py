@@ -43,11 +43,6 @@ class Gathering:
             )
             self._collected[c.name].add(t, self._plan.converted(c, batch[c.name]), most)
 
-    @property
-    def settled(self) -> bool:
-        """Whether there are rows enough for :meth:`expected`."""
-        return self._rows >= HEAD
-
     def expected(self) -> Whole:
         """What there is to tell if no channel turns out to be one of a lower rate."""
         names = ["time", *(c.name for c in self._rates)]

@@ -147,6 +147,9 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     names = p.columns
     left = np.empty((len(names), n))
     evaluator = model.compiled("auto" if n >= MANY else "numpy")
+    needed = {*model.chain.INPUTS, p.disc.angle_column}
+    channels = {c: x for c, x in p.flight.channels.items() if c in needed}
+    p = dataclasses.replace(p, flight=dataclasses.replace(p.flight, channels=channels))
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)

@@ -57,14 +57,14 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
 TOGETHER = 8
 """Blocks of :func:`convolved` that are transformed together: two of them in one go of the processor, all in cache."""
 
-Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex128])
+Series = TypeVar("Series", NDArray[np.float64], NDArray[np.complex64], NDArray[np.complex128])
 
 
 def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "valid") -> Series:
     """Series x (..., N), real or complex, convolved with taps (k,) along the last axis, by overlap and save.
 
-    ``valid``: N - k + 1 samples, where the filter has seen nothing but the series; ``same`` and ``full`` as NumPy's
-    ``convolve``, the series continued by zeros.
+    In the series' own precision. ``valid``: N - k + 1 samples, where the filter has seen nothing but the series;
+    ``same`` and ``full`` as NumPy's ``convolve``, the series continued by zeros.
     """
     k = len(taps)
     if mode != "valid":
@@ -78,7 +78,7 @@ def convolved(x: Series, taps: Array, mode: Literal["valid", "same", "full"] = "
     forward: Callable[..., Any] = fft.rfft if real else fft.fft
     backward: Callable[..., Any] = fft.irfft if real else fft.ifft
     size = fft.next_fast_len(min(x.shape[-1], max(PERIOD * k, 4096)), real=real)
-    gain = forward(taps, size)
+    gain = forward(taps.astype(x.real.dtype), size)
     found = np.empty((*x.shape[:-1], n), dtype=x.dtype)
     step = size - k + 1
     whole = (n // step) * step
