@@ -45,7 +45,7 @@ class Density:
         """Count in inline + i cross; NaN: none."""
         n = int(WINDOW * self.rate)
         for run in runs(np.isfinite(g.real)):
-            x = g[run][:: self.step]
+            x = g[run.start : run.stop : self.step]
             if len(x) < n:
                 continue
             count = len(x) // n
