@@ -1,6 +1,6 @@
 """``python -m ragg_runtime`` is ``ragg``."""
 
-from ragg_runtime.base.safe_path import without_current_folder
+from ragg_runtime.cli.safe_path import without_current_folder
 
 without_current_folder()  # before anything else is imported
 

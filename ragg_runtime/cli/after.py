@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -26,7 +26,6 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
-    from ragg_runtime.compensation.compensate import Kind
     from ragg_runtime.workflow.loop import Loaded
 
 
@@ -81,18 +80,17 @@ def compensate(
     model_dir: Path,
     flights: Sequence[Path],
     output: str,
-    calibration: Kind,
+    calibration: Literal["frozen", "self", "crossed"],
     demodulator: str,
     mapping: Path | None,
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
 
     out = Path(output)
-    format_for(out)
+    after.check_output(out)
     m = load(model_dir)
     odd = _calibration_notes(m) if calibration == "frozen" else []
     under_way(f"reading {len(flights)} flight(s)")
@@ -142,12 +140,11 @@ def online(
     Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
     """
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.compensation.output import format_for
     from ragg_runtime.workflow import after
     from ragg_runtime.workflow import online as _online
 
     out = Path(output)
-    format_for(out)
+    after.check_output(out)
     m = load(model_dir)
     odd = [] if m.directory.calibration is None else _calibration_notes(m)
     under_way(f"reading {len(flights)} flight(s)")
@@ -200,7 +197,6 @@ def compare_frozen(
 ) -> None:
     """``ragg compare --frozen``."""
     from ragg_runtime.cli import terminal, terminal_after
-    from ragg_runtime.compensation.frozen import sentence
     from ragg_runtime.workflow import after, loop
 
     odd = _calibration_notes(m)
@@ -214,7 +210,7 @@ def compare_frozen(
         from ragg_runtime.report import compare_html
 
         own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
-        return compare_html(h.comparison, **own | {"notes": [sentence(h), *odd, *own["notes"]], "frozen": h})
+        return compare_html(h.comparison, **own | {"notes": [h.in_words(), *odd, *own["notes"]], "frozen": h})
 
     write_report(report_file, page)
     origin = terminal.origin(m, read, command_line())
@@ -233,7 +229,3 @@ def _calibration_notes(m: Loaded) -> list[str]:
     for note in odd:
         click.echo(printable(f"note: {note}"), err=True)
     return odd
-
-
-COMMANDS = (calibrate, compensate, online, export)
-"""What the command line registers."""

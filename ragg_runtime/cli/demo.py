@@ -6,13 +6,11 @@ effect hidden in it (``make_flight``). ``ragg demo`` runs it.
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli import terminal
 from ragg_runtime.flight import write_flight
-from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.report import add_html, diagnose_html
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -22,8 +20,7 @@ HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
 
 def make_flight(path: Path) -> None:
     """Write the flight: twelve minutes with a temperature-dependent scale factor in A3."""
-    sheet = parse_instrument(resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8"))
-    write_flight(simulated(sheet, [HIDDEN], seed=2026, duration=720.0, rate=16.0), path)
+    write_flight(simulated(loop.example(), [HIDDEN], seed=2026, duration=720.0, rate=16.0), path)
 
 
 def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -> Path:

@@ -258,7 +258,3 @@ def add(
             remedy=f"see what else is missing: {terminal.command('diagnose', model_dir, read, mapping)}; "
             "or what is wrong with the record",
         )
-
-
-COMMANDS = (compare, diagnose, add, survey)
-"""What the command line registers."""

@@ -7,22 +7,64 @@ from __future__ import annotations
 
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from importlib import import_module
+from types import MappingProxyType
 
 import click
 
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.base.memory import reuse_memory
-from ragg_runtime.cli import after, flight_commands, model_commands
 from ragg_runtime.cli.boundary import hold_streams, refusal
-from ragg_runtime.cli.file_commands import convert, map_command
-from ragg_runtime.cli.next_motion_command import next_motion
-from ragg_runtime.cli.quality_command import qc
-from ragg_runtime.experiments.command import experiment
-from ragg_runtime.studio.command import studio
+
+COMMANDS: Mapping[str, str] = MappingProxyType(
+    {
+        "new": "cli.model_commands",
+        "compare": "cli.flight_commands",
+        "diagnose": "cli.flight_commands",
+        "add": "cli.flight_commands",
+        "remove": "cli.model_commands",
+        "history": "cli.model_commands",
+        "survey": "cli.flight_commands",
+        "calibrate": "cli.after",
+        "compensate": "cli.after",
+        "online": "cli.after",
+        "export": "cli.after",
+        "next-motion": "cli.next_motion_command",
+        "simulate": "cli.model_commands",
+        "effects": "cli.model_commands",
+        "convert": "cli.file_commands",
+        "map": "cli.file_commands",
+        "qc": "cli.quality_command",
+        "doctor": "cli.model_commands",
+        "trust": "cli.model_commands",
+        "build": "cli.model_commands",
+        "derive": "cli.model_commands",
+        "demo": "cli.model_commands",
+        "experiment": "experiments.command",
+        "studio": "studio.command",
+    }
+)
+"""Command -> module of ``ragg_runtime`` that defines it, imported when the command is asked for."""
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class _Commands(click.Group):
+    """Commands in the order in which they are used, each from its module (click's documentation: lazy loading)."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        module = import_module(f"ragg_runtime.{COMMANDS[cmd_name]}")
+        found = (x for x in vars(module).values() if isinstance(x, click.Command) and x.name == cmd_name)
+        return next(found)
+
+
+@click.group(
+    cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
+)
 @click.version_option(package_name="ragg", prog_name="ragg")
 def cli() -> None:
     """Instrument models of a rotating-accelerometer gravity gradiometer, derived, not typed.
@@ -30,20 +72,6 @@ def cli() -> None:
     Compare the model with recorded flights, learn which physical effect it lacks, add it, watch the error
     fall: ragg new, compare, diagnose, add.
     """
-
-
-for _command in (
-    *model_commands.COMMANDS,
-    *flight_commands.COMMANDS,
-    *after.COMMANDS,
-    convert,
-    map_command,
-    qc,
-    next_motion,
-    experiment,
-    studio,
-):
-    cli.add_command(_command)
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

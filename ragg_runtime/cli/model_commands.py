@@ -36,28 +36,25 @@ if TYPE_CHECKING:
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
-    from derive import everything
-    from ragg_runtime.cli.publish import check_settled, publish
+    from ragg_runtime.workflow import upkeep
 
-    root = out if out is not None else Path(str(everything.__file__)).parents[1]
+    root = upkeep.project() if out is None else out
     if check:
-        check_settled(root)
-        found, versions = everything.difference(root), everything.about_versions(root)
-        if found:
+        found = upkeep.checked(root)
+        if found.difference:
             raise UserError(
                 "the committed code does not match the derivation",
                 where=root,
-                found="\n" + found,
+                found="\n" + found.difference,
                 expected="the same files, byte for byte",
-                remedy=versions or "run: make derive   (or: ragg derive), look at the change, and commit it",
+                remedy=found.versions
+                or "run: make derive   (or: ragg derive), look at the change, and commit it",
             )
         click.echo("The committed code is what the derivation yields, byte for byte.")
-        if versions:
-            click.echo(
-                f"note: it was derived with SymPy {everything.committed_with(root)}, and is the same here"
-            )
+        if found.versions:
+            click.echo(f"note: it was derived with SymPy {found.committed_with}, and is the same here")
         return
-    changed = publish(root, everything.below(root), whole=(everything.GENERATED,))
+    changed = upkeep.rederived(root)
     for name in changed:
         click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
@@ -126,26 +123,18 @@ def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
 
     Without this none is: read them first. MODEL_DIR may be a model.toml as well.
     """
-    from ragg_runtime.instrument.read_toml import read_instrument
-    from ragg_runtime.model_dir import trust as _trust
-    from ragg_runtime.model_dir.directory import load_model_dir
+    from ragg_runtime.workflow import upkeep
 
-    is_file = model_dir.is_file()
-    instrument = read_instrument(model_dir) if is_file else load_model_dir(model_dir).instrument
-    if instrument.effects_folder is None:
-        raise UserError(
-            "the model names no effects_folder", where=model_dir, remedy="there is nothing to trust"
-        )
-    found = _trust.read_effects(instrument.effects_folder)
+    found = upkeep.own_effects(model_dir)
     for line in found.lines():
         click.echo(line)
     if forget:
-        was = _trust.forget(found)
+        was = upkeep.forget(found)
         click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
     elif only_list:
-        click.echo(f"{'On' if _trust.is_trusted(found) else 'Not on'} the list of trusted files.")
+        click.echo(f"{'On' if upkeep.is_trusted(found) else 'Not on'} the list of trusted files.")
     else:
-        place = one_line(str(_trust.trust(found)))
+        place = one_line(str(upkeep.trust(found)))
         click.echo(f"They will be executed as long as they stay as they are; written to {place}")
 
 
@@ -168,16 +157,9 @@ def doctor(model_dir: Path, look: bool) -> None:
 @click.argument("model_dir", type=DIRECTORY, required=False)
 def build(model_dir: Path | None) -> None:
     """Compile the model's C beforehand (otherwise on first use); without MODEL_DIR, the paper's model."""
-    from ragg_runtime.model import native
-    from ragg_runtime.model.model import packaged
+    from ragg_runtime.workflow import upkeep
 
-    model = packaged() if model_dir is None else load(model_dir).model
-    try:
-        made = native.build(model.sources)
-    except native.BuildError as error:
-        raise UserError(
-            "the model cannot be compiled", where=model_dir, found=error, remedy="without it NumPy serves"
-        ) from None
+    made = upkeep.compiled(None if model_dir is None else load(model_dir))
     click.echo(f"{made.library}: {'compiled' if made.fresh else 'there already'}\n{made.command}")
 
 
@@ -186,16 +168,12 @@ def build(model_dir: Path | None) -> None:
 @json_option
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
-    from ragg_runtime.base.provenance import provenance
     from ragg_runtime.cli import terminal
-    from ragg_runtime.model_dir.directory import load_model_dir
-    from ragg_runtime.model_dir.identity import identity
+    from ragg_runtime.workflow import upkeep
 
-    directory = load_model_dir(model_dir)
-    say_notes(model_dir, directory.notes)
-    steps = [s.as_json() for s in directory.history]
-    made = provenance(command_line(), identity(directory))
-    emit({"steps": steps, "provenance": made}, json_file, terminal.history(steps))
+    h = upkeep.history(model_dir, command_line())
+    say_notes(model_dir, h.notes)
+    emit({"steps": h.steps, "provenance": h.provenance}, json_file, terminal.history(h.steps))
 
 
 @click.command(cls=Command)
@@ -261,7 +239,3 @@ def demo(output: Path) -> None:
     from ragg_runtime.cli import demo as _demo
 
     _demo.main(output, command=command_line())
-
-
-COMMANDS = (derive, new, effects, remove, trust, doctor, build, history, simulate, demo)
-"""What the command line registers."""

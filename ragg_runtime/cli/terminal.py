@@ -15,13 +15,9 @@ from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit import off_sheet
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error, least
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument.form import Form
-from ragg_runtime.model_dir.history import calibrated_rms
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loop import Added
 from ragg_runtime.workflow.origin import notes as notes
@@ -66,9 +62,15 @@ def _not_converged(complaint: str | None) -> list[str]:
     return [] if complaint is None else [f"NOT CONVERGED: {complaint}"]
 
 
-def _off_sheet(found: Sequence[OffSheet]) -> list[str]:
-    said = off_sheet.note(found)
-    return [] if said is None else [f"note: {said}"]
+_SAID = 3
+"""Most parameters beyond their sheet that are named."""
+
+
+def _off_sheet(result: Comparison | Diagnosis) -> list[str]:
+    found = result.off_sheet
+    more = [f"and {len(found) - _SAID} more"] if len(found) > _SAID else []
+    said = [*(x.in_words() for x in found[:_SAID]), *more]
+    return [f"note: {'; '.join(said)}"] if said else []
 
 
 _HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
@@ -90,7 +92,7 @@ def ladder(c: Comparison) -> list[str]:
     """What each simplification of the model is worth, one line per form, if that was asked for."""
     if not c.ladder:
         return []
-    names = [_in_short(r.form) for r in c.ladder]
+    names = [r.form.in_short() for r in c.ladder]
     width = max(map(len, names))
     lines = [
         "",
@@ -106,11 +108,6 @@ def ladder(c: Comparison) -> list[str]:
 
 def _columns(values: Sequence[float]) -> str:
     return " ".join(f"{x:10.4g}" if np.isfinite(x) else f"{'-':>10}" for x in values)
-
-
-def _in_short(form: Form) -> str:
-    kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in form.beyond_paper())
-    return f"{form.kinematics}, {form.preset or ', '.join(kept)}"
 
 
 def compared(
@@ -141,7 +138,7 @@ def compared(
         *([] if c.remark is None else [f"note: {c.remark}"]),
         *([notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE] if judged else []),
         *ladder(c),
-        *_off_sheet(c.off_sheet),
+        *_off_sheet(c),
     ]
     where: Any = c.as_json()["where"]
     if where["motion"]:
@@ -214,7 +211,7 @@ def diagnosed(
         lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
     if d.found and d.verdict == "missing-effect":
         lines += ["", f"next: {command('add', model_dir, flights, mapping, d.found[0])}"]
-    lines += _off_sheet(d.off_sheet)
+    lines += _off_sheet(d)
     lines += [f"note: {note}" for x in flights for note in x.notes]
     return "\n".join(lines)
 
@@ -230,7 +227,7 @@ def added(a: Added, flights: Sequence[Flight] = (), mapping: Path | None = None)
             "",
             *_not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
-            *_off_sheet(a.after.off_sheet),
+            *_off_sheet(a.after),
         ]
         lines += _parameters(a.parameters, a.combinations)
         if a.converged and not a.after.adequate:
@@ -245,7 +242,7 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
     for s in steps:
         values = []
         for key in ("before", "after"):
-            rms = calibrated_rms(s[key])
+            rms = notebook.rms_of(s[key])
             values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
         lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
     return "\n".join(lines)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.cli.terminal import command, compared, errors_table
-from ragg_runtime.compensation.frozen import Held, sentence
 from ragg_runtime.flight import Flight
+from ragg_runtime.report.held import Held
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.after import Compensation, Kept
 from ragg_runtime.workflow.online import Watched
@@ -54,7 +54,7 @@ def held(h: Held, flights: Sequence[Flight], model_dir: Path, mapping: Path | No
     lines = [
         compared(h.comparison, flights, model_dir, mapping, errors, judged=h.holds),
         "",
-        sentence(h),
+        h.in_words(),
     ]
     if moved:
         lines.append("what moved since (frozen, now):")

@@ -31,7 +31,6 @@ from ragg_runtime.fit.trust_region import Linear
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -222,7 +221,7 @@ def to_save(c: Calibrated, flights: Sequence[Flight], time: str) -> Saved:
         derivation=f.model.digest,
         layout=tuple(f.model.chain.PARAMETERS),
         p=q.p,
-        sheet=vector(f.model, f.instrument),
+        sheet=f.sheet,
         columns=q.columns,
         index=q.index,
         information=information(f),

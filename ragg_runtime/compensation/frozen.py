@@ -247,6 +247,15 @@ class Held:
     def degrees_of_freedom(self) -> int:
         return len(self.change.z)
 
+    def in_words(self) -> str:
+        """How the calibration holds, in a sentence."""
+        verdict = "holds" if self.holds else "does NOT hold"
+        return (
+            f"the calibration of {self.saved.time} on {', '.join(self.saved.flights)} {verdict} here: chi-square of the"
+            f" step to the free fit {self.change.chi2:.1f} in {len(self.change.z)} directions (p = {self.p_value:.2g});"
+            f" error frozen {self.comparison.calibrated.rms_Eo:.4g} Eo, free {self.free.rms_Eo:.4g} Eo rms"
+        )
+
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, frozen and as each of the flights alone has it; ``z``: how far it moved."""
         f = self.comparison.fitted
@@ -339,14 +348,4 @@ def warning(made: str, change: Change) -> str:
         f"the calibration of {made} does NOT hold here: chi-square of the step to what this record says "
         f"{change.chi2:.4g} in {len(change.z)} directions (p = {change.p_value:.2g}); what is left of the motion may be "
         "beyond the stated uncertainty. ragg compare --frozen says what changed"
-    )
-
-
-def sentence(h: Held) -> str:
-    """How the calibration holds, in words."""
-    verdict = "holds" if h.holds else "does NOT hold"
-    return (
-        f"the calibration of {h.saved.time} on {', '.join(h.saved.flights)} {verdict} here: chi-square of the step to "
-        f"the free fit {h.change.chi2:.1f} in {len(h.change.z)} directions (p = {h.p_value:.2g}); error frozen "
-        f"{h.comparison.calibrated.rms_Eo:.4g} Eo, free {h.free.rms_Eo:.4g} Eo rms"
     )

@@ -221,7 +221,7 @@ def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
 
 def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
     """How large the residuals are with these coefficients of the base columns, and with the nominal values (last)."""
-    p = vector(f.model, f.instrument)
+    p = f.sheet
     return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
 
 
@@ -244,7 +244,7 @@ def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> 
         noise_floor=noise,
         adequate=adequate,
         remainder=rem,
-        nominal_values=vector(f.model, f.instrument),
+        nominal_values=f.sheet,
         complaint=complaint,
         remark=doubt or disturbed(f),
         explained=output_explained,

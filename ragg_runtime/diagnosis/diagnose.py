@@ -46,9 +46,9 @@ from ragg_runtime.fit.fitted import Fitted, Scored, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.score import Error
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model.model import Model
@@ -281,7 +281,7 @@ def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
     joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
     rem = remainder_.remainder(f)
     best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
-    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else omnibus.INDISTINGUISHABLE
+    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else INDISTINGUISHABLE
     return rem if best > max(picked, joint - freedom) + margin else None
 
 

@@ -12,6 +12,7 @@ from ragg_runtime.base import false_alarms
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.lack_of_fit import near_lines
 from ragg_runtime.lack_of_fit.dictionary import Term
 from ragg_runtime.lack_of_fit.near_lines import NearLine
@@ -60,7 +61,7 @@ class LineRival:
             return True
         best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
         gain = self.line.chi2 + self.beside if alone else self.line.chi2 - self.own
-        return gain > best - selection.INDISTINGUISHABLE
+        return gain > best - INDISTINGUISHABLE
 
     def within(self, rem: Remainder) -> Remainder:
         """A remainder in which this line is what is left."""
@@ -143,7 +144,7 @@ def _in_place(line: NearLine | None, chi2: float) -> TypeGuard[NearLine]:
     return (
         line is not None
         and line.slip >= SLIP
-        and line.chi2 >= chi2 - selection.INDISTINGUISHABLE
+        and line.chi2 >= chi2 - INDISTINGUISHABLE
         and line.log_p <= np.log(false_alarms.REMAINDER)
     )
 
@@ -152,9 +153,9 @@ def _steady(
     f: Fitted, line: NearLine | None, effect: str, chi2: float, others: Sequence[str]
 ) -> list[Steady]:
     """The effect, if a line at the very multiple explains as much, or all but a small part."""
-    if line is None or line.chi2 - line.slip < min(chi2 - selection.INDISTINGUISHABLE, CONSTANT * chi2):
+    if line is None or line.chi2 - line.slip < min(chi2 - INDISTINGUISHABLE, CONSTANT * chi2):
         return []
-    as_much = line.chi2 - line.slip >= chi2 - selection.INDISTINGUISHABLE
+    as_much = line.chi2 - line.slip >= chi2 - INDISTINGUISHABLE
     r = f.prepared[0].observation.record
     turns = round(line.frequency / r.spin_frequency)
     # Cramer-Rao: 12 over the square of duration and of signal to noise, rad/s (Rife and Boorstyn, IEEE Trans. IT 20, 1974)

@@ -12,8 +12,10 @@ from ragg_runtime.diagnosis.strong import Taken
 from ragg_runtime.evidence import likelihood_ratio, selection, sheet
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, finite
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.model.model import Effect
 
 
@@ -224,3 +226,24 @@ def _sizes(f: Fitted, field: Field) -> list[Detectable]:
                 size = 3.0 / norm * c.scale / c.unit_factor
                 rows.append(Detectable(effect=e, name=name.split(".", 1)[1], size=float(size), unit=c.unit))
     return rows
+
+
+def other_accelerometers(
+    f: Fitted, effect: str, own: Sequence[tuple[int, Column]], columns: Sequence[tuple[int, Column]]
+) -> list[list[tuple[int, Column]]]:
+    """The same parameters of other accelerometers that account for the same, each with its place among the candidates.
+
+    ``own`` are those that were found, ``columns`` all of the effect.
+    """
+    field = selection.field_of(f, [effect])
+    mine, names = {c.accelerometer for _, c in own}, {c.name for _, c in own}
+
+    def chi2(block: Sequence[tuple[int, Column]]) -> float:
+        return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
+
+    found = []
+    for a in range(1, f.instrument.layout.size + 1):
+        other = [(n, c) for n, c in columns if c.accelerometer == a and c.name in names]
+        if a not in mine and other and chi2(own) - chi2(other) < INDISTINGUISHABLE:
+            found.append(other)
+    return found

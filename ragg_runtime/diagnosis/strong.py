@@ -26,7 +26,7 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
 from ragg_runtime.fit.off_sheet import with_room
-from ragg_runtime.fit.significance import log_sf
+from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
@@ -132,7 +132,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     best = min(tried, key=lambda e: (scores[e], e))
     # effects with the same signature are all of its group, however many they are
     scores |= {e: score(e) for e in near[CONTENDERS:] if _alike(tests[e], tests[best])}
-    equal = [e for e in near if scores.get(e, np.inf) < scores[best] + selection.INDISTINGUISHABLE]
+    equal = [e for e in near if scores.get(e, np.inf) < scores[best] + INDISTINGUISHABLE]
     effect = equal[0]
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
     after = fit(model, instrument, f.observations)
@@ -144,7 +144,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
 
 def _alike(a: Test, b: Test) -> bool:
     """Whether two effects explain the same, with as many coefficients, as far as a linear test tells."""
-    return a.rank == b.rank and abs(a.chi2 - b.chi2) < selection.INDISTINGUISHABLE
+    return a.rank == b.rank and abs(a.chi2 - b.chi2) < INDISTINGUISHABLE
 
 
 def _derived(

@@ -14,6 +14,7 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 
 Array = NDArray[np.float64]
 
@@ -26,11 +27,8 @@ FURTHER = false_alarms.COMPANION
 MOST = 4
 """Most effects that are claimed at once."""
 
-INDISTINGUISHABLE = 9.0
-"""Chi-square by which a rival may be worse and still not be told apart (3 sigma)."""
-
 AS_SURE = 7.0
-"""The same in the logarithm of the p-value (a factor of 1,100: 3 sigma beside 5 or so): a rival of many coefficients is none."""
+"""As INDISTINGUISHABLE, of the logarithm of the p-value (a factor of 1,100: 3 sigma beside 5): a rival of many coefficients is none."""
 
 SWAPPED = 2.0
 """Logarithm of the p-value by which another effect must be better to take the place of a chosen one; ties do not go to and fro."""

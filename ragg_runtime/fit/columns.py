@@ -45,6 +45,8 @@ class Column:
         Display unit and its SI value.
     effect
         Id of the effect that brings it; ``None`` for the paper's instrument.
+    symbol, meaning
+        LaTeX, and in words; empty of a calibration that was read from a file.
     """
 
     name: str
@@ -53,6 +55,8 @@ class Column:
     unit: str
     unit_factor: float
     effect: str | None
+    symbol: str = ""
+    meaning: str = ""
 
     @property
     def label(self) -> str:
@@ -74,7 +78,16 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
         factor = unit_factor(q.display_unit, known)
         scales = instrument.sigma(q.name)
         for j in range(instrument.layout.size):
-            column = Column(q.name, j + 1, float(scales[j]), q.display_unit, factor, None)
+            column = Column(
+                name=q.name,
+                accelerometer=j + 1,
+                scale=float(scales[j]),
+                unit=q.display_unit,
+                unit_factor=factor,
+                effect=None,
+                symbol=q.symbol,
+                meaning=q.description,
+            )
             found.append((column, start[q.name] + j))
     for e in model.effects:
         if e.kind in ("deterministic", "step"):
@@ -104,7 +117,16 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
             EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like) * instrument.widths.get(e.id, 1.0)
         )
         for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
-            column = Column(f"{e.id}.{q.name}", j, scale, q.unit, factor, e.id)
+            column = Column(
+                name=f"{e.id}.{q.name}",
+                accelerometer=j,
+                scale=scale,
+                unit=q.unit,
+                unit_factor=factor,
+                effect=e.id,
+                symbol=q.latex,
+                meaning=q.meaning,
+            )
             columns.append((column, q.symbol))
     return columns
 

@@ -23,7 +23,7 @@ from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -112,6 +112,11 @@ class Fitted:
     to_nominal: Array
     scales: tuple[float, ...]
     """k_ggi of every observation's output, V/Eo."""
+
+    @property
+    def sheet(self) -> Array:
+        """(P,): the parameters as model.toml says."""
+        return vector(self.model, self.instrument)
 
     @property
     def k_ggi(self) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -114,15 +113,3 @@ def _off(model: Model, instrument: Instrument, c: Calibration) -> list[tuple[Col
     """Every fitted parameter, and how far it is from its sheet, in scales."""
     sheet = vector(model, instrument)
     return [(q, float((c.p[k] - sheet[k]) / q.scale)) for q, k in zip(c.columns, c.index, strict=True)]
-
-
-SAID = 3
-"""Most parameters that are named in a note."""
-
-
-def note(found: Sequence[OffSheet]) -> str | None:
-    """One sentence on them, if any."""
-    if not found:
-        return None
-    more = f"; and {len(found) - SAID} more" if len(found) > SAID else ""
-    return "; ".join(x.in_words() for x in found[:SAID]) + more

@@ -7,6 +7,9 @@ import math
 import numpy as np
 from scipy import special
 
+INDISTINGUISHABLE = 9.0
+"""Chi-square by which one explanation may be worse than another and still not be told apart (3 sigma)."""
+
 
 def log_sf(chi2: float, rank: int, freedom: float = np.inf) -> float:
     """Logarithm of the chi-square survival function, also where the function itself underflows.

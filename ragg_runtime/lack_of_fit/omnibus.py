@@ -20,7 +20,7 @@ from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.fit.significance import log_sf_t
+from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.spectral_line import Periodogram
 from ragg_runtime.lack_of_fit.time_varying import BlockScores
@@ -50,9 +50,6 @@ EFFORT = 3.0
 
 SHORTLIST = 400
 """Terms among which several are sought: those with the largest scores."""
-
-INDISTINGUISHABLE = 9.0
-"""Chi-square by which a term of lower order may be worse and still be preferred (3 sigma)."""
 
 
 @dataclass(frozen=True)

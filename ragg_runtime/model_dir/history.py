@@ -65,16 +65,10 @@ def history_text(steps: tuple[Step, ...]) -> str:
     return json.dumps(content, indent=2, allow_nan=False) + "\n"
 
 
-def calibrated_rms(error: Mapping[str, Any] | None) -> float | None:
-    """rms_Eo of an error object, or of the calibrated one of the three of ``compare``; ``None`` if it has none."""
-    inner = error.get("calibrated", error) if error else None
-    value = inner.get("rms_Eo") if inner else None
-    return None if value is None else float(value)
-
-
 def _error(found: Any) -> Mapping[str, Any] | None:
     """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
-    calibrated_rms(found)
+    inner = found.get("calibrated", found) if found else {}
+    float((inner or {}).get("rms_Eo") or 0.0)  # what is told of a step
     json.dumps(found, allow_nan=False)  # it is written again with the next step
     return None if found is None else dict(found)
 

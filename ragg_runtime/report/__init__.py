@@ -3,8 +3,7 @@
 ``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
 bytes. Numbers come from the results, words from ``wording``, series for figures from ``series``.
 
-Imports ``base``, ``diagnosis``, ``evidence``, ``fit``, ``instrument``, ``model``, ``signals``, ``survey`` and
-``wording``.
+Imports ``base``, ``diagnosis``, ``fit``, ``survey`` and ``wording``.
 """
 
 from __future__ import annotations

@@ -5,24 +5,23 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ragg_runtime.diagnosis import budget, series
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import calibrated
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.report import (
     barcharts,
-    budget,
     diagnose_page,
     effect_values,
     figures,
     page,
     panels,
     parameters,
-    series,
 )
 from ragg_runtime.report.barcharts import Step
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
-from ragg_runtime.wording import numbers
+from ragg_runtime.wording import notebook, numbers
 
 CHANGED = 0.005
 """Share of the error by which it must change to be said to fall or to rise: the figures have three digits."""
@@ -128,14 +127,9 @@ def errors(before: Comparison, after: Comparison) -> list[dict[str, Any]]:
     ]
 
 
-def _value(entry: Any, which: str) -> float:
-    """rms_Eo of an error object, or of one of the three of ``compare``."""
-    if not isinstance(entry, Mapping):
-        return float("nan")
-    entry = entry.get("error", entry)
-    inner = entry.get(which) if which in entry else entry if which == "calibrated" else None
-    value = inner.get("rms_Eo") if isinstance(inner, Mapping) else None
-    return float(value) if isinstance(value, int | float) else float("nan")
+def _value(entry: Mapping[str, Any] | None, which: str) -> float:
+    rms = notebook.rms_of(entry, which)
+    return float("nan") if rms is None else rms
 
 
 def _steps(history: Sequence[Mapping[str, Any]]) -> list[Step]:

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis.budget import Contribution
 from ragg_runtime.report import draw
 from ragg_runtime.wording import numbers
 
@@ -169,17 +170,6 @@ def loop(steps: Sequence[Step], noise: float, name: str, label: str) -> str:
         draw.no_ticks(ax, "x")
         ax.set_ylabel("calibrated error, Eo rms")
         return draw.svg(fig, name, label)
-
-
-@dataclass(frozen=True)
-class Contribution:
-    """What one group of parameters contributes: before demodulation, and in the two channels, Eo."""
-
-    label: str
-    rms: float
-    inline: float
-    cross: float
-    strong: bool
 
 
 def budget(rows: Sequence[Contribution], noise: float, name: str, label: str) -> str:

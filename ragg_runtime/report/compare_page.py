@@ -6,8 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ragg_runtime.diagnosis import series
 from ragg_runtime.diagnosis.comparison import LOUD, Comparison
-from ragg_runtime.report import figures, held, page, panels, parameters, series
+from ragg_runtime.report import figures, held, page, panels, parameters
 from ragg_runtime.report.page import Origin
 from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers

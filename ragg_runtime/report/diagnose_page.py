@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from ragg_runtime.base import false_alarms
+from ragg_runtime.diagnosis import series
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import selection
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters, series
+from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.effect_values import Value, Values
 from ragg_runtime.report.page import Origin
@@ -141,7 +142,7 @@ def claimed(d: Diagnosis, r: Ranked) -> bool:
 
 def threshold(d: Diagnosis) -> float:
     """Logarithm of the p-value below which one of all tested effects is significant."""
-    return float(np.log(selection.FAMILY / max(1, len(d.ranking))))
+    return float(np.log(false_alarms.CATALOGUE / max(1, len(d.ranking))))
 
 
 def errors(d: Diagnosis) -> list[dict[str, Any]]:
@@ -211,7 +212,7 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     svg = barcharts.lying(bars, key, "evidence for each effect", unit, level, log)
     caption = (
         "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
-        f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * selection.FAMILY:.0f} records"
+        f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * false_alarms.CATALOGUE:.0f} records"
         " of a hundred."
     )
     if len(d.ranking) > SHOWN_BARS:

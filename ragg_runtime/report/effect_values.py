@@ -13,12 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis import ranking
 from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, ParameterValue, gains
 from ragg_runtime.diagnosis.parameters import headlines as of_parameters
 from ragg_runtime.diagnosis.parameters import own_name as _name
 from ragg_runtime.diagnosis.ranking import Ranked
-from ragg_runtime.evidence import likelihood_ratio, selection
-from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
@@ -66,7 +65,8 @@ def values(f: Fitted, r: Ranked) -> Values:
     accelerometers = {c.accelerometer for _, c in own}
     if len(accelerometers) == 1 and None not in accelerometers:
         found = _single(f, own)
-        return Values((*found, *extra), 0, tuple(_instead(f, r.effect, columns, own)))
+        others = ranking.other_accelerometers(f, r.effect, own, columns)
+        return Values((*found, *extra), 0, tuple(v for block in others for v in _single(f, block)))
     found = _combined(f, own, _fit(f, own))
     kept = sorted(found, key=lambda v: -abs(v.z))[:MOST]
     return Values((*kept, *extra), len(found) - len(kept), ())
@@ -143,23 +143,4 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
         for of, w, limit in rows:
             if fitted.std(w) < limit * float(np.linalg.norm(w)):
                 found.append(_value(column, of, w, fitted))
-    return found
-
-
-def _instead(
-    f: Fitted, effect: str, columns: Sequence[tuple[int, Column]], own: Sequence[tuple[int, Column]]
-) -> list[Value]:
-    """Other accelerometers that account for the same, within what separates rivals."""
-    field = field_of(f, [effect])
-    mine = {c.accelerometer for _, c in own}
-    names = {_name(c) for _, c in own}
-
-    def chi2(block: Sequence[tuple[int, Column]]) -> float:
-        return likelihood_ratio.explained(field.P, [n for n, _ in block], field.floor)[0]
-
-    found = []
-    for a in range(1, f.instrument.layout.size + 1):
-        other = [(n, c) for n, c in columns if c.accelerometer == a and _name(c) in names]
-        if a not in mine and other and chi2(own) - chi2(other) < selection.INDISTINGUISHABLE:
-            found += _single(f, other)
     return found

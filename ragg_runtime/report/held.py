@@ -40,6 +40,9 @@ class Held(Protocol):
     def degrees_of_freedom(self) -> int:
         """Directions in which it is tested."""
 
+    def in_words(self) -> str:
+        """How the calibration holds, in a sentence."""
+
     def drift(self) -> list[dict[str, Any]]:
         """Every visible combination, then and now."""
 

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis import comparison, series
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error
-from ragg_runtime.report import barcharts, figures, page, series
+from ragg_runtime.report import barcharts, figures, page
 from ragg_runtime.report.barcharts import Bar
 from ragg_runtime.report.figures import ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
-from ragg_runtime.signals.demodulate import CUTOFF, WIDTH
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -23,9 +22,6 @@ Residuals = Sequence[Array]
 
 FLIGHTS = 4
 """Flights that are drawn one by one, the worst of all that were given."""
-
-DRAWN = CUTOFF + WIDTH / 2
-"""Highest frequency that a demodulated channel holds, Hz."""
 
 ERROR_COLUMNS = ("rms_V", "rms_Eo", "inline_Eo", "inline_Eo_per_rtHz", "cross_Eo", "cross_Eo_per_rtHz")
 
@@ -80,7 +76,7 @@ def channel_panels(
             continue
         several = f" — {w.observation.name}" if len(f.prepared) > 1 else ""
         # four samples a cycle of the low-pass's edge draw the whole of it
-        step = max(1, int(r.rate / (4.0 * DRAWN)))
+        step = max(1, int(r.rate / (4.0 * series.DRAWN)))
         for k, (title, amplitude) in enumerate((("inline", 4.0), ("cross", 2.0)), 1):
             noise = series.demodulated_noise(w, f.scales[n], abs(r.spin_frequency), 2, amplitude)
             drawn = [(line, series.broken(time[::step], x[k][::step])) for line, x in made]
@@ -144,7 +140,7 @@ def harmonic_bars(f: Fitted, coefficients: Array) -> list[Bar]:
     noise = series.harmonic_noise(f, rows)
     # relative uncertainty of the rms of noise in the demodulator's bandwidth, four times over
     seconds = sum(float(w.observation.record.time[-1]) for w in f.prepared)
-    limit = 1.0 + 4.0 / np.sqrt(4.0 * CUTOFF * max(seconds, 1.0))
+    limit = 1.0 + 4.0 / np.sqrt(4.0 * series.BAND * max(seconds, 1.0))
     return [
         Bar(numbers.harmonic(h), rows[h], noise[h], rows[h] > limit * noise[h]) for h in noise if h in rows
     ]
@@ -185,7 +181,7 @@ def noise_row(f: Fitted, floor: float) -> dict[str, Any]:
 
 
 def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> Error:
-    root = float(np.sqrt(CUTOFF))
+    root = float(np.sqrt(series.BAND))
     return Error(floor * k_ggi, floor, inline, cross, inline / root, cross / root)
 
 

@@ -19,8 +19,6 @@ from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import posterior
-from ragg_runtime.instrument.parameters import PARAMETER
-from ragg_runtime.model.evaluate import vector
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -92,17 +90,10 @@ class Visibility:
     patterns: bool
 
 
-def symbol_of(f: Fitted, column: Column) -> Symbol:
+def symbol_of(column: Column) -> Symbol:
     """The written symbol of a calibrated parameter."""
-    if column.effect is None:
-        q = PARAMETER[column.name]
-        return Symbol(numbers.symbol(q.symbol), q.name, q.description)
-    name = column.name.split(".", 1)[1]
-    effect = f.model.effect(column.effect)
-    for p in effect.parameters if effect else ():
-        if p.name == name:
-            return Symbol(numbers.symbol(p.latex), column.name, p.meaning)
-    return Symbol(((numbers.clean(name), False),), column.name, "")
+    pieces = numbers.symbol(column.symbol) if column.symbol else ((numbers.clean(column.name), False),)
+    return Symbol(pieces, column.name, column.meaning)
 
 
 def _names(f: Fitted) -> dict[str, list[int]]:
@@ -120,7 +111,7 @@ def _state(ratio: float) -> str:
 def by_accelerometer(f: Fitted) -> list[Row]:
     """Calibrated value ± std and nominal value of every parameter, in display units."""
     c = f.calibration
-    nominal = vector(f.model, f.instrument)[c.index]
+    nominal = f.sheet[c.index]
     ratio = np.sqrt(np.diag(posterior(f).covariance))
     rows = []
     for positions in _names(f).values():
@@ -136,14 +127,14 @@ def by_accelerometer(f: Fitted) -> list[Row]:
                     _state(ratio[n]),
                 )
             )
-        rows.append(Row(symbol_of(f, first), numbers.unit(first.unit), tuple(cells)))
+        rows.append(Row(symbol_of(first), numbers.unit(first.unit), tuple(cells)))
     return rows
 
 
 def by_combination(f: Fitted) -> list[Row]:
     """The same of the sums and differences of the four accelerometers (parameters of one value left out)."""
     c = f.calibration
-    nominal = vector(f.model, f.instrument)[c.index]
+    nominal = f.sheet[c.index]
     fitted = posterior(f)
     rows = []
     for positions in _names(f).values():
@@ -161,7 +152,7 @@ def by_combination(f: Fitted) -> list[Row]:
             value = float(u @ c.p[c.index[positions]]) / first.unit_factor
             before = float(u @ nominal[positions]) / first.unit_factor
             cells.append(Cell(numbers.plus_minus(value, std), numbers.rounded(before, std), _state(ratio)))
-        rows.append(Row(symbol_of(f, first), numbers.unit(first.unit), tuple(cells)))
+        rows.append(Row(symbol_of(first), numbers.unit(first.unit), tuple(cells)))
     return rows
 
 
@@ -213,7 +204,7 @@ def visibility(f: Fitted) -> Visibility:
     shared = [n for n in range(len(own)) if SHARE < own[n] <= 1.0 - SHARE]
     unseen: dict[str, list[Symbol]] = {}
     for n in alone:
-        unseen.setdefault(directions[n].pattern, []).append(symbol_of(f, directions[n].column))
+        unseen.setdefault(directions[n].pattern, []).append(symbol_of(directions[n].column))
     groups = [_group(f, directions, P, members) for members in _components(P, shared)]
     return Visibility(
         len(own) - null.shape[1],
@@ -243,7 +234,7 @@ def _group(f: Fitted, directions: Sequence[_Direction], P: Array, members: Seque
     values, vectors = np.linalg.eigh(P[np.ix_(members, members)])
     seen = vectors[:, values < 0.5]
     formulas = tuple(_formula(f, [directions[n] for n in members], v) for v in _simple(seen))
-    pieces = tuple(Piece("", "", directions[n].pattern, symbol_of(f, directions[n].column)) for n in members)
+    pieces = tuple(Piece("", "", directions[n].pattern, symbol_of(directions[n].column)) for n in members)
     return Group(pieces, len(members) - seen.shape[1], formulas)
 
 
@@ -279,7 +270,7 @@ def _formula(f: Fitted, directions: Sequence[_Direction], v: Array) -> tuple[Pie
             if d.column.unit != first[1]:
                 text += f" {_quotient(first[1], d.column.unit)}"
         sign = numbers.MINUS if ratio < 0 else "+" if pieces else ""
-        pieces.append(Piece(sign, text, d.pattern, symbol_of(f, d.column)))
+        pieces.append(Piece(sign, text, d.pattern, symbol_of(d.column)))
     return tuple(pieces)
 
 
@@ -294,7 +285,7 @@ def pulls(f: Fitted, most: int) -> list[tuple[str, float]]:
     """(parameter, distance from the test sheet in plausible sizes) of the calibrated values that moved farthest."""
     c = f.calibration
     scale = np.array([q.scale for q in c.columns])
-    away = (c.p[c.index] - vector(f.model, f.instrument)[c.index]) / scale
+    away = (c.p[c.index] - f.sheet[c.index]) / scale
     order = np.argsort(-np.abs(away), kind="stable")[:most]
     return [(c.columns[n].label, float(away[n])) for n in order]
 

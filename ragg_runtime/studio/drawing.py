@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import series as reported
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.model.record import Record
-from ragg_runtime.report import series as reported
 from ragg_runtime.report.spectrogram import spectrogram
 from ragg_runtime.studio import apply
 from ragg_runtime.studio.pyramid import HEAD, Pyramid, pyramid

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis import series as reported
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
@@ -21,7 +22,6 @@ from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import DEMODULATED
 from ragg_runtime.lack_of_fit import heat
-from ragg_runtime.report import series as reported
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]

@@ -4,6 +4,5 @@
 the file that an interrupted survey continues from, ``summary`` what the flights say together. ``quality`` needs no model:
 it imports nothing above ``flight``.
 
-Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model``, ``model_dir``, ``plausibility`` and
-``wording``.
+Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model_dir``, ``plausibility`` and ``wording``.
 """

@@ -18,13 +18,15 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
-from ragg_runtime.base import safe_path
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.memory import reuse_memory
 from ragg_runtime.survey.task import Job, Record, examine
 
 ATTEMPTS = 3
 """How often a flight is tried whose worker dies or runs out of memory."""
+
+_SAFE_PATH = "PYTHONSAFEPATH"
+"""Set for processes that this program starts: they do not look into the current folder at all."""
 
 _ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -138,7 +140,7 @@ def _inherited() -> Iterator[None]:
     Python would let it look for its own modules in the current folder first, whoever's that is. Once it is up,
     it imports from where this process does.
     """
-    old = {name: os.environ.get(name) for name in (*_ONE_THREAD, safe_path.VARIABLE)}
+    old = {name: os.environ.get(name) for name in (*_ONE_THREAD, _SAFE_PATH)}
     os.environ.update(dict.fromkeys(old, "1"))
     mask = (
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])

@@ -15,7 +15,7 @@ import threading
 import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -40,8 +40,6 @@ from ragg_runtime.flight.mapping import Mapped, parse_mapping
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model.evaluate import vector
-from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 from ragg_runtime.plausibility import examined
 
@@ -133,7 +131,8 @@ def examine(given: Job, file: str) -> Record:
                 remedy="put the flights where every worker can read them, or survey without --scheduler",
             )
         with _one_thread(), alone():
-            instrument, model = _model(given.text, given.path)
+            instrument = _parsed(given.text, given.path)
+            model = derive.model_of(instrument)
             read = read_flight(
                 path,
                 instrument.g0,
@@ -142,7 +141,8 @@ def examine(given: Job, file: str) -> Record:
                 line=line,
             )
             flight = examined(model, instrument, read)
-            return record | _figures(model, instrument, flight)
+            f = fit(model, instrument, observations_of([flight], instrument))
+            return record | _figures(f, flight)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
     except (MemoryError, OSError):
@@ -190,18 +190,9 @@ def _fault(error: Exception) -> str:
     return f"{type(error).__name__}: {error}{place}"
 
 
-_deriving = threading.RLock()
-
-
 @lru_cache(maxsize=8)
-def _parsed(text: str, path: str) -> tuple[Instrument, Model]:
-    instrument = parse_instrument(text, Path(path))
-    return instrument, derive.model_of(instrument)
-
-
-def _model(text: str, path: str) -> tuple[Instrument, Model]:
-    with _deriving:  # a worker of a cluster may have several threads, and SymPy knows only one
-        return _parsed(text, path)
+def _parsed(text: str, path: str) -> Instrument:
+    return parse_instrument(text, Path(path))
 
 
 class _Limit:
@@ -230,15 +221,9 @@ class _Limit:
 _one_thread = _Limit()
 
 
-def _figures(model: Model, instrument: Instrument, flight: Flight) -> Record:
-    def extended(m: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
-        with _deriving:
-            return derive.with_effects(instrument, m, ids, candidates=candidates)
-
-    f = fit(model, instrument, observations_of([flight], instrument))
-    p = vector(model, instrument)
-    held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, p, x)[None], 1)
-    d = diagnose_fitted(f, [flight], extended)
+def _figures(f: Fitted, flight: Flight) -> Record:
+    held_out, nominal = f.score([_held_out(f)], lambda x: comparison.nominal_residual(f, f.sheet, x)[None], 1)
+    d = diagnose_fitted(f, [flight], partial(derive.with_effects, f.instrument))
     held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,

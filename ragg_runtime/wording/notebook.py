@@ -206,15 +206,20 @@ def in_one_line(kind: str, said: str, *errors: tuple[str, float | None]) -> str:
     return f"<{kind}: {said}; {', '.join(f'{name} {number(x)}' for name, x in errors)} Eo>"
 
 
+def rms_of(error: Mapping[str, Any] | None, which: str = "calibrated") -> float | None:
+    """rms_Eo of an error object, or of that one of the three of ``compare``; ``None`` if it has none."""
+    inner = error.get(which, error if which == "calibrated" else None) if error else None
+    value = inner.get("rms_Eo") if inner else None
+    return None if value is None else float(value)
+
+
 def model(name: str, effects: Sequence[str], steps: Sequence[Mapping[str, Any]]) -> str:
     """A model directory and its history."""
     rows = []
     for s in steps:
         errors = []
         for key in ("before", "after"):
-            e = s[key]
-            calibrated = e.get("calibrated", e) if e else None
-            rms = calibrated.get("rms_Eo") if calibrated else None
+            rms = rms_of(s[key])
             errors.append("-" if rms is None else number(rms))
         rows.append((s["time"], s["action"], s["effect"] or "-", *errors))
     return _fragment(

@@ -30,7 +30,7 @@ from ragg_runtime.compensation.export.folder import write_folder
 from ragg_runtime.compensation.export.numpy_folder import numpy_files
 from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.output import writing
+from ragg_runtime.compensation.output import format_for, writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
@@ -261,6 +261,11 @@ FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
     {"c": c_program, "numpy": numpy_files, "json": json_files, "harmonics": _harmonics}
 )
 """Form of an export -> its files."""
+
+
+def check_output(path: Path) -> None:
+    """UserError if no compensated series is written in this format: said before anything is computed."""
+    format_for(path)
 
 
 def read_for_compensation(

@@ -63,7 +63,7 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     """
     kept = None if mapping is None else mapping_text(Path(mapping))
     if source is None:
-        text = resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
+        text = _example_text()
     else:
         text = read_text(Path(source))
     instrument = parse_instrument(text, Path(source) if source else None)
@@ -73,6 +73,15 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
     m = loaded(made)
     return m if tomllib.loads(text).get("model") else replace(m, notes=(*m.notes, NO_FORM))
+
+
+def example() -> Instrument:
+    """The instrument of the packaged test sheet."""
+    return parse_instrument(_example_text())
+
+
+def _example_text() -> str:
+    return resources.files("ragg_runtime").joinpath("example.toml").read_text("utf-8")
 
 
 def load(path: Path | str) -> Loaded:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -28,7 +29,6 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.instrument.units import read_quantity
-from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import Progress
@@ -40,6 +40,7 @@ from ragg_runtime.workflow.change import errors_of as errors_of
 from ragg_runtime.workflow.change import remove as remove
 from ragg_runtime.workflow.loaded import NO_FORM as NO_FORM
 from ragg_runtime.workflow.loaded import Loaded as Loaded
+from ragg_runtime.workflow.loaded import example as example
 from ragg_runtime.workflow.loaded import load as load
 from ragg_runtime.workflow.loaded import mapping_of as mapping_of
 from ragg_runtime.workflow.loaded import new as new
@@ -71,10 +72,7 @@ def diagnose(
     ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
     """
     distinct(flights)
-
-    def extended(model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
-        return derive.with_effects(m.instrument, model, ids, candidates=candidates)
-
+    extended = partial(derive.with_effects, m.instrument)
     if compared is not None:
         return _diagnose.diagnose_fitted(compared.fitted, flights, extended, limits)
     return _diagnose.diagnose(m.model, m.instrument, flights, extended, limits)

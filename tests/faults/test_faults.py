@@ -16,8 +16,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import clear_stale, temporary_name, write_text
 from ragg_runtime.base.lock import locked
 from ragg_runtime.cli.main import main
-from ragg_runtime.cli.publish import publish
 from ragg_runtime.model_dir.directory import load_model_dir
+from ragg_runtime.model_dir.publish import publish
 from ragg_runtime.workflow import loop
 
 from . import surveys
@@ -78,7 +78,7 @@ def test_two_processes_on_one_model(tmp_path: Path) -> None:
 def test_derive_waits_for_another_and_says_so_in_the_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ragg_runtime.cli.publish._PATIENCE", 0.05)
+    monkeypatch.setattr("ragg_runtime.model_dir.publish._PATIENCE", 0.05)
     with locked(tmp_path, 0.0), pytest.raises(UserError, match="another command is deriving there"):
         publish(tmp_path, {"a": {"x": "1"}}, ())
     assert list(tmp_path.iterdir()) == []

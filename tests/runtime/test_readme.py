@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime.cli.main import cli
+from ragg_runtime.cli.main import COMMANDS
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text("utf-8")
@@ -98,7 +98,7 @@ def _named(pattern: str) -> Iterator[tuple[Path, str]]:
 
 
 def test_every_command_that_a_page_names_exists() -> None:
-    known = set(cli.commands)
+    known = set(COMMANDS)
     named = list(_named(r"(?:`|^    (?:\$ )?)ragg ([a-z][a-z-]+)"))
     assert len(named) > 50
     assert [(p.name, c) for p, c in named if c not in known] == []

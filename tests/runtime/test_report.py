@@ -20,8 +20,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ragg_runtime import report
+from ragg_runtime.diagnosis import budget, diagnose, result, series
 from ragg_runtime.diagnosis import comparison as compare
-from ragg_runtime.diagnosis import diagnose, result
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
@@ -30,7 +30,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
-from ragg_runtime.report import barcharts, budget, draw, effect_values, panels, parameters, series
+from ragg_runtime.report import barcharts, draw, effect_values, panels, parameters
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.wording import numbers
 

@@ -14,8 +14,8 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.folder import Folder, NotPlainError, is_plain
 from ragg_runtime.base.lock import locked
 from ragg_runtime.cli.main import main
-from ragg_runtime.cli.publish import publish
 from ragg_runtime.model_dir.directory import NAMES, load_model_dir
+from ragg_runtime.model_dir.publish import publish
 from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links and pipes")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ragg_runtime.report import figures, page, panels, series
+from ragg_runtime.diagnosis import series
+from ragg_runtime.report import figures, page, panels
 from ragg_runtime.report.panel import Panel, Shown
 
 REPORTS = ("compare", "diagnose", "add")

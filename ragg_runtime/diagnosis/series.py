@@ -13,7 +13,7 @@ from ragg_runtime.base import series_name
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
 from ragg_runtime.signals.derivative import stretches
 
 Array = NDArray[np.float64]
@@ -26,6 +26,13 @@ LEAST = 8
 
 SEGMENT = 128.0
 """Length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate."""
+
+
+BAND = CUTOFF
+"""Hz up to which the demodulated channels hold the gradient."""
+
+DRAWN = CUTOFF + WIDTH / 2
+"""Hz up to which they are drawn: beyond it the low-pass leaves nothing."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,10 +11,20 @@ from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import error
 from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import output, unit_factor
-from ragg_runtime.report.barcharts import Contribution
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Contribution:
+    """What one group of parameters contributes: before demodulation, and in the two channels, Eo; ``strong``: an effect."""
+
+    label: str
+    rms: float
+    inline: float
+    cross: float
+    strong: bool
 
 
 def contributions(f: Fitted) -> list[Contribution]:

@@ -4,16 +4,55 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
+from derive import everything
 from ragg_runtime.base import transaction
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.lock import locked
 
 _PATIENCE = 60.0  # s
 
+HOME = Path(str(everything.__file__)).parents[1]
+"""Where the project stands: the root to write to unless another is named."""
+
 Folders = Mapping[str, Mapping[str, str]]
 """Folder below the root -> path in it -> text."""
+
+
+def rederived(root: Path) -> list[str]:
+    """Derive everything and write it below ``root``; returns the paths that changed."""
+    return publish(root, everything.below(root), whole=(everything.GENERATED,))
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What is committed below a root against what the derivation yields.
+
+    Attributes
+    ----------
+    difference
+        Of the files, as text; empty if there is none.
+    versions
+        What is to be said of other versions of what derives, if they are others.
+    committed_with
+        The SymPy that derived what is committed.
+    """
+
+    difference: str
+    versions: str | None
+    committed_with: str
+
+
+def checked(root: Path) -> Checked:
+    """Compare, and write nothing; UserError if a killed ``ragg derive`` left something half done."""
+    check_settled(root)
+    return Checked(
+        difference=everything.difference(root),
+        versions=everything.about_versions(root),
+        committed_with=everything.committed_with(root),
+    )
 
 
 def publish(root: Path, folders: Folders, whole: tuple[str, ...]) -> list[str]:

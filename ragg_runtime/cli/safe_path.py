@@ -10,9 +10,6 @@ from __future__ import annotations
 import os
 import sys
 
-VARIABLE = "PYTHONSAFEPATH"
-"""Set for processes that this program starts: they do not look into the current folder at all."""
-
 
 def without_current_folder() -> None:
     """Drop the entry that ``python -m`` made, unless it is where this very program was imported from."""
