@@ -125,7 +125,8 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
 
     def score(e: str) -> float:
         held = frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
-        return _score(f, tests[e].rank, held, _derived(f, [e], stage.instants, extend))
+        charge = _charge(stage.field.P[:, list(tests[e].which)], f.calibration.rows)
+        return _score(f, charge, held, _derived(f, [e], stage.instants, extend))
 
     tried = near[:CONTENDERS]
     scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
@@ -143,8 +144,20 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
 
 
 def _alike(a: Test, b: Test) -> bool:
-    """Whether two effects explain the same, with as many coefficients, as far as a linear test tells."""
-    return a.rank == b.rank and abs(a.chi2 - b.chi2) < INDISTINGUISHABLE
+    """Whether two effects explain the same, as surely, as far as a linear test tells."""
+    return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and a.log_p < b.log_p + selection.AS_SURE
+
+
+def _charge(columns: Array, rows: int) -> float:
+    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction,
+    or less where the record tells less of it than one of the prior's width.
+
+    The evidence of a direction of norm s is lower by ln(1 + s^2) with a prior of unit width, and BIC's prior is one of which a
+    single row tells as much: of two the narrower holds. Otherwise an effect would lose to a twin for coefficients of which
+    the record says nothing (the third angle of a turn, the weak combinations of four accelerometers).
+    """
+    s = np.linalg.svd(columns, compute_uv=False)
+    return float(np.sum(np.minimum(np.log(rows), np.log1p(s**2))))
 
 
 def _derived(
@@ -160,8 +173,8 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, rank: int, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
-    """Chi-square that a nonlinear fit leaves with an effect in the model, charged for its coefficients (BIC).
+def _score(f: Fitted, charge: float, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
+    """Chi-square that a nonlinear fit leaves with an effect in the model, and what its coefficients are charged.
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
     the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
@@ -185,7 +198,7 @@ def _score(f: Fitted, rank: int, held: frozenset[str], derived: tuple[Model, Ins
         given = np.linalg.solve(C[others], C.T)
         cost = float(values @ np.linalg.solve(C[others], values))
         known += float(np.sum(given * C.T)) - len(others)
-    return c.chi2 + cost + rank * float(np.log(c.rows)) + 2.0 * known
+    return c.chi2 + cost + charge + 2.0 * known
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -163,10 +164,11 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
     def part(piece: Piece) -> _Part:
         valid = piece.observation.record.valid
         each = _each(piece, o)
+        known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
-            outputs=tuple(left_over(flat, valid, rate, band) for flat in each),
+            outputs=tuple(left_over(x, valid, rate, band, t) for x, t in zip(each, known, strict=True)),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={e: tuple(flat[place] ** 2 for flat in each) for place, e in shown if e is not None},
         )
@@ -188,6 +190,17 @@ def _passed(at: Point, o: Observation, apart: Array | None, work: Callable[[Piec
 def _each(piece: Piece, o: Observation) -> list[Array]:
     """Unwhitened columns (n + 1, rows) of every output."""
     return np.split(piece.white, len(o.series), axis=1)
+
+
+def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
+    """Columns (k, rows) of one output without what an unknown gradient spans."""
+    if not piece.windows:
+        return columns
+    wide = np.zeros((len(columns), outputs, columns.shape[1]))
+    wide[:, m] = columns
+    flat = wide.reshape(len(columns), -1)
+    unknown_gradient.project(flat, piece.windows)
+    return np.asarray(flat.reshape(wide.shape)[:, m])
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:

@@ -28,9 +28,10 @@ direction, well below what noise does to any estimate."""
 RELATIVE = 1e-5
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
-VALLEY = 0.5
+VALLEY = 1.0
 """Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: the way there is a
-curved valley, and what is at its end is not worth half a standard deviation."""
+curved valley, or lost in the rounding of a record without noise, and what is at its end is not worth a standard deviation in
+one direction of the dozens that are fitted."""
 
 ACCEPTED = 1e-4
 """Least share of the promised decrease for which a step is taken."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.fit.left_over import left_over
 from ragg_runtime.fit.significance import log_sf, log_sf_t
+from ragg_runtime.fit.unknown_gradient import splines
 from ragg_runtime.signals.noise_level import Level, estimated, in_words, with_bursts
 from ragg_runtime.signals.noise_spectrum import estimate
 
@@ -51,6 +52,23 @@ def test_a_jump_to_which_slow_columns_bend_is_found(size: float) -> None:
     assert [d.kind for d in left.found] == ["jump"]
     assert left.found[0].at == pytest.approx(113.0, abs=2.0 / size)
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
+
+
+def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
+    """What was projected out of the data, not of the jump's own column, passed for further jumps and for noise."""
+    rng = np.random.default_rng(6)
+    n = 4800
+    time = np.arange(n) / RATE
+    phase = np.pi * time  # twice the spin rate
+    Q = np.linalg.qr(splines(time, np.cos(phase), np.sin(phase)).T)[0]
+
+    def through(columns: Array) -> Array:
+        return np.asarray(columns - (columns @ Q) @ Q.T)
+
+    flat = through(np.vstack([np.ones(n), rng.normal(size=n) + 30.0 * (time >= 113.0)]))
+    left = left_over(flat, np.ones(n, dtype=bool), RATE, (0.44, 0.56), through)
+    assert [(d.kind, d.at) for d in left.found] == [("jump", 113.0)]
+    assert np.std(left.rest) == pytest.approx(1.0, rel=0.03)
 
 
 def test_red_noise_does_not_jump() -> None:

@@ -19,7 +19,7 @@ from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import with_steps
-from ragg_runtime.diagnosis.strong import Stage
+from ragg_runtime.diagnosis.strong import Stage, _charge
 from ragg_runtime.evidence.random_effects import Variance
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.fitted import fit
@@ -68,6 +68,13 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
     assert d.before.rms_Eo > 20 * truth
     assert d.after.rms_Eo == pytest.approx(truth, rel=0.02)
     assert d.noise_floor == pytest.approx(truth, rel=0.03)
+
+
+def test_a_coefficient_is_charged_no_more_than_the_record_tells_of_it() -> None:
+    columns = np.linalg.qr(np.random.default_rng(3).standard_normal((50, 3)))[0] * [1e6, 7.0, 0.1]
+    charge = _charge(columns, 10_000)
+    assert charge == pytest.approx(np.log(10_000) + np.log(50.0) + np.log(1.01))
+    assert _charge(columns[:, :1], 10_000) == pytest.approx(np.log(10_000))  # where all is known, BIC
 
 
 @pytest.mark.parametrize("name", sorted(STRONG))

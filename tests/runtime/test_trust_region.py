@@ -99,6 +99,16 @@ def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     assert not settled(found.at)
 
 
+@pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.0, False)])
+def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converged: bool) -> None:
+    """Of a record without noise the sum of squares scatters by some tenths from one point to the next."""
+
+    def grainy(x: Array) -> Linear:
+        return Linear(np.eye(2), np.array([promise**0.5, 0.0]), 10.0 + 0.2 * float(np.sin(1e13 * np.sum(x))))
+
+    assert minimise(grainy, np.zeros(2)).converged is converged
+
+
 def test_a_point_where_the_model_has_no_output_is_left_alone() -> None:
     def edge(x: Array) -> Linear:
         r = np.sqrt(1.0 - x[0]) if x[0] < 1.0 else np.inf
