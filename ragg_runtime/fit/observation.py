@@ -28,9 +28,9 @@ Array = NDArray[np.float64]
 def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
     """Every output of every flight: several where the layout has several, those that were recorded."""
     found = []
-    for x in flights:
+    for n, x in enumerate(flights):
         forms = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
-        found += [observe(x, instrument, k) for k, form in enumerate(forms) if form]
+        found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
     return found
 
 
@@ -93,7 +93,8 @@ class Observation:
     ``recorded`` says which form of the output they are; all are in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them. ``digits`` says how the columns were written, ``rounded`` what those of the output make in G_out, V^2.
+    ``place`` counts them; ``flight`` counts the flights that are looked at together. ``digits`` says how the columns were
+    written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
     recorded: Recorded
@@ -102,6 +103,7 @@ class Observation:
     name: str
     output: Output = PAPER.outputs[0]
     place: int = 0
+    flight: int = 0
     digits: Digits = field(default_factory=Digits)
     rounded: Mapping[str, float] = field(default_factory=dict)
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
@@ -111,6 +113,11 @@ class Observation:
     def data(self) -> Array:
         """(m, N), V; zero where a sample is not valid."""
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
+
+    @property
+    def flight_name(self) -> str:
+        """Name of the flight, without that of the output."""
+        return self.name.removesuffix(f": {self.output.name}")
 
     @property
     def signs(self) -> Array:
@@ -128,7 +135,8 @@ class Observation:
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        return Observation(self.recorded, self.record.part(rows), series, self.name, self.output, self.place)
+        record = self.record.part(rows)
+        return Observation(self.recorded, record, series, self.name, self.output, self.place, self.flight)
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
