@@ -35,10 +35,11 @@ derive: $(STAMP)  ## derive every model and generate all code and pages anew
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
-# Two workers share the cores, and each takes whole files, whose fixtures are then made once: a thread pool of linear algebra in each would only get in the way.
+# Two workers share the cores, and each takes whole files, whose fixtures are then made once, the longest first (tests/conftest.py):
+# a thread pool of linear algebra in each would only get in the way.
 test: export OPENBLAS_NUM_THREADS := 1
 test: $(STAMP)  ## run the tests
-	$(BIN)/python -m pytest -q -n 2 --dist loadfile
+	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
 
 lint: $(STAMP)  ## style, types, layers
 	$(BIN)/ruff check .

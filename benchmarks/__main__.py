@@ -66,7 +66,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument(
         "--keep", action="store_true", help="make this run the one later runs are compared with"
     )
-    parser.add_argument("--page", action="store_true", help="write the page though not all are run")
+    parser.add_argument("--page", action="store_true", help="of those named, renew the tables in the page")
     parser.add_argument("--rows", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     known = modules()
@@ -97,7 +97,10 @@ def main(arguments: Sequence[str]) -> int:
     RESULTS.write_text(json.dumps(everything, indent=1) + "\n", "utf-8")
     if not options.names or options.page:
         titles = {n: (m.__doc__ or n).splitlines()[0] for n, m in known.items()}
-        PAGE.write_text(page.page(everything, titles, last), "utf-8")
+        some = {n: results[n] for n in options.names}
+        old = PAGE.read_text("utf-8") if some else ""
+        text = page.renewed(old, some, titles, last) if some else page.page(everything, titles, last)
+        PAGE.write_text(text, "utf-8")
         print(f"written: {PAGE.relative_to(ROOT)}", file=sys.stderr)
     if options.keep:
         text = json.dumps({**last, **ratios(results)}, indent=1, sort_keys=True)

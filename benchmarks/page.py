@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -66,22 +67,37 @@ def page(everything: Mapping[str, Any], titles: Mapping[str, str], last: Mapping
         "",
     ]
     for name, result in everything["results"].items():
-        rows = [Row(**r) for r in result["rows"]]
-        change = changes(rows, last.get(name, {}))
-        lines += [f"## {name}", "", titles.get(name, ""), ""]
-        if "failed" in result:
-            lines += [f"Failed: {result['failed']}.", ""]
-            continue
-        lines += [
-            "| what | value | spread | target | note | change |",
-            "|---|---:|---|---|---|---|",
-            *(
-                f"| {r.name} | {number(r.value)} {r.unit} | {_spread(r)} | {_target(r)} | {r.note} "
-                f"| {change.get(r.name, '')} |"
-                for r in rows
-            ),
-            "",
-            f"{result['seconds']} s in all, load of the machine at the end {result['load']}.",
-            "",
-        ]
+        lines += _section(name, result, titles, last)
     return "\n".join(lines)
+
+
+def renewed(old: str, results: Mapping[str, Any], titles: Mapping[str, str], last: Mapping[str, Any]) -> str:
+    """The page with the tables of some benchmarks measured anew; everything else stays as it is."""
+    head, *parts = re.split(r"^(?=## )", old if old.endswith("\n") else old + "\n", flags=re.MULTILINE)
+    known = {part.splitlines()[0].removeprefix("## "): part for part in parts}
+    made = {name: "\n".join(_section(name, r, titles, last)) for name, r in results.items()}
+    known |= {name: text.rstrip("\n") + "\n\n" for name, text in made.items()}
+    return (head + "".join(known[name] for name in sorted(known))).rstrip("\n") + "\n"
+
+
+def _section(
+    name: str, result: Mapping[str, Any], titles: Mapping[str, str], last: Mapping[str, Any]
+) -> list[str]:
+    rows = [Row(**r) for r in result["rows"]]
+    change = changes(rows, last.get(name, {}))
+    head = [f"## {name}", "", titles.get(name, ""), ""]
+    if "failed" in result:
+        return [*head, f"Failed: {result['failed']}.", ""]
+    return [
+        *head,
+        "| what | value | spread | target | note | change |",
+        "|---|---:|---|---|---|---|",
+        *(
+            f"| {r.name} | {number(r.value)} {r.unit} | {_spread(r)} | {_target(r)} | {r.note} "
+            f"| {change.get(r.name, '')} |"
+            for r in rows
+        ),
+        "",
+        f"{result['seconds']} s in all, load of the machine at the end {result['load']}.",
+        "",
+    ]

@@ -126,6 +126,8 @@ class Effect:
     told_from
         Parameters of the accelerometers that would do the same if the sheet was wrong about them: it is offered where the
         record tells it from them, whatever the sheet says.
+    turning
+        Whether it is one only where the disc turns: of one that stands still it is a constant that something else is, too.
     moot
         (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
     recogniser
@@ -151,6 +153,7 @@ class Effect:
     transducer: Callable[[sp.Expr, SensedForce, Values, Context], sp.Expr] | None = None
     common_of: str | None = None
     told_from: tuple[str, ...] = ()
+    turning: bool = False
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
     recogniser: str = ""
 

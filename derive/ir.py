@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
@@ -240,7 +241,12 @@ def operations(m: Harmonic | Chain | Folded) -> Mapping[str, int]:
 
 
 def _operations(expressions: Iterable[sp.Expr]) -> int:
-    return int(sum(sp.count_ops(e) for e in expressions))
+    return sum(_counted(e) for e in expressions)
+
+
+@cache
+def _counted(e: sp.Expr) -> int:
+    return int(sp.count_ops(e))
 
 
 def manifest_of_model(m: Harmonic | Chain | Folded) -> Mapping[str, object]:
@@ -274,6 +280,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({"either": True} if e.either else {}),
         **({} if e.common_of is None else {"common_of": e.common_of}),
         **({"told_from": list(e.told_from)} if e.told_from else {}),
+        **({"turning": True} if e.turning else {}),
         "kind": e.kind,
         "parameters": [
             {

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 
 import sympy as sp
 
@@ -17,14 +18,21 @@ from derive.symbols import is_taken, symbol
 
 def variables(e: sp.Expr) -> list[sp.Symbol]:
     """The symbols of an expression, by name: never iterate over ``free_symbols`` (its order is hashed)."""
-    return sorted(e.free_symbols, key=lambda s: s.name)
+    return sorted(symbols(e), key=lambda s: s.name)
 
 
-def partials(e: sp.Expr) -> dict[sp.Symbol, sp.Expr]:
+@cache
+def symbols(e: sp.Expr) -> frozenset[sp.Symbol]:
+    """The symbols of an expression, to be looked up: their order is hashed."""
+    return frozenset(e.free_symbols)
+
+
+@cache
+def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
     """All first derivatives of an expression, by symbol in order of name; those that vanish are left out.
 
     One pass over the tree for all symbols: calling ``sympy.diff`` for one after the other costs ten times
-    as much where an expression has many.
+    as much where an expression has many. Models that are derived one after the other share most of their expressions.
     """
     found: dict[sp.Symbol, list[sp.Expr]] = {}
 
@@ -78,7 +86,7 @@ class Program:
     def inputs(self) -> list[sp.Symbol]:
         """Symbols that are read but never assigned, by name."""
         assigned = {s for s, _ in self.assignments}
-        read = {s for _, e in (*self.assignments, *self.outputs) for s in e.free_symbols}
+        read = {s for _, e in (*self.assignments, *self.outputs) for s in symbols(e)}
         return sorted(read - assigned, key=lambda s: s.name)
 
 
@@ -104,7 +112,7 @@ class Tape:
     assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     _rates: dict[tuple[sp.Symbol, About], sp.Expr] = field(default_factory=dict)
-    _degrees: dict[tuple[sp.Symbol, frozenset[sp.Symbol]], int] = field(default_factory=dict)
+    _degrees: dict[tuple[sp.Expr, frozenset[sp.Symbol]], int] = field(default_factory=dict)
 
     def let(self, name: str, value: sp.Expr) -> sp.Expr:
         """Name a value. Constants, symbols and their negatives are passed through.
@@ -146,14 +154,14 @@ class Tape:
         """The lowest degree in the ``small`` symbols, at least, of any term of an expression."""
         if not small:
             return 0
+        key = e, small
+        if key not in self._degrees:
+            self._degrees[key] = self._degree(e, small)
+        return self._degrees[key]
+
+    def _degree(self, e: sp.Expr, small: frozenset[sp.Symbol]) -> int:
         if e.is_Symbol:
-            if e in small:
-                return 1
-            if e not in self._values:
-                return 0
-            if (e, small) not in self._degrees:
-                self._degrees[e, small] = self.degree(self._values[e], small)
-            return self._degrees[e, small]
+            return 1 if e in small else self.degree(self._values[e], small) if e in self._values else 0
         degrees = [self.degree(a, small) for a in e.args]
         if e.is_Add:
             return min(degrees)
@@ -194,7 +202,7 @@ def simplify(
     known: dict[sp.Symbol, sp.Expr] = dict(values)
     kept: list[tuple[sp.Symbol, sp.Expr]] = []
     for s, e in assignments:
-        e = e.xreplace(known) if known else e
+        e = e if known.keys().isdisjoint(symbols(e)) else e.xreplace(known)
         if e.is_Atom or (-e).is_Atom:
             known[s] = e
         else:
@@ -206,12 +214,12 @@ def simplify(
 def _live(
     assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
 ) -> list[tuple[sp.Symbol, sp.Expr]]:
-    needed = {s for _, e in outputs for s in e.free_symbols}
+    needed = {s for _, e in outputs for s in symbols(e)}
     kept = []
     for s, e in reversed(assignments):
         if s in needed:
             kept.append((s, e))
-            needed |= e.free_symbols
+            needed |= symbols(e)
     return kept[::-1]
 
 

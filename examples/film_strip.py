@@ -17,7 +17,7 @@ from playwright.sync_api import Page, sync_playwright
 
 FLIGHT = Path(__file__).parent / "demo-flight.parquet"
 TARGET = Path(__file__).parents[1] / "docs" / "studio.jpg"
-SIZE = (1440, 900)
+SIZE = (1440, 1080)
 WIDTH, GAP = 800, 10
 
 

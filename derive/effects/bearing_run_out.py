@@ -56,4 +56,5 @@ EFFECT = Effect(
         for a, word in (("c", "cosine"), ("s", "sine"))
     ),
     field=field,
+    turning=True,
 )

@@ -39,4 +39,5 @@ EFFECT = Effect(
         for k in "xy"
     ),
     geometry=geometry,
+    turning=True,
 )

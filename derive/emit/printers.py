@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -134,6 +135,7 @@ _SYMBOLS |= {SPIN_RATE.name: r"{\dot\phi}", SPIN_ACCELERATION.name: r"\ddot\phi"
 _SYMBOLS |= {TURN[i, k].name: f"u_{{{'rtz'[i]}{'rtz'[k]}}}" for i in range(3) for k in range(3)}
 
 
+@cache  # models that are derived one after the other share most of their expressions
 def to_numpy(e: sp.Expr) -> str:
     return str(_NumPy().doprint(e))
 
@@ -142,6 +144,7 @@ def to_c(e: sp.Expr) -> str:
     return str(_C({"contract": False}).doprint(e))
 
 
+@cache
 def to_fused_c(e: sp.Expr) -> str:
     return str(_Fused({"contract": False}).doprint(e))
 

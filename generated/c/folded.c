@@ -269,3 +269,34 @@ void ragg_folded_output(size_t n, const double *t, const double *const *in, cons
         block(size, in, at, cosine, sine, c, G + at);
     }
 }
+
+void ragg_folded_changes(size_t n, const double *t, const double *const *in, size_t count, const double *p,
+                         const double *angle, size_t few, const double *weights, double *found) {
+    double c[FOLDED], own[16][FOLDED], cosine[BLOCK], sine[BLOCK], G[BLOCK];
+    const size_t means = n / few, together = BLOCK / few;
+    fold(p, c);
+    for (size_t k = 0; k < count; ++k) { /* G_out is linear in the coefficients */
+        fold(p + (k + 1) * RAGG_FOLDED_PARAMETERS, own[k]);
+        for (size_t i = 0; i < FOLDED; ++i) {
+            own[k][i] -= c[i];
+        }
+    }
+    for (size_t first = 0; first < means; first += together) {
+        const size_t groups = means - first < together ? means - first : together, at = first * few;
+        const size_t size = turning(at, at + groups * few, t, p[1], angle, cosine, sine);
+        for (size_t k = 0; k < count; ++k) {
+            block(size, in, at, cosine, sine, own[k], G);
+            for (size_t w = 0; w < 2; ++w) {
+                const double *weight = weights + w * n + at;
+                double *mean = found + (2 * k + w) * means + first;
+                for (size_t g = 0; g < groups; ++g) {
+                    double sum = 0.0;
+                    for (size_t i = g * few; i < (g + 1) * few; ++i) {
+                        sum += weight[i] * G[i];
+                    }
+                    mean[g] = sum / (double)few;
+                }
+            }
+        }
+    }
+}

@@ -198,11 +198,12 @@ class Compensated:
         self.before.add(x.raw)
         self.after.add(x.gradient)
         self.count += len(x.quality)
-        for q in Quality:
-            self.bits[q] += int(np.sum((x.quality & q) != 0))
+        if x.quality.any():
+            for q in Quality:
+                self.bits[q] += int(np.count_nonzero(x.quality & q))
         good = x.good
-        self.good += int(np.sum(good))
-        self.squares += np.sum(x.parameters[:, good] ** 2, axis=1)
+        self.good += int(np.count_nonzero(good))
+        self.squares += np.sum(np.square(x.parameters if good.all() else x.parameters[:, good]), axis=1)
 
     def as_json(self) -> dict[str, Any]:
         """What was done and how good it is; after all segments."""

@@ -28,10 +28,7 @@ def of_noise(o: Observation, noise: Noise, d: Demodulator, k_ggi: float) -> tupl
     """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
     f = np.linspace(-0.5, 0.5, GRID)
     carrier = 2 * spin_frequency(o)
-    density = np.zeros(GRID)  # one-sided, V^2/Hz
-    for weight, model in zip(o.signs, noise.models, strict=True):
-        density += weight**2 * model.psd(np.abs(carrier + f))
-    passed = np.abs(d.response(f)) ** 2 * density
+    passed = np.abs(d.response(f)) ** 2 * noise.psd(np.abs(carrier + f), o.signs)
     cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi
     return 2 * cross, cross
 
@@ -48,7 +45,7 @@ class Density:
         """Count in inline + i cross; NaN: none."""
         n = int(WINDOW * self.rate)
         for run in runs(np.isfinite(g.real)):
-            x = g[run][:: self.step]
+            x = g[run.start : run.stop : self.step]
             if len(x) < n:
                 continue
             count = len(x) // n

@@ -260,7 +260,7 @@ def _followed(
     followed = sequential.evidence(target)
     for effect, instant in instants:
         if effect in found and instant is not None:
-            name = target.observations[0].name
+            name = target.observations[0].flight_name
             change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
             return replace(followed, change=change)
     return followed
@@ -314,7 +314,8 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     found = set()
     first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
     for x, w in zip(flights, first, strict=True):
-        columns, noise = {**x.channels, **x.outputs}, w.noise.models[0].rms
+        columns = {**x.channels, **x.outputs}
+        noise = float(np.sqrt(np.mean([m.rms**2 for m in w.noise.models])))
         outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
         for effect, r in f.model.recognisers.items():
             looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]

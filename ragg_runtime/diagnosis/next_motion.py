@@ -190,8 +190,8 @@ def rows_of(
     channels |= moved(channels, motion, time)
     r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
     made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
-    columns = linearised(prepared.at, made)
-    white = [filtered(columns[places, m], taps[:n]) for m, taps in enumerate(prepared.noise.filters)]
+    columns, noise = linearised(prepared.at, made), prepared.noise
+    white = [filtered(noise.series(columns, m)[places], taps[:n]) for m, taps in enumerate(noise.filters)]
     T = np.zeros((len(places), len(columns)))
     T[:, places] = triangle(np.concatenate(white, axis=1))
     return np.asarray(np.sqrt(duration / simulated) * T)

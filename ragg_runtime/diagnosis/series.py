@@ -114,7 +114,7 @@ def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Arr
 
 def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
-    psd = np.sum([m.psd(f) for m in w.noise.models], axis=0)
+    psd = w.noise.psd(f, w.observation.signs)
     if not w.observation.recorded.demodulated:
         return np.asarray(psd)
     r = w.observation.record
@@ -125,7 +125,7 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
     share = w.observation.recorded.noise_share(w.observation.record)
-    return float(np.sqrt(share * sum(m.rms**2 for m in w.noise.models))) / abs(k_ggi)
+    return float(np.sqrt(share * w.noise.variance(w.observation.signs))) / abs(k_ggi)
 
 
 def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,13 +117,11 @@ class Together:
 def together(f: Fitted) -> list[Together]:
     """Of every flight with several turning outputs what they saw."""
     found = []
-    starts = [n for n, o in enumerate(f.observations) if n == 0 or o.place <= f.observations[n - 1].place]
-    for first, last in zip(starts, [*starts[1:], len(f.observations)], strict=True):
+    for first, last in pairwise([*f.first, len(f.observations)]):
         own = [n for n in range(first, last) if f.observations[n].record.turning]
         seen = tuple(s for s in (gradient_seen(f, n) for n in own) if len(s.time))
         if len(seen) > 1:
-            name = f.observations[first].name.removesuffix(f": {f.observations[first].output.name}")
-            found.append(Together(name=name, fitted=f, seen=seen))
+            found.append(Together(name=f.observations[first].flight_name, fitted=f, seen=seen))
     return found
 
 
@@ -133,10 +131,8 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
     left = np.concatenate([_without_motion(f, o.part(s.rows)) for s in segments(len(o.record.time))])
     time, inline, cross = channels(left, o.record, k_ggi, o.record.valid)
     rate = o.record.rate
-    psd = sum(
-        float(m.psd(np.array([2 * abs(o.record.spin_frequency)]))[0]) for m in f.prepared[n].noise.models
-    )
-    noise = float(np.sqrt(psd * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
+    psd = f.prepared[n].noise.psd(np.array([2 * abs(o.record.spin_frequency)]), o.signs)
+    noise = float(np.sqrt(float(psd[0]) * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
     return Seen(place=o.place, time=time, inline=inline, cross=cross, inline_std=2 * noise, cross_std=noise)
 
 

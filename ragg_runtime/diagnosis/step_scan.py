@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from ragg_runtime.evidence import steps as special
 from ragg_runtime.evidence.selection import Field, field_of, testable_effects
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.fit.segments import BLOCKS
@@ -25,63 +27,106 @@ BESIDE = 20.0
 """Logarithm of the p-value by which a step must be surer beside the first effect than by itself to be taken at that instant."""
 
 
-def with_steps(f: Fitted, *, quiet: bool = False) -> tuple[Field, Fitted, dict[str, float]]:
+@dataclass(frozen=True)
+class _Found:
+    """A step that was found: the first sample after it, and the columns of others beside which it was."""
+
+    sample: int
+    given: Sequence[int]
+
+
+def with_steps(
+    f: Fitted, known: Mapping[str, _Found] = MappingProxyType({})
+) -> tuple[Field, Fitted, dict[str, float]]:
     """The field of all deterministic candidates, steps at their most likely instant among them.
 
-    Returns the field, the flights with the steps' columns put in, and the instants by effect, s. A step that no column
-    explained is part of the noise that was estimated: once its instant is known the noise is estimated again, and
-    everything with it (``quiet``: that has been done).
+    Looked for in one flight, in all its outputs at once: a step of one accelerometer is one of the ways to be tested.
+    Returns the field, the flight with the steps' columns put in, and the instants by effect, s. A step that no column
+    explained is part of the noise that was estimated: once its instant is ``known`` the noise is estimated again, and
+    everything with it.
     """
     available = testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]
-    if len(f.prepared) != 1 or not steps:
+    if len(f.flights) != 1 or not steps:
         return field_of(f, available), f, {}
-    x, triangles = f.prepared[0], f.triangles[0]
-    time = x.observation.record.time
     columns = design.candidate_columns(f.model, f.instrument)
-    plain = field_of(f, available)
-    first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
-    edges = [int(k) for k in x.edges[1:-1]]
     owned = {e.id: [(n, c) for n, c in enumerate(columns) if c.effect == e.id] for e in steps}
     places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
-    scans: dict[str, tuple[special.Step, Sequence[int]]] = {}
-    for e, own in owned.items():
-        found = [
-            (special.best_step(triangles, edges, f.n_base, given, own, f.to_nominal), given)
-            for given in ([[], first] if first else [[]])
-        ]
-        # By itself, unless it explains far more beside the first choice.
-        scans[e] = found[-1] if found[-1][0].test.log_p < found[0][0].test.log_p - BESIDE else found[0]
+    time, edges = f.observations[0].record.time, f.prepared[0].edges
+    exact = {e: _sharpened(f, step, places[e]) for e, step in known.items()}
+    if exact:
+        f = _from(f, exact)
+    plain = _with_penalty(f, [*available, *exact])
+    first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
+    scans = {e: _scanned(f, own, first) for e, own in owned.items() if e not in exact}
     samples = {e: step.sample for e, (step, _) in scans.items()}
-    root = _root(f, x.edges, samples, places)
-    exact: dict[str, float] = {}
+    scanned = {e: places[e] for e in samples}
+    found: dict[str, _Found] = {}
+    root = _root(f, edges, samples, places)
     for n, (e, (step, given)) in enumerate(scans.items()):
-        so_far = {e: samples[e] for e in list(samples)[: n + 1]}
-        # only uneven noise is judged by the blocks of time
-        begun = replace(f, triangles=(_stepped(triangles, x.edges, so_far, places),)) if f.uneven else f
-        field = _with_penalty(begun, [*available, *so_far], _picked(root, f, list(so_far), places))
-        if e in selection.choose(field).chosen:
-            step = special.refined(x, step, f.n_base, given, owned[e], f.to_nominal)
-            projector = prepared_flight.projector(triangles, f.n_base, given)
-            samples[e] = special.sharpened(x, step.sample, projector, places[e])
-            exact[e] = float(time[samples[e]])
-            root = _root(f, x.edges, samples, places)
-    instants = {e: float(time[k]) for e, k in samples.items()}
-    if exact and not quiet:
-        noise = estimate_noise(replace(x.at, instants=exact), x.observation)
-        calmer = fit(f.model, f.instrument, f.observations, [noise], f.calibration.p)
-        return with_steps(calmer, quiet=True)
-    if exact:  # the columns themselves, to the sample, and through the filter
-        x = replace(x.released(), at=replace(x.at, instants=exact))
-        triangles, sums = prepared_flight.blocks(x)
-    else:
-        sums = f.sums[0].copy()
-        for e, k in samples.items():
-            sums[np.ix_(x.edges[:-1] < k, np.array(places[e]))] = 0.0
-        triangles = _stepped(triangles, x.edges, samples, places)
-        x = x.with_steps(instants, places)
-    f = replace(f, prepared=(x,), triangles=(triangles,), sums=(sums,))
+        so_far = [*samples][: n + 1]
+        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned))
+        # blocks of time do not judge it yet: a step that is in the noise makes it uneven
+        if e in selection.choose(replace(field, blocks=())).chosen:
+            step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
+            found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
+            samples[e] = found[e].sample
+            root = _root(f, edges, samples, places)
+    if found and not known:
+        instants = {e: float(time[x.sample]) for e, x in found.items()}
+        noise = [estimate_noise(replace(x.at, instants=instants), x.observation) for x in f.prepared]
+        calmer = fit(f.model, f.instrument, f.observations, noise, f.calibration.p)
+        return with_steps(calmer, found)
+    if found:  # the columns themselves, to the sample, and through the filter
+        exact |= {e: x.sample for e, x in found.items()}
+        f = _from(f, exact)
+    rest = {e: k for e, k in samples.items() if e not in exact}
+    instants = {e: float(time[k]) for e, k in (exact | rest).items()}
+    f = _begun(f, edges, rest, places)
+    f = replace(f, prepared=tuple(x.with_steps(instants, places) for x in f.prepared))
     return _with_penalty(f, [*available, *instants]), f, instants
+
+
+def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
+    everything = [t for own in f.triangles for t in own]
+    projector = prepared_flight.projector(everything, f.n_base, step.given)
+    return special.sharpened(f.prepared, step.sample, projector, places)
+
+
+def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
+    """The same with the columns of steps from these samples on, made anew and put through the filter."""
+    time = f.observations[0].record.time
+    instants = {e: float(time[k]) for e, k in exact.items()}
+    prepared = [replace(x.released(), at=replace(x.at, instants=instants)) for x in f.prepared]
+    triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
+    return replace(f, prepared=tuple(prepared), triangles=triangles, sums=sums)
+
+
+def _scanned(
+    f: Fitted, own: Sequence[tuple[int, Column]], first: Sequence[int]
+) -> tuple[special.Step, Sequence[int]]:
+    """The most likely step with these columns, and the columns of others beside which it was found."""
+    edges = [int(k) for k in f.prepared[0].edges[1:-1]]
+    found = [
+        (special.best_step(f.triangles, edges, f.n_base, given, own, f.to_nominal), given)
+        for given in ([[], first] if first else [[]])
+    ]
+    # By itself, unless it explains far more beside the first choice.
+    return found[-1] if found[-1][0].test.log_p < found[0][0].test.log_p - BESIDE else found[0]
+
+
+def _begun(
+    f: Fitted,
+    edges: Sequence[int] | NDArray[np.intp],
+    samples: Mapping[str, int],
+    places: Mapping[str, Sequence[int]],
+) -> Fitted:
+    """The same with triangles and sums in which the columns of steps are zero in blocks of time that begin before them."""
+    sums = tuple(own.copy() for own in f.sums)
+    for own in sums:
+        for e, k in samples.items():
+            own[np.ix_(np.asarray(edges)[:-1] < k, np.array(places[e]))] = 0.0
+    return replace(f, triangles=tuple(_stepped(t, edges, samples, places) for t in f.triangles), sums=sums)
 
 
 def _stepped(
@@ -108,9 +153,10 @@ def _root(
     """Triangle of a flight, the prior in it, whose last columns are those of the steps from their instants on."""
     n, m = f.size + 1, sum(len(places[e]) for e in samples)
     blocks = []
-    for T, start in zip(f.triangles[0], edges[:-1], strict=True):
-        begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
-        blocks.append(np.hstack([T, *begun]))
+    for own in f.triangles:
+        for T, start in zip(own, edges[:-1], strict=True):
+            begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
+            blocks.append(np.hstack([T, *begun]))
     blocks[0] = np.vstack([blocks[0], np.zeros((m, n + m))])
     sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
     return fold([*blocks, sheet])

@@ -50,6 +50,10 @@ def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, in
 
     A direction counts only if its norm exceeds ``floor`` (per column): others are not testable.
     """
+    if len(columns) == 1:
+        x = np.ascontiguousarray(P[:, columns[0]])
+        square = float(x @ x)
+        return (float((x @ P[:, -1]) ** 2) / square, 1) if square > floor[columns[0]] ** 2 else (0.0, 0)
     X = P[:, list(columns)]
     usable = np.linalg.norm(X, axis=0) > floor[list(columns)]
     X = X[:, usable]

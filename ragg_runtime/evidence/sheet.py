@@ -1,4 +1,4 @@
-"""Effects that are the sheet's own parameters in disguise: what is known of them rests on how sure the sheet is.
+"""Effects that are something else in disguise: the sheet's own parameters, and of a disc that stands still, constants.
 
 A prior holds each parameter of the accelerometers at the sheet's value. An effect that is what all of them have in common
 (``common_of``) is testable because of that prior alone, and one that another parameter imitates (``told_from``) as well: then it is the
@@ -25,7 +25,11 @@ has a quarter in common with all, two have the half."""
 def doubtful(f: Fitted, effect: str) -> str | None:
     """Why an effect is not offered on these flights, in words: the sheet would do as well if it was wrong."""
     e = f.model.effect(effect)
-    if e is None or (not e.told_from and e.common_of is None):
+    if e is None:
+        return None
+    if e.turning and not any(o.record.turning for o in f.observations):
+        return "the disc stands still: what would turn with it is a constant"
+    if not e.told_from and e.common_of is None:
         return None
     own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == effect]
     P = likelihood_ratio.project(f.whole, f.n_base)

@@ -33,21 +33,21 @@ class Step:
 
 
 def best_step(
-    triangles: Sequence[Array],
+    triangles: Sequence[Sequence[Array]],
     edges: Sequence[int],
     n_base: int,
     given: Sequence[int],
     columns: Sequence[tuple[int, Column]],
     prior: Array,
 ) -> Step:
-    """The edge between two stretches of time, of which each has a triangle, where a step explains most.
+    """The edge between two stretches of time, of which each output has a triangle, where a step explains most.
 
     ``columns`` are those of the effect acting all the time (positions after the base); ``given`` those of
     effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
     """
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
-    picked = [below(t, n_base, others) for t in triangles]
+    picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*triangles, strict=True)]
     # The stretches after an edge count with the step's columns, those before it without.
     after: list[Array] = [np.zeros((k + m + 1, k + m + 1))]
     for t in reversed(picked[1:]):
@@ -74,15 +74,15 @@ FINE = 192
 
 
 def refined(
-    prepared: PreparedFlight,
+    prepared: Sequence[PreparedFlight],
     step: Step,
     n_base: int,
     given: Sequence[int],
     columns: Sequence[tuple[int, Column]],
     prior: Array,
 ) -> Step:
-    """Move the instant of a step to the sample where it explains most."""
-    length = len(prepared.observation.record.time)
+    """Move the instant of a step to the sample where it explains most, of all outputs of a flight."""
+    length = len(prepared[0].observation.record.time)
     reach = max(1, length // BLOCKS)
     places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
     moved = list(range(n_base + len(given), len(places)))
@@ -98,13 +98,14 @@ def refined(
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
             return [(int(k), triangle(X[:, which == k])) for k in np.unique(which)]
 
-        for own in prepared.each(cut):
-            for k, T in own:
-                before = triangles[k]
-                triangles[k] = T if before is None else join([before, T])
+        for x in prepared:
+            for own in x.each(cut):
+                for k, T in own:
+                    before = triangles[k]
+                    triangles[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
         known = [empty if t is None else t for t in triangles]
-        step = best_step(known, [int(e) for e in edges], n_base, range(len(given)), named, prior)
+        step = best_step([known], [int(e) for e in edges], n_base, range(len(given)), named, prior)
         reach = int(np.max(np.diff(edges), initial=1))
     return step
 
@@ -121,26 +122,25 @@ POINTS = 16
 """Instants on either side that are tried in each round that looks for the sample."""
 
 
-def sharpened(prepared: PreparedFlight, sample: int, projector: Projector, places: Sequence[int]) -> int:
+def sharpened(
+    prepared: Sequence[PreparedFlight], sample: int, projector: Projector, places: Sequence[int]
+) -> int:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.
 
     :func:`refined` cuts whitened columns off before the step. Of a constant a filter of red noise leaves next to nothing,
     but of a step its edge: cut off so, the edge is not there. Only of a flight of one segment; ``places`` of the columns are
-    those among all.
+    those among all, ``projector`` of all outputs together.
     """
-    length = len(prepared.observation.record.time)
+    length = len(prepared[0].observation.record.time)
     if length > ROWS:
         return sample
-    (piece,) = prepared.each(lambda p: p)
-    Q = projector.basis(piece)
-    y = projector.left(piece, Q)
-    record = piece.observation.record
+    pieces = [p for x in prepared for p in x.each(lambda p: p)]
+    bases = [projector.basis(p) for p in pieces]
+    y = np.concatenate([projector.left(p, Q) for p, Q in zip(pieces, bases, strict=True)])
+    Q = np.concatenate(bases)
 
     def explained(at: int) -> float:
-        columns = piece.columns[list(places)]
-        columns[:, :, :at] = 0.0
-        X = whitened_columns(columns, prepared.noise, None, record)
-        unknown_gradient.project(X, piece.windows)
+        X = np.concatenate([_begun(p, x, at, places) for p, x in zip(pieces, prepared, strict=True)], axis=1)
         whole = np.linalg.norm(X, axis=1)
         X = X - (X @ Q) @ Q.T
         seen = np.linalg.norm(X, axis=1) > np.maximum(likelihood_ratio.TESTABLE, 1e-6 * whole)
@@ -162,3 +162,15 @@ def sharpened(prepared: PreparedFlight, sample: int, projector: Projector, place
         if spacing == 1:
             return sample
         reach = spacing
+
+
+def _begun(piece: Piece, prepared: PreparedFlight, at: int, places: Sequence[int]) -> Array:
+    """(places, rows): columns of a whole flight from a sample on, whitened; those of other outputs' accelerometers are zero."""
+    columns = piece.columns[list(places)]
+    columns[:, :, :at] = 0.0
+    own = columns.any(axis=(1, 2))
+    X = whitened_columns(columns[own], prepared.noise, None, piece.observation.record)
+    unknown_gradient.project(X, piece.windows)
+    found = np.zeros((len(columns), X.shape[1]))
+    found[own] = X
+    return found

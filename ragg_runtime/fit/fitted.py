@@ -69,6 +69,11 @@ class _Counted:
     samples: Array
 
 
+def _another(before: Observation, o: Observation) -> bool:
+    """Whether an observation is of another flight than the one before it: outputs stand in their order, and may be missing."""
+    return o.place <= before.place or o.flight != before.flight
+
+
 def _left(v: Array, piece: Piece) -> Array:
     return np.asarray(piece.left(v)[0])
 
@@ -124,9 +129,14 @@ class Fitted:
         return self.scales[0]
 
     @property
+    def first(self) -> list[int]:
+        """Place among the observations of the first of each flight, of however many outputs."""
+        return [n for n, o in enumerate(self.observations) if not n or _another(self.observations[n - 1], o)]
+
+    @property
     def flights(self) -> list[Observation]:
         """One observation of each flight, of however many outputs."""
-        return [o for o in self.observations if o.place == 0]
+        return [self.observations[n] for n in self.first]
 
     @property
     def n_base(self) -> int:
@@ -331,7 +341,7 @@ def swell(f: Fitted) -> float:
 def estimated(x: PreparedFlight) -> float:
     """Variance of the estimated noise of what was observed as G_out, V^2."""
     share = x.observation.recorded.noise_share(x.observation.record)
-    return float(share * sum(m.rms**2 for m in x.noise.models))
+    return share * x.noise.variance(x.observation.signs)
 
 
 def noise_floor(f: Fitted) -> float:

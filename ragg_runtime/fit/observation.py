@@ -28,9 +28,9 @@ Array = NDArray[np.float64]
 def observations_of(flights: Sequence[Flight], instrument: Instrument) -> list[Observation]:
     """Every output of every flight: several where the layout has several, those that were recorded."""
     found = []
-    for x in flights:
+    for n, x in enumerate(flights):
         forms = [recorded(x, instrument.layout, k) for k in range(len(instrument.layout.outputs))]
-        found += [observe(x, instrument, k) for k, form in enumerate(forms) if form]
+        found += [replace(observe(x, instrument, k), flight=n) for k, form in enumerate(forms) if form]
     return found
 
 
@@ -56,11 +56,12 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     valid = np.array(r.valid)
     for x in series:
         valid &= np.isfinite(x)
-    if o.name in flight.outputs:
+    if o.name in flight.outputs and _at_top(flight.outputs[o.name], valid):
         valid &= ~saturation.clipped(flight.outputs[o.name], valid)
     for name in imu_saturation.CHANNELS:
         if name in flight.channels:
-            valid &= ~imu_saturation.clipped(flight.channels[name], valid)
+            if _at_top(flight.channels[name], valid):
+                valid &= ~imu_saturation.clipped(flight.channels[name], valid)
             let_go(flight.channels[name])
     let_go(*flight.outputs.values())
     wide = r.wide
@@ -92,7 +93,8 @@ class Observation:
     ``recorded`` says which form of the output they are; all are in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them. ``digits`` says how the columns were written, ``rounded`` what those of the output make in G_out, V^2.
+    ``place`` counts them; ``flight`` counts the flights that are looked at together. ``digits`` says how the columns were
+    written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
     recorded: Recorded
@@ -101,6 +103,7 @@ class Observation:
     name: str
     output: Output = PAPER.outputs[0]
     place: int = 0
+    flight: int = 0
     digits: Digits = field(default_factory=Digits)
     rounded: Mapping[str, float] = field(default_factory=dict)
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
@@ -110,6 +113,11 @@ class Observation:
     def data(self) -> Array:
         """(m, N), V; zero where a sample is not valid."""
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
+
+    @property
+    def flight_name(self) -> str:
+        """Name of the flight, without that of the output."""
+        return self.name.removesuffix(f": {self.output.name}")
 
     @property
     def signs(self) -> Array:
@@ -127,7 +135,29 @@ class Observation:
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        return Observation(self.recorded, self.record.part(rows), series, self.name, self.output, self.place)
+        record = self.record.part(rows)
+        return Observation(self.recorded, record, series, self.name, self.output, self.place, self.flight)
+
+
+def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
+    """Whether so many samples stand at one extreme value that a range may have been reached.
+
+    Of most columns only one does, and what asks further takes ten times as long.
+    """
+    parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
+    tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
+    near = max(tops, default=0.0) * (1 - 1e-9)
+    there = [
+        np.sum(_sizes(values[some], valid[some]) >= near)
+        for some, top in zip(parts, tops, strict=True)
+        if top >= near
+    ]
+    return bool(sum(there) >= saturation.CLIPPED)
+
+
+def _sizes(values: Array, valid: NDArray[np.bool_]) -> Array:
+    """Absolute values of the valid samples."""
+    return np.abs(values if valid.all() else values[valid])
 
 
 def _spacing(there: NDArray[np.bool_]) -> int:

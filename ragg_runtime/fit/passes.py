@@ -144,7 +144,7 @@ def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: R
     rows = []
     valid, level = record.valid, noise.level.of(record.quantity)
     for m, taps in enumerate(noise.filters):
-        y = filtered(columns[:, m], taps, None if tail is None else tail[:, m])
+        y = filtered(noise.series(columns, m), taps, None if tail is None else noise.series(tail, m))
         y = y / level if noise.level.parts else y
         rows.append(y if valid.all() else y[:, valid])
     return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)

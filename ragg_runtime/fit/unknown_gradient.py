@@ -140,8 +140,10 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         shares = _shares(o, X)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
         loud = level[a - rows.start : b - rows.start][inside]
+        together = np.stack(shares, axis=1)
         parts = [
-            filtered(x, taps, lead=lead)[:, inside] / loud for x, taps in zip(shares, filters, strict=True)
+            filtered(noise.series(together, m), taps, lead=lead)[:, inside] / loud
+            for m, taps in enumerate(filters)
         ]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.flight import slow
-from ragg_runtime.flight.angular_acceleration import HEAD, Derivative, planned
+from ragg_runtime.flight.angular_acceleration import Derivative, planned
 from ragg_runtime.flight.even_grid import differentiated, evenly
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
@@ -37,7 +37,7 @@ BRIDGED = 2.0
 """Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
 channels are often sampled more slowly than the motion, with blanks between."""
 
-_ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
+ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
 _NEEDED = ("time", *SPECIFIC_FORCE, *ANGULAR_RATE)
 
@@ -93,7 +93,7 @@ class Layout:
         step: float | None = None,
     ) -> Flight:
         """The flight of these rows (file's units); ``step`` is given for a part of a longer record."""
-        si = {c.name: self._converted(c, rows[c.name]) for c in self.columns if c.name not in whole.left_out}
+        si = {c.name: self.converted(c, rows[c.name]) for c in self.columns if c.name not in whole.left_out}
         grid = uniform(si.pop("time"), self.path, first_row, step)
         notes = [*grid.notes, *whole.notes]
         if step is None:
@@ -126,58 +126,12 @@ class Layout:
             written={c.name: c.unit for c in self.columns},
         )
 
-    def whole(self, batches: Iterable[Batch]) -> Whole:
-        """What only the whole file tells; one pass over it."""
-        auxiliary = [c for c in self.columns if c.name not in SI_UNITS or c.name in AUXILIARY]
-        rates = [c for c in self.columns if c.name in ANGULAR_RATE]
-        collected = {c.name: slow.Collector() for c in auxiliary}
-        time = next(c for c in self.columns if c.name == "time")
-        head: list[Batch] = []
-        rows, first, last = 0, np.nan, np.nan
-        for batch in batches:
-            t = self._converted(time, batch["time"])
-            if rows < HEAD:
-                head.append({c.name: batch[c.name][: HEAD - rows] for c in (time, *rates)})
-            rows += len(t)
-            if len(t):
-                first, last = (t[0] if np.isnan(first) else first), t[-1]
-            for c in auxiliary:
-                # One value in two seconds: more often than that, blanks are bridged where they stand.
-                most = (
-                    1000 + 2 * int(min(max(np.nan_to_num(t[-1] - first), 0.0) / BRIDGED, _ENDLESS))
-                    if len(t)
-                    else 0
-                )
-                collected[c.name].add(t, self._converted(c, batch[c.name]), most)
-        found: dict[str, slow.Slow] = {}
-        left_out, notes = [], []
-        for name, collector in collected.items():
-            series = collector.series() if collector.sparse else None
-            if series is None:
-                continue
-            if self.si_units[name] == "rad":
-                series = series[0], np.unwrap(series[1])
-            judged = slow.judged(*series)
-            if isinstance(judged, slow.Slow) and judged.covered < (1 - MOST_UNUSED) * (last - first):
-                judged = f"its values cover {judged.covered:.4g} s of {last - first:.4g} s"
-            if isinstance(judged, slow.Slow):
-                found[name] = judged
-                notes.append(
-                    f"{name}: recorded every {judged.step:.4g} s; interpolated (at {rows - collector.count} samples)"
-                )
-            else:
-                left_out.append(name)
-                notes.append(
-                    f"{name}: without a value at {_samples(rows - collector.count)}; left out: {judged}"
-                )
-        joined = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in head)]) for c in (time, *rates)}
-        return Whole(rows, self._derivative(joined), found, tuple(left_out), tuple(notes))
-
-    def _derivative(self, head: Batch) -> Derivative:
+    def derivative(self, head: Batch) -> Derivative:
+        """How to differentiate the rates, by the first rows of the file (its units)."""
         names = [c.name for c in self.columns]
         if ANGULAR_ACCELERATION[0] in names or len(head["time"]) < 2:
             return Derivative()
-        si = {c.name: self._converted(c, head[c.name]) for c in self.columns if c.name in head}
+        si = {c.name: self.converted(c, head[c.name]) for c in self.columns if c.name in head}
         try:
             grid = uniform(si["time"], self.path)
         except UserError:
@@ -187,17 +141,18 @@ class Layout:
     def step(self, rows: Batch) -> float:
         """Sampling interval of these rows, s."""
         time = next(c for c in self.columns if c.name == "time")
-        return uniform(self._converted(time, rows["time"]), self.path).step
+        return uniform(self.converted(time, rows["time"]), self.path).step
 
-    def _converted(self, column: Column, values: Array) -> Array:
+    def converted(self, column: Column, values: Array) -> Array:
+        """Values of a column in SI; NaN for what is beyond all bounds."""
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
         if (
-            len(result) and max(result.max(), -result.min()) < _ENDLESS
+            len(result) and max(result.max(), -result.min()) < ENDLESS
         ):  # the rule; of what is no number not true
             return result
         with np.errstate(invalid="ignore"):
-            return np.where(np.abs(result) < _ENDLESS, result, np.nan)
+            return np.where(np.abs(result) < ENDLESS, result, np.nan)
 
 
 def layout(
@@ -321,14 +276,14 @@ def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes
                 bridged[run] = inside and (run.stop - run.start + 1) * grid.step <= BRIDGED
         kept = int(np.sum(bridged & present))
         if kept:
-            notes.append(f"{name}: without a value at {_samples(kept)}, interpolated")
+            notes.append(f"{name}: without a value at {samples_of(kept)}, interpolated")
         if count > kept:
-            notes.append(f"{name}: without a value at {_samples(count - kept)}, not used")
+            notes.append(f"{name}: without a value at {samples_of(count - kept)}, not used")
         valid &= ~missing | bridged
     return valid
 
 
-def _samples(count: int) -> str:
+def samples_of(count: int) -> str:
     return "1 sample" if count == 1 else f"{count} samples"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import glob
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +16,7 @@ from ragg_runtime.base.files import file_digest, replacing
 from ragg_runtime.flight.angular_acceleration import REACH
 from ragg_runtime.flight.assemble import Layout, Whole, enough, layout
 from ragg_runtime.flight.formats import ending_of, format_of
+from ragg_runtime.flight.gathering import Gathering
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
 from ragg_runtime.flight.source import Batch, Column, Source, Written
@@ -104,28 +105,63 @@ def _flight(
     source: Source, g0: float, need_output: bool, accelerometers: Accelerometers, several: bool
 ) -> Flight:
     plan = layout(source.path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
-    batches: list[Batch] = []
-    held = 0
     with _line_named(source, several):
-        for batch in source.batches():
-            held += sum(v.nbytes for v in batch.values())
+        gathered = Gathering(plan)
+        rest = _bounded(source, gathered)
+        head: list[Batch] = []
+        held = 0
+        for batch in rest:
+            head.append(batch)
+            held += _bytes(batch)
             if held > IN_MEMORY:
-                batches.clear()
-                whole = plan.whole(_bounded(source))
-                parts = _chunks(source, plan, whole, PART, several)
-                return _noted(enough(spooled(parts, source.path, MOST_BYTES), whole.rows), source)
-            batches.append(batch)
-        rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in batches)]) for c in source.columns}
-        whole = plan.whole([rows])
+                return _noted(_long(source, plan, gathered, head, rest, several), source)
+        whole = gathered.whole()
+        rows = {c.name: np.concatenate([np.empty(0), *(b[c.name] for b in head)]) for c in source.columns}
         made = plan.flight(rows, whole, name=_name(source, several), digest=file_digest(source.path))
         return _noted(enough(made, whole.rows), source)
 
 
-def _bounded(source: Source) -> Iterator[Batch]:
-    """The rows of a source that is no compression bomb. UserError otherwise, before anything is laid down on disk."""
+def _long(
+    source: Source,
+    plan: Layout,
+    gathered: Gathering,
+    head: list[Batch],
+    rest: Iterator[Batch],
+    several: bool,
+) -> Flight:
+    """A flight too long for memory, read once: on the way it is taken for granted that no channel is one of a lower rate,
+    and that the first batches say how rates are differentiated.
+
+    Where that was wrong, it is read again. ``head`` are its first batches, ``rest`` those that follow, all counted by
+    ``gathered``.
+    """
+    batches, expected = _given_away(head, rest), gathered.expected()
+    made = spooled(_chunks(source, plan, expected, PART, several, batches), source.path, MOST_BYTES)
+    whole = gathered.whole()
+    if whole.slow or whole.left_out or whole.derivative != expected.derivative:
+        del made  # and its place on the disk
+        again = _chunks(source, plan, whole, PART, several, source.batches())
+        made = spooled(again, source.path, MOST_BYTES)
+    return enough(made, whole.rows)
+
+
+def _given_away(head: list[Batch], rest: Iterator[Batch]) -> Iterator[Batch]:
+    """Batches that are kept nowhere once they were given."""
+    head.reverse()
+    while head:
+        yield head.pop()
+    yield from rest
+
+
+def _bytes(batch: Batch) -> int:
+    return sum(v.nbytes for v in batch.values())
+
+
+def _bounded(source: Source, gathered: Gathering) -> Iterator[Batch]:
+    """The rows of a source that is no compression bomb, counted on the way. UserError where they become too many."""
     held, size = 0, source.path.stat().st_size
     for batch in source.batches():
-        held += sum(v.nbytes for v in batch.values())
+        held += _bytes(batch)
         if source.path.is_file() and held > max(IN_MEMORY, UNFOLDS * size):
             raise UserError(
                 "the file unfolds to more than a record can be compressed",
@@ -134,6 +170,7 @@ def _bounded(source: Source) -> Iterator[Batch]:
                 expected=f"at most {UNFOLDS} times as much",
                 remedy="if it is a record that hardly changes, save it as CSV or without compression",
             )
+        gathered.add(batch)
         yield batch
 
 
@@ -195,15 +232,21 @@ def iter_flight_chunks(
         raise UserError("a part of a flight needs at least two rows", found=rows)
     source = _single(open_sources(path, mapping), path)
     plan = layout(path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
-    yield from _chunks(source, plan, plan.whole(source.batches()), rows, False)
+    gathered = Gathering(plan)
+    for batch in source.batches():
+        gathered.add(batch)
+    yield from _chunks(source, plan, gathered.whole(), rows, False, source.batches())
 
 
-def _chunks(source: Source, plan: Layout, whole: Whole, rows: int, several: bool) -> Iterator[Flight]:
+def _chunks(
+    source: Source, plan: Layout, whole: Whole, rows: int, several: bool, batches: Iterable[Batch]
+) -> Iterator[Flight]:
+    """Consecutive parts of the flight that ``batches`` of rows make up."""
     name, digest = _name(source, several), file_digest(source.path)
     step: float | None = None
     before: Batch | None = None
     done = 0
-    parts = _parts(source, max(rows, _HALO))
+    parts = _parts([c.name for c in source.columns], batches, max(rows, _HALO))
     part = next(parts, None)
     while part is not None:
         after = next(parts, None)
@@ -269,11 +312,10 @@ def flight_name(path: Path) -> str:
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
-def _parts(source: Source, rows: int) -> Iterator[Batch]:
-    names = [c.name for c in source.columns]
+def _parts(names: Sequence[str], batches: Iterable[Batch], rows: int) -> Iterator[Batch]:
     waiting: list[Batch] = []
     count = 0
-    for batch in source.batches():
+    for batch in batches:
         waiting.append(batch)
         count += len(batch["time"])
         # The last part must not be too short to stand alone: one more than a full part stays in hand.

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import netcdf_file, parquet_file
@@ -18,7 +19,7 @@ from ragg_runtime.instrument.units import units
 
 @dataclass(frozen=True)
 class Glance:
-    """The output ``G_out`` (N,), V, NaN where nothing stands, from ``start`` s on every ``step`` s.
+    """The output ``G_out`` (N,), V, in single precision, NaN where nothing stands, from ``start`` s on every ``step`` s.
 
     Time is taken as uniform between the first stamp and the last: good enough to draw, and for nothing else.
     """
@@ -26,7 +27,7 @@ class Glance:
     name: str
     start: float
     step: float
-    values: Array
+    values: NDArray[np.float32]
 
 
 def glance(path: Path, g0: float) -> Glance | None:
@@ -50,7 +51,7 @@ def glance(path: Path, g0: float) -> Glance | None:
     if not (np.isfinite(step) and step > 0.0):
         return None
     # as in a flight that has been read, time begins with the first sample
-    return Glance(name=flight_name(path), start=0.0, step=step, values=np.asarray(values, dtype=np.float64))
+    return Glance(name=flight_name(path), start=0.0, step=step, values=np.asarray(values, dtype=np.float32))
 
 
 def _parquet(path: Path) -> tuple[Any, Any]:
@@ -64,7 +65,8 @@ def _parquet(path: Path) -> tuple[Any, Any]:
     with pq.ParquetFile(path) as file:
         schema = file.schema_arrow
         time, volts = ((schema.field(n).metadata or {})[b"units"].decode() for n in ("time", "G_out"))
-        output = column(file.read(columns=["G_out"]), "G_out")
+        chunks = file.read(columns=["G_out"]).column("G_out").chunks
+        output = np.concatenate([np.empty(0), *(floats(c.cast("float64")) for c in chunks)], dtype=np.float32)
         last = file.metadata.num_row_groups - 1
         ends = [column(file.read_row_group(k, columns=["time"]), "time") for k in (0, last)]
     return (np.array([ends[0][0], ends[1][-1]]), time), (output, volts)

@@ -90,7 +90,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
     k = int(np.argmax(chi2[:-1]))
     if not chi2[k] > 0.0:
         return None
-    volts2 = sum(float(m.psd(near[k : k + 1])[0]) for m in x.noise.models) * r.rate / 2
+    volts2 = float(x.noise.psd(near[k : k + 1], x.observation.signs)[0]) * r.rate / 2
     return NearLine(
         frequency=float(near[k]),
         chi2=float(chi2[k]),
@@ -144,7 +144,7 @@ def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
     X = _turning(2 * np.pi * frequencies, r.time[r.valid])
     if x.noise.level.parts:
         X /= np.asarray(x.noise.level.of(r.quantity))[r.valid]
-    weights = piece.observation.weights
+    weights = x.noise.weights(piece.observation.weights)
     X = X if len(weights) == 1 else np.concatenate([w * X for w in weights], axis=1)
     unknown_gradient.project(X, piece.windows)
     return X

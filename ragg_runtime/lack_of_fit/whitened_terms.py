@@ -78,6 +78,7 @@ class Directions:
         self.piece, self.dictionary, self.whole = piece, dictionary, prepared.observation
         r = piece.observation.record
         self.filters = [taps[:MEMORY] for taps in prepared.noise.filters]
+        self.weights = prepared.noise.weights(piece.observation.weights)
         self.size = len(r.time)
         self.level = prepared.noise.level.of(r.quantity)
         steady = not prepared.noise.level.parts
@@ -85,9 +86,7 @@ class Directions:
         """Whether terms may be filtered periodically: not past gaps, through the demodulator, nor where the noise's level changes."""
         if self.may_be_periodic:
             cut = [np.asarray(taps[: self.size]) for taps in self.filters]
-            self.gains = [
-                w * fft.rfft(h, self.size) for w, h in zip(piece.observation.weights, cut, strict=True)
-            ]
+            self.gains = [w * fft.rfft(h, self.size) for w, h in zip(self.weights, cut, strict=True)]
 
     def whitened(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """Places of some terms, their series (terms, N), and these whitened (terms, rows), through the filter."""
@@ -105,7 +104,7 @@ class Directions:
                 x[:, ~wide.valid] = 0.0
             parts = [
                 _kept(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)
-                for w, taps in zip(o.weights, self.filters, strict=True)
+                for w, taps in zip(self.weights, self.filters, strict=True)
             ]
             return at, x[:, lead:], self._without_gradient(parts)
 

@@ -65,7 +65,8 @@ class EffectParameter:
 class Effect:
     """What the runtime knows of a physical effect, from the manifest of the derivation.
 
-    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows (:mod:`ragg_runtime.evidence.sheet`).
+    ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
+    turns (:mod:`ragg_runtime.evidence.sheet`).
     """
 
     id: str
@@ -80,6 +81,7 @@ class Effect:
     either: bool = False
     common_of: str | None = None
     told_from: tuple[str, ...] = ()
+    turning: bool = False
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
         """The channels that it needs and a flight, which has those recorded, does not have."""

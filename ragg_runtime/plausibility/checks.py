@@ -80,16 +80,17 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
             remedy="give the record at its full rate; check the unit of time (s, ms, min) and spin_frequency",
         )
     for name, values in flight.outputs.items():
+        if name not in instrument.layout.columns:
+            continue
         usable = flight.valid & np.isfinite(values)
-        there = values[usable]
-        let_go(values)
-        if name in instrument.layout.columns and name not in DEMODULATED:
+        if name not in DEMODULATED:
             _fast_enough(name, flight, usable, f)
-        if len(there) and np.ptp(there) == 0 and name in instrument.layout.columns:
+        still = _still(values, usable)
+        if still is not None:
             raise UserError(
                 "the output does not change",
                 where=at(where, f"column {name!r}"),
-                found=f"{there[0]:.6g} V in all {len(there)} samples",
+                found=f"{still:.6g} V in all {np.count_nonzero(usable)} samples",
                 expected="the voltage of a turning disc",
                 remedy="a stuck or disconnected recorder? check the column",
             )
@@ -97,8 +98,10 @@ def require(model: Model, instrument: Instrument, flight: Flight) -> None:
 
 def _fast_enough(name: str, flight: Flight, usable: NDArray[np.bool_], f: float) -> None:
     """UserError if an output before demodulation was recorded more seldom than the motion, and too seldom for the disc."""
+    if f == 0.0 or 2 * np.count_nonzero(usable[1:] & usable[:-1]) > len(usable):
+        return  # most have a neighbour, and the flight is fast enough
     at_samples = np.flatnonzero(usable)
-    if len(at_samples) < 2 or f == 0.0:
+    if len(at_samples) < 2:
         return
     rate = flight.rate / float(np.median(np.diff(at_samples)))
     if rate <= 4 * f:
@@ -118,18 +121,32 @@ def remarks(instrument: Instrument, flight: Flight) -> list[str]:
 
 
 def _stuck(flight: Flight) -> list[str]:
-    still = []
-    for n in (*SPECIFIC_FORCE, *ANGULAR_RATE):
-        if n in flight.channels:
-            if np.ptp(flight.channels[n][flight.valid]) == 0:
-                still.append(n)
-            let_go(flight.channels[n])
+    still = [
+        n
+        for n in (*SPECIFIC_FORCE, *ANGULAR_RATE)
+        if n in flight.channels and _still(flight.channels[n], flight.valid) is not None
+    ]
     if not still:
         return []
     if len(still) == 6:
         return ["the motion does not change at all: a record at rest tells little about an instrument"]
     verb = "does" if len(still) == 1 else "do"
     return [f"{', '.join(still)} {verb} not change at all: a stuck sensor?"]
+
+
+def _still(values: Array, there: NDArray[np.bool_]) -> float | None:
+    """The one value that a column holds wherever there is one; ``None`` if it changes, or holds none."""
+    first: float | None = None
+    for start in range(0, len(values), _LONGEST):
+        part = np.asarray(values[start : start + _LONGEST])[there[start : start + _LONGEST]]
+        first = float(part[0]) if first is None and len(part) else first
+        if np.any(part != first):
+            break
+    else:
+        let_go(values)
+        return first
+    let_go(values)
+    return None
 
 
 def _rates(flight: Flight) -> list[str]:

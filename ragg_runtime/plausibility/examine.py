@@ -147,11 +147,17 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     names = p.columns
     left = np.empty((len(names), n))
     evaluator = model.compiled("auto" if n >= MANY else "numpy")
+    needed = {*model.chain.INPUTS, p.disc.angle_column}
+    channels = {c: x for c, x in p.flight.channels.items() if c in needed}
+    p = dataclasses.replace(p, flight=dataclasses.replace(p.flight, channels=channels))
     for start in range(0, n, CHUNK):
         rows = p.pick(np.arange(start, min(n, start + CHUNK)))
         x = rows.inputs(model.chain)
-        volts = evaluator.voltages(rows.time, x, fitted, rows.phi, 1, p.output.members)
-        left[:, start : start + CHUNK] = (rows.data - rows.before_demodulation(volts, None)) / eotvos
+        if p.recorded.separate:
+            model_says = evaluator.voltages(rows.time, x, fitted, rows.phi, 1, p.output.members)
+        else:
+            model_says = evaluator.output(rows.time, x, fitted, rows.phi, 1, which=p.place)[None]
+        left[:, start : start + CHUNK] = (rows.data - model_says) / eotvos
     notes = []
     for name, e in zip(names, left, strict=True):
         mask = spikes(e, p.usable)

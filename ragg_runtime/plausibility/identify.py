@@ -13,7 +13,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.plausibility import other_demodulator
 from ragg_runtime.plausibility.mistakes import mistakes
-from ragg_runtime.plausibility.quick_fit import Explained, explain
+from ragg_runtime.plausibility.quick_fit import Explained, explain, explain_all
 from ragg_runtime.plausibility.subsample import Picker
 from ragg_runtime.plausibility.timing import searches
 from ragg_runtime.signals.derivative import differentiate
@@ -29,6 +29,13 @@ FEW = 400
 
 MOST_TRIED = 24
 """Mistakes that are tried once more, on more rows."""
+
+SURELY = 6
+"""Mistakes that are tried once more however they compare."""
+
+NEARLY = 3.0
+"""Factor over the least that a mistake undone leaves of the few rows up to which others are tried once more as well: few rows
+tell what is left to a tenth or two, and only what is within ``AS_GOOD`` of the least is named."""
 
 BETTER = 5.0
 """Factor by which the residual must fall once a mistake is undone: no missing effect looks like that."""
@@ -91,15 +98,16 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
         return None
     few = p.pick(p.rows(most=FEW))
     rough = explain(model, instrument, few)
-    screened = [
-        (m, explain(model, instrument, m.undo(few)))
-        for m in mistakes(rows, instrument.units, p.flight.written, rates_derived=derived_rates(p.flight))
+    possible = [*mistakes(rows, instrument.units, p.flight.written, rates_derived=derived_rates(p.flight))]
+    screened = explain_all(model, instrument, (m.undo(few) for m in possible))
+    promising = [(m, left) for m, left in zip(possible, screened, strict=True) if _explains(rough, left, 0.5)]
+    promising = sorted(promising, key=lambda t: (t[1].share, t[1].surprise))[:MOST_TRIED]
+    promising = [
+        t for k, t in enumerate(promising) if k < SURELY or t[1].share < NEARLY * promising[0][1].share
     ]
-    promising = [(m, left) for m, left in screened if _explains(rough, left, 0.5)]
-    promising.sort(key=lambda t: (t[1].share, t[1].surprise))
+    again = explain_all(model, instrument, (m.undo(rows) for m, _ in promising))
     tried = [
-        _Tried(m.what, m.remedy, m.plainness, explain(model, instrument, m.undo(rows)))
-        for m, _ in promising[:MOST_TRIED]
+        _Tried(m.what, m.remedy, m.plainness, left) for (m, _), left in zip(promising, again, strict=True)
     ]
     tried += [
         _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)

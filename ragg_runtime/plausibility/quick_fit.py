@@ -6,7 +6,8 @@ residual being the only thing unknown. It costs milliseconds; it is no calibrati
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.plausibility.subsample import Rows
@@ -65,48 +67,104 @@ class Explained:
 
 def explain(model: Model, instrument: Instrument, rows: Rows) -> Explained:
     """Fit the model's parameters about the instrument's values, with their priors."""
-    p = vector(model, instrument)
-    members = rows.output.members
-    place = instrument.layout.outputs.index(rows.output)
-    eotvos = scale_factor(model, p, place)
-    x = rows.inputs(model.chain)
-    cos_phi, sin_phi = np.cos(rows.phi), np.sin(rows.phi)
-    volts = np.empty((len(members), len(rows.time)))
-    by: dict[tuple[str, int | None], Array] = {}
-    for k, j in enumerate(members):
-        q = model.chain.values_of(j, p)
-        volts[k] = model.chain.accelerometer(j, rows.time, cos_phi, sin_phi, x, q)
-        slopes = model.chain.derivatives(j, rows.time, cos_phi, sin_phi, x, q)
-        for (name, shared), slope in zip(model.chain.ROWS, slopes, strict=True):
-            if shared:
-                by.setdefault((name, None), np.empty_like(volts))[k] = slope
-            else:
-                by[name, j + 1] = slope
-    found = [
-        (c, i)
-        for c, i in design.base_columns(model, instrument)
-        if c.accelerometer is None or c.accelerometer - 1 in members
-    ]
-    columns = [
-        rows.before_demodulation(by[c.name, c.accelerometer], c.accelerometer) * (c.scale / eotvos)
-        for c, _ in found
-    ]
-    columns += _gradient(rows)
+    return explain_all(model, instrument, [rows])[0]
+
+
+TOGETHER = 4096
+"""Rows for which the model is evaluated at a time: a few hundred by themselves cost hardly less."""
+
+
+def explain_all(model: Model, instrument: Instrument, many: Iterable[Rows]) -> list[Explained]:
+    """The same of several records, or of one with one mistake after the other undone: rows of the same output."""
+    about = _About.of(model, instrument)
+    found: list[Explained] = []
+    waiting: list[Rows] = []
+    for rows in many:
+        waiting.append(rows)
+        if sum(len(r.time) for r in waiting) >= TOGETHER:
+            found += about.explained(waiting)
+            waiting = []
+    return found + about.explained(waiting)
+
+
+@dataclass(frozen=True)
+class _About:
+    """A model at an instrument's values ``p``, and its fitted parameters with their places in ``p``."""
+
+    model: Model
+    layout: Layout
+    p: Array
+    fitted: Sequence[tuple[design.Column, int]]
+
+    @staticmethod
+    def of(model: Model, instrument: Instrument) -> _About:
+        return _About(
+            model=model,
+            layout=instrument.layout,
+            p=vector(model, instrument),
+            fitted=design.base_columns(model, instrument),
+        )
+
+    def explained(self, many: Sequence[Rows]) -> list[Explained]:
+        """Of rows of one output that are evaluated together."""
+        if not many:
+            return []
+        first = many[0]
+        o = first.output
+        eotvos = scale_factor(self.model, self.p, self.layout.outputs.index(o))
+        own = [(c, i) for c, i in self.fitted if c.accelerometer is None or c.accelerometer - 1 in o.members]
+        volts, by = self._evaluated(many)
+        nominal = first.before_demodulation(volts, None)
+        columns = np.empty((len(own), *nominal.shape))
+        for column, (c, _) in zip(columns, own, strict=True):
+            column[:] = first.before_demodulation(by[c.name, c.accelerometer], c.accelerometer)
+            column *= c.scale / eotvos
+        edges = np.cumsum([0, *(len(r.time) for r in many)])
+        scale = np.array([c.scale for c, _ in own])
+        places = [i for _, i in own]
+        found = []
+        for rows, start, stop in zip(many, edges, edges[1:], strict=False):
+            some = slice(start, stop)
+            theta, e = _fitted(rows, columns[:, :, some], nominal[:, some], eotvos)
+            moved = self.p.copy()
+            moved[places] += theta[: len(own)] * scale
+            found.append(replace(e, p=moved, surprise=float(np.sum(theta[: len(own)] ** 2))))
+        return found
+
+    def _evaluated(self, many: Sequence[Rows]) -> tuple[Array, dict[tuple[str, int | None], Array]]:
+        """Voltages (members, n) at the rows of all, and their derivatives by every parameter: of one accelerometer (n,), of
+        all (members, n).
+        """
+        chain, members = self.model.chain, many[0].output.members
+        x = np.concatenate([r.inputs(chain) for r in many], axis=1)
+        time, phi = (np.concatenate(y) for y in ([r.time for r in many], [r.phi for r in many]))
+        cos_phi, sin_phi = np.cos(phi), np.sin(phi)
+        volts = np.empty((len(members), len(time)))
+        by: dict[tuple[str, int | None], Array] = {}
+        for k, j in enumerate(members):
+            q = chain.values_of(j, self.p)
+            volts[k] = chain.accelerometer(j, time, cos_phi, sin_phi, x, q)
+            slopes = chain.derivatives(j, time, cos_phi, sin_phi, x, q)
+            for (name, shared), slope in zip(chain.ROWS, slopes, strict=True):
+                if shared:
+                    by.setdefault((name, None), np.empty_like(volts))[k] = slope
+                else:
+                    by[name, j + 1] = slope
+        return volts, by
+
+
+def _fitted(rows: Rows, columns: Array, nominal: Array, eotvos: float) -> tuple[Array, Explained]:
+    """Coefficients of columns (n, m, N), Eo, and of a gradient that was not recorded; and what they leave, still without ``p``."""
+    columns = np.stack([*columns, *_gradient(rows)])
     inner = rows.inner
-    X = rows.seen(np.stack(columns))[:, :, inner].reshape(len(columns), -1)
-    y = ((rows.data - rows.seen(rows.before_demodulation(volts, None))) / eotvos)[:, inner].reshape(-1)
+    X = rows.seen(columns)[:, :, inner].reshape(len(columns), -1)
+    y = ((rows.data - rows.seen(nominal)) / eotvos)[:, inner].reshape(-1)
     theta, kept = robust(X, y)
     left = (y - theta @ X)[kept]
     size = rows.data[:, inner] / eotvos
     size = size - np.mean(size, axis=1, keepdims=True)
-    moved = p.copy()
-    moved[[i for _, i in found]] += theta[: len(found)] * np.array([c.scale for c, _ in found])
-    return Explained(
-        float(np.sqrt(np.mean(left**2))),
-        float(np.sqrt(np.mean(size.reshape(-1)[kept] ** 2))),
-        moved,
-        float(np.sum(theta[: len(found)] ** 2)),
-    )
+    rms = float(np.sqrt(np.mean(left**2)))
+    return theta, Explained(rms, float(np.sqrt(np.mean(size.reshape(-1)[kept] ** 2))), theta, 0.0)
 
 
 def _gradient(rows: Rows) -> list[Array]:

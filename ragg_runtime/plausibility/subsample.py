@@ -233,7 +233,8 @@ CHUNK = 1 << 16
 
 def _picked(column: Array, rows: Index) -> Array:
     """Some rows of a column; of one on disk, none of the rest stays in memory."""
-    found = np.asarray(column[rows])
+    neighbours = len(rows) > 1 and bool(np.all(rows[1:] == rows[:-1] + 1))
+    found = np.array(column[rows[0] : rows[-1] + 1]) if neighbours else np.asarray(column[rows])
     let_go(column)
     return found
 

@@ -11,7 +11,7 @@ from scipy import fft, optimize
 
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
-from ragg_runtime.plausibility.quick_fit import Explained, explain
+from ragg_runtime.plausibility.quick_fit import Explained, explain, explain_all
 from ragg_runtime.plausibility.subsample import Picker
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 
@@ -73,20 +73,22 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     best, width = f0, SPIN_RANGE * f0
     span = min(x.duration, 0.5 / width * 2)
 
-    def left(f: float, last: int) -> Explained:
-        return explain(model, instrument, p.pick(p.rows(0, last, 600), spin_frequency=f))
+    def left(rates: Sequence[float], last: int) -> list[float]:
+        rows = p.rows(0, last, 600)
+        each = explain_all(model, instrument, (p.pick(rows, spin_frequency=f) for f in rates))
+        return [x.share for x in each]
 
     while True:
         last = max(2, min(len(x), int(span * x.rate)))
         step = 0.1 / (last / x.rate)
         grid = best + step * np.arange(-np.ceil(width / step), np.ceil(width / step) + 1)
-        best = float(grid[int(np.argmin([left(f, last).share for f in grid]))])
+        best = float(grid[int(np.argmin(left(grid.tolist(), last)))])
         if last == len(x):
             break
         width, span = 2 * step, span * 4
     best = float(
         optimize.minimize_scalar(
-            lambda f: np.log(left(f, len(x)).share),
+            lambda f: np.log(left([float(f)], len(x))[0]),
             bounds=(best - step, best + step),
             method="bounded",
             options={"xatol": 1e-9 * f0},
@@ -113,8 +115,11 @@ def _spin(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
 
 
 def _phase(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
-    def left(phase: float) -> Explained:
-        return explain(model, instrument, p.pick(p.rows(most=600), phase=phase))
+    rows = p.rows(most=600)
+
+    def left(phases: Array) -> list[float]:
+        each = explain_all(model, instrument, (p.pick(rows, phase=float(x)) for x in phases))
+        return [x.share for x in each]
 
     best = _refined(left, np.deg2rad(np.arange(0.0, 360.0, 10.0)), np.deg2rad(10.0))
     best = float((best + np.pi) % (2 * np.pi) - np.pi)
@@ -131,26 +136,25 @@ def _phase(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     ]
 
 
-def _refined(left: Callable[[float], Explained], grid: Array, step: float) -> float:
-    best = float(grid[int(np.argmin([left(g).share for g in grid]))])
+def _refined(left: Callable[[Array], list[float]], grid: Array, step: float) -> float:
+    best = float(grid[int(np.argmin(left(grid)))])
     for _ in range(4):
         step /= 4
-        near = best + step * np.arange(-4, 5)
-        best = float(near[int(np.argmin([left(g).share for g in near]))])
+        near = np.asarray(best + step * np.arange(-4, 5), dtype=np.float64)
+        best = float(near[int(np.argmin(left(near)))])
     return best
 
 
 def _shift(model: Model, instrument: Instrument, p: Picker) -> list[Found]:
     """Motion and output apart: candidates from the cross-correlation, judged by what the model explains."""
     found = []
+    rows = p.rows(most=400)
     tried: dict[int, tuple[Explained, Explained]] = {}
     waiting = [k for k in _lags(instrument, p) if k != 0]
     while waiting:
-        for k in waiting:
-            tried[k] = (
-                explain(model, instrument, p.pick(p.rows(most=400), shift=k)),
-                explain(model, instrument, p.pick(p.rows(most=400), output_shift=-k)),
-            )
+        moved = explain_all(model, instrument, (p.pick(rows, shift=k) for k in waiting))
+        other = explain_all(model, instrument, (p.pick(rows, output_shift=-k) for k in waiting))
+        tried |= dict(zip(waiting, zip(moved, other, strict=True), strict=True))
         best = [min(tried, key=lambda k: tried[k][way].share) for way in (0, 1)]
         near = {k + d or d for k in best for d in (-1, 1)}  # beyond 0, which is the record as it stands
         waiting = sorted(near - set(tried))

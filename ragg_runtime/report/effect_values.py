@@ -22,7 +22,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import Posterior, posterior
-from ragg_runtime.report.parameters import PATTERNS
+from ragg_runtime.report.parameters import PATTERNS, accelerometer
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -109,10 +109,7 @@ def joint(f: Fitted, effect: str) -> list[Value]:
 
 def _single(f: Fitted, own: Sequence[tuple[int, Column]]) -> list[Value]:
     fitted = _fit(f, own)
-    return [
-        _value(c, f"A{c.accelerometer}" if c.accelerometer else "", np.eye(len(own))[k], fitted)
-        for k, (_, c) in enumerate(own)
-    ]
+    return [_value(c, accelerometer(f, c), np.eye(len(own))[k], fitted) for k, (_, c) in enumerate(own)]
 
 
 def _value(c: Column, of: str, weights: Array, fitted: Posterior) -> Value:
@@ -138,8 +135,7 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
                 rows.append((name, w, SEEN))
         else:
             for k in positions:
-                a = own[k][1].accelerometer
-                rows.append(("" if a is None else f"A{a}", np.eye(len(own))[k], UNSEEN))
+                rows.append((accelerometer(f, own[k][1]), np.eye(len(own))[k], UNSEEN))
         for of, w, limit in rows:
             if fitted.std(w) < limit * float(np.linalg.norm(w)):
                 found.append(_value(column, of, w, fitted))

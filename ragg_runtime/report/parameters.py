@@ -96,6 +96,11 @@ def symbol_of(column: Column) -> Symbol:
     return Symbol(pieces, column.name, column.meaning)
 
 
+def accelerometer(f: Fitted, column: Column) -> str:
+    """Its name as the layout has it; nothing of a parameter that all share."""
+    return "" if column.accelerometer is None else f.instrument.layout.names[column.accelerometer - 1]
+
+
 def _names(f: Fitted) -> dict[str, list[int]]:
     """Parameter name -> positions of its columns."""
     found: dict[str, list[int]] = {}
@@ -187,8 +192,7 @@ def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
                 directions.append(_Direction(name, columns[n], 1.0 / float(np.linalg.norm(u))))
             else:
                 row[n] = 1.0
-                label = "" if columns[n].accelerometer is None else f"A{columns[n].accelerometer}"
-                directions.append(_Direction(label, columns[n], 1.0))
+                directions.append(_Direction(accelerometer(f, columns[n]), columns[n], 1.0))
             rows.append(row)
     return directions, np.array(rows)
 
@@ -281,21 +285,25 @@ def _quotient(a: str, b: str) -> str:
     return f"{top}/({bottom})" if "/" in bottom or "·" in bottom else f"{top}/{bottom}"
 
 
-def pulls(f: Fitted, most: int) -> list[tuple[str, float]]:
+def _single(f: Fitted, n: int) -> Piece:
+    column = f.calibration.columns[n]
+    return Piece("", "", accelerometer(f, column), symbol_of(column))
+
+
+def pulls(f: Fitted, most: int) -> list[tuple[Piece, float]]:
     """(parameter, distance from the test sheet in plausible sizes) of the calibrated values that moved farthest."""
     c = f.calibration
     scale = np.array([q.scale for q in c.columns])
     away = (c.p[c.index] - f.sheet[c.index]) / scale
     order = np.argsort(-np.abs(away), kind="stable")[:most]
-    return [(c.columns[n].label, float(away[n])) for n in order]
+    return [(_single(f, n), float(away[n])) for n in order]
 
 
-def correlations(f: Fitted, most: int) -> list[tuple[str, str, float]]:
+def correlations(f: Fitted, most: int) -> list[tuple[Piece, Piece, float]]:
     """(parameter, parameter, correlation) of the pairs that the record ties most closely, largest first."""
     covariance = posterior(f).covariance
     std = np.sqrt(np.diag(covariance))
     r = covariance / np.outer(std, std)
     i, j = np.triu_indices(len(r), 1)
     order = np.argsort(-np.abs(r[i, j]), kind="stable")[:most]
-    label = [q.label for q in f.calibration.columns]
-    return [(label[i[k]], label[j[k]], float(r[i[k], j[k]])) for k in order]
+    return [(_single(f, i[k]), _single(f, j[k]), float(r[i[k], j[k]])) for k in order]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.signals.demodulate import CUTOFF as HALF_AMPLITUDE
 from ragg_runtime.signals.demodulate import low_pass
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import Series, convolved
 
 Array = NDArray[np.float64]
 
@@ -106,10 +106,10 @@ class Demodulator:
         back = np.exp(-2j * np.pi * frequency / self.rate)
         return np.asarray(polyval(back, self.taps) * back ** (-float(self.ahead)))
 
-    def low_passed(self, x: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    def low_passed(self, x: Series) -> Series:
         """Series (..., N) through the kernel; beyond their ends they are taken as zero."""
         ends = [(0, 0)] * (x.ndim - 1) + [(self.before, self.ahead)]
-        padded: NDArray[np.complex128] = np.pad(x, ends)
+        padded: Series = np.pad(x, ends)
         return convolved(padded, self.taps)
 
 

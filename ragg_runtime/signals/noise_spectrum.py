@@ -293,7 +293,7 @@ def _red_and_white(f: Array, p: Array, count: Array) -> Callable[[Array], Array]
 def white_noise(rate: float, outputs: int) -> Noise:
     """White noise of 1 V in every output: one object, by which it is known again."""
     flat = NoiseModel(rate, np.array([0.0, 1.0]), np.zeros(2), np.zeros(2))
-    return Noise((flat,) * outputs, (np.ones(1),) * outputs)
+    return Noise(models=(flat,) * outputs, filters=(np.ones(1),) * outputs)
 
 
 @dataclass(frozen=True)
@@ -301,6 +301,9 @@ class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
     sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
     ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
+
+    ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
+    (:mod:`ragg_runtime.signals.combinations`).
     """
 
     models: tuple[NoiseModel, ...]
@@ -309,3 +312,22 @@ class Noise:
     disturbed: str | None = None
     level: Level = field(default_factory=Level)
     freedom: float = np.inf
+    combinations: Array | None = field(default=None, compare=False)
+
+    def series(self, x: Array, m: int) -> Array:
+        """What the filter m takes of series (n, m, N): (n, N)."""
+        return x[:, m] if self.combinations is None else np.tensordot(self.combinations[m], x, (0, 1))
+
+    def weights(self, w: Array) -> Array:
+        """(m,): how what counts so in the series (m,) counts in what the filters take."""
+        return w if self.combinations is None else self.combinations @ w
+
+    def psd(self, f: Array, signs: Array) -> Array:
+        """One-sided density at frequencies f, V^2/Hz, of the output in which the series count so (m,)."""
+        weights = self.weights(signs) ** 2
+        return np.asarray(sum(w * m.psd(f) for w, m in zip(weights, self.models, strict=True)))
+
+    def variance(self, signs: Array) -> float:
+        """V^2, of that output."""
+        weights = self.weights(signs) ** 2
+        return float(sum(w * m.rms**2 for w, m in zip(weights, self.models, strict=True)))

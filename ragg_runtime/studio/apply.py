@@ -18,6 +18,7 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.report.quality_page import quality_html
 from ragg_runtime.signals.demodulators import DEMODULATORS
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.survey.quality.lines import SurveyLine, read_lines
 from ragg_runtime.survey.quality.qc import Quality, qc
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after
@@ -92,9 +93,23 @@ def file_of(c: Compensation, name: str) -> bytes:
         return path.read_bytes()
 
 
+def lines_of(m: Loaded, paths: Sequence[Path]) -> tuple[SurveyLine, ...]:
+    """What the files hold as lines of a survey, which need no motion; nothing if they are none."""
+    try:
+        return read_lines(paths, mapping_of(m, None)).lines
+    except UserError:
+        return ()
+
+
+def channel(x: SurveyLine, unit: str) -> Pyramid:
+    """The channel of a line that this unit asks for, else its first, Eo."""
+    y = x.channels[unit if unit in x.gradients else x.gradients[0]]
+    return pyramid(0.0, 1.0 / x.rate, len(y), lambda s: y[s])
+
+
 def quality(m: Loaded, paths: Sequence[Path], flights: Sequence[Flight], c: Compensation | None) -> Quality:
     """As ``ragg qc`` of the files, if they hold demodulated channels; else of what compensation made of them."""
-    if flights and all("inline" in x.outputs for x in flights):
+    if paths and all("inline" in x.outputs for x in flights):
         return qc(list(dict.fromkeys(paths)), mapping_of(m, None))
     if c is None:
         raise UserError(

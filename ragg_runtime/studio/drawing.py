@@ -49,7 +49,11 @@ class Asked:
 
 def series(s: State, a: Asked) -> bytes:
     """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
-    if s.compared is None and a.what == "measured" and (found := _unexamined(s, a.flight)) is not None:
+    if (
+        s.compared is None
+        and a.what == "measured"
+        and (found := _unexamined(s, a.flight, a.unit)) is not None
+    ):
         return found.window(a.first, a.last, a.points)
     if a.what.startswith("compensated:"):
         c, what = s.compensated, a.what.partition(":")[2]
@@ -74,8 +78,12 @@ def _rows(r: Record, a: Asked) -> slice:
     return slice(i, j)
 
 
-def _unexamined(s: State, flight: int) -> Pyramid | None:
-    """The output of a flight before it is compared: of a first look at the file, else of the flight as it was read."""
+def _unexamined(s: State, flight: int, unit: str) -> Pyramid | None:
+    """The output of a flight before it is compared: of a line, of a first look at the file, or of the flight as it was read."""
+    if 0 <= flight < len(s.lines):
+        line = s.tracks.cache.get(("line", flight, unit), lambda: apply.channel(s.lines[flight], unit))
+        assert isinstance(line, Pyramid)
+        return line
     if 0 <= flight < len(s.glances) and (look := s.glances[flight]) is not None:
         return look[1]
     x = s.flights[flight] if 0 <= flight < len(s.flights) else None
@@ -180,10 +188,12 @@ def heat_map(s: State, a: Asked) -> dict[str, Any]:
     ]
     rest = [int(k) for k in np.argsort(-strongest, kind="stable") if k not in single]
     chosen = [*single, *rest[: max(0, COLUMNS - len(single))]]
+    # a disc that stands still has no harmonics
+    there = [i for i in range(len(h.harmonics)) if np.isfinite(h.z[i]).any()]
     return {
-        "harmonics": [{"id": n, "words": numbers.harmonic(n)} for n in h.harmonics],
+        "harmonics": [{"id": h.harmonics[i], "words": numbers.harmonic(h.harmonics[i])} for i in there],
         "products": [{"id": h.products[k], "words": numbers.product(h.products[k])} for k in chosen],
-        "z": [[float(h.z[i, k]) for k in chosen] for i in range(len(h.harmonics))],
+        "z": [[float(h.z[i, k]) for k in chosen] for i in there],
         "level": h.level,
         "tried": int(np.sum(np.isfinite(h.z))),
     }

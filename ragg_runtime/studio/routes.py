@@ -7,6 +7,7 @@ import json
 import math
 import traceback
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from functools import partial
 from importlib import metadata, resources
 from pathlib import Path
 from typing import Any
@@ -205,13 +206,16 @@ async def _preview(session: Session, request: Request) -> Response:
 
     def made() -> Any:
         s = session.state
-        if s.diagnosed is None or s.unwhitened is None or s.field is None:
+        d, unwhitened, known = s.diagnosed, s.unwhitened, s.field
+        if d is None or unwhitened is None or known is None:
             raise UserError("the effects are not tested yet", remedy="wait a moment")
-        known = s.field
-        chosen = [e for e in asked.effects if e in known.candidates]
-        found = foresee.foreseen(s.diagnosed.fitted, s.unwhitened, known, chosen)
-        without = foresee.foreseen(s.diagnosed.fitted, s.unwhitened, known, [])
-        return found.as_json() | {"before_Eo": without.rms_Eo, "noise_Eo": s.diagnosed.noise_floor}
+
+        def foreseen(*effects: str) -> foresee.Foreseen:
+            make = partial(foresee.foreseen, d.fitted, unwhitened, known, effects)
+            return s.tracks.cache.get(("foreseen", effects), make)  # type: ignore[return-value]
+
+        found, without = foreseen(*(e for e in asked.effects if e in known.candidates)), foreseen()
+        return found.as_json() | {"before_Eo": without.rms_Eo, "noise_Eo": d.noise_floor}
 
     return _json(await run_in_threadpool(made))
 

@@ -29,6 +29,7 @@ from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.sheet import Edit
 from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
+from ragg_runtime.survey.quality.lines import SurveyLine
 from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation
@@ -55,6 +56,8 @@ class State:
         The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
     glances
         A first look at each file, and its output as it is drawn until the flight is compared.
+    lines
+        Instead of flights, where the files hold demodulated channels alone: no model can be held against these.
     compared, diagnosed, unwhitened
         Results for exactly these.
     previous
@@ -75,6 +78,7 @@ class State:
     read: tuple[Flight, ...] = ()
     cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
     glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
+    lines: tuple[SurveyLine, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     unwhitened: Unwhitened | None = None
@@ -138,9 +142,13 @@ class Session:
             part("reading the flights", 1.0)
             g0 = self.state.model.instrument.g0
             looks = tuple(_drawn(glance(p, g0)) for p in flights)
-            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks)
+            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks, lines=())
             part("reading and examining the flights", 1.0)
-            read = tuple(loop.read_flights(self.state.model, flights))
+            try:
+                read = tuple(loop.read_flights(self.state.model, flights))
+            except UserError:
+                self._put(lines=apply.lines_of(self.state.model, flights))
+                raise
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
             self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)

@@ -101,7 +101,8 @@ def _compensated(s: State, name: str) -> File:
 def _quality(s: State) -> File:
     if s.quality is None:
         raise UserError("there is no quality control yet", remedy="do it under Apply")
-    return "quality.html", HTML, apply.quality_page(s.quality, ", ".join(x.name for x in s.flights), _qc(s))
+    names = ", ".join(x.name for x in (s.flights or s.lines))
+    return "quality.html", HTML, apply.quality_page(s.quality, names, _qc(s))
 
 
 def _qc(s: State) -> str:

@@ -32,6 +32,7 @@ KEPT = 48
 MOST_BYTES = 1 << 30
 """Most memory that they may take together, bytes."""
 
+STANDS_STILL = "of a disc that stands still nothing is demodulated"
 
 WIDEST = 8 * ROWS
 """Most samples of a long flight for which the signature of an effect is computed while one waits."""
@@ -103,25 +104,16 @@ class Tracks:
             raise UserError("there is nothing to draw yet", remedy="wait until the flights are compared")
         return self.now.fitted
 
-    @property
-    def by_flight(self) -> list[list[Observation]]:
-        """What was compared of each flight: one observation of each output that it holds."""
-        found: list[list[Observation]] = []
-        name = None
-        for o in self.fitted.observations:  # those of a flight follow each other, in the order of the outputs
-            own = o.name.removesuffix(f": {o.output.name}")
-            if own != name or o.place <= found[-1][-1].place:
-                found.append([])
-            name = own
-            found[-1].append(o)
-        return found
+    def of_flight(self, flight: int) -> list[tuple[int, Observation]]:
+        """What was compared of a flight, with its place among all: one observation of each output that it holds."""
+        return [(n, o) for n, o in enumerate(self.fitted.observations) if o.flight == flight]
 
     def place(self, flight: int, output: int) -> int:
         """Which observation an output of a flight is: what ``flight`` means everywhere below."""
-        known = self.by_flight
-        if not (0 <= flight < len(known) and 0 <= output < len(known[flight])):
+        known = self.of_flight(flight)
+        if not 0 <= output < len(known):
             raise UserError("there is no such flight", found=f"flight {flight + 1}, output {output + 1}")
-        return sum(map(len, known[:flight])) + output
+        return known[output][0]
 
     def volts(self, name: str, flight: int) -> Array:
         """(N,) V of ``measured``, ``modelled``, ``residual`` or ``before``; zero where a sample is not valid."""
@@ -234,6 +226,8 @@ class Tracks:
             x = self.series(name, flight, effects)
             time = r.time
             if unit in DEMODULATED:
+                if not r.spin_frequency:
+                    raise UserError(STANDS_STILL)
                 found = comparison.demodulated_one(f, flight, x)
                 if not len(found[0]):
                     raise UserError(

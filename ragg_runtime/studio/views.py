@@ -5,23 +5,18 @@ from __future__ import annotations
 import math
 import shlex
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.score import Error, finite
-from ragg_runtime.flight.glance import Glance
 from ragg_runtime.flight.record import left_out
 from ragg_runtime.model.model import Effect
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.report import diagnose_page, panels, parameters, quality_page
 from ragg_runtime.report.parameters import Piece, Row, Symbol
-from ragg_runtime.studio import apply, maths, sheet, timeline
+from ragg_runtime.studio import apply, flights, maths, sheet
 from ragg_runtime.studio.branches import branches, tree
-from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.studio.surveys import shown_survey
 from ragg_runtime.survey.task import divided
@@ -36,7 +31,7 @@ def overview(s: State, version: str) -> Json:
     return {
         "version": version,
         "model": None if s.loaded is None else _model(s),
-        "flights": _flights(s),
+        "flights": flights.shown(s),
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
@@ -84,53 +79,6 @@ def _about(e: Effect) -> Json:
             }
             for q in e.parameters
         ],
-    }
-
-
-def _flights(s: State) -> list[Json]:
-    if not s.flights:
-        return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
-    return [
-        {
-            "name": numbers.clean(x.name),
-            "path": str(p),
-            "samples": len(x),
-            "valid": int(x.valid.sum()),
-            "rate_Hz": x.rate,
-            "start_s": 0.0,  # figures count from the first sample
-            "duration_s": x.duration,
-            "notes": [numbers.clean(n) for n in x.notes],
-            "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
-            "outputs": list(x.outputs),
-            "cuts": [list(c) for c in cuts],
-            "parts": [o.output.name for o in seen],
-            "missing": timeline.missing(seen[0].record.valid if seen else x.valid, x.rate),
-        }
-        for x, p, cuts, seen in zip(s.flights, s.paths, s.cuts, _observed(s), strict=True)
-    ]
-
-
-def _observed(s: State) -> Sequence[Sequence[Observation]]:
-    """What of each flight was compared."""
-    return s.tracks.by_flight if s.tracks.now else [()] * len(s.flights)
-
-
-def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
-    """What is known of a flight at a first look."""
-    found = look[0]
-    n = len(found.values)
-    return {
-        "name": numbers.clean(found.name),
-        "path": str(path),
-        "samples": n,
-        "valid": n,
-        "rate_Hz": 1.0 / found.step,
-        "start_s": found.start,
-        "duration_s": n * found.step,
-        "notes": [],
-        "channels": [],
-        "outputs": ["G_out"],
-        "glanced": True,
     }
 
 
@@ -273,20 +221,19 @@ def _parameters(c: Comparison) -> Json:
             }
             for g in v.groups
         ],
-        "correlations": _correlations(f),
-        "pull": [{"label": label, "sigma": sigma} for label, sigma in parameters.pulls(f, PULLED)],
+        "patterned": v.patterns,
+        "correlations": [
+            {"a": _piece(a), "b": _piece(b), "r": r} for a, b, r in parameters.correlations(f, CORRELATED)
+        ],
+        "pull": [{"of": _piece(p), "sigma": sigma} for p, sigma in parameters.pulls(f, PULLED)],
     }
 
 
 PULLED = 16
 """Parameters whose pull is shown, the farthest from their sheet."""
 
-CORRELATED = 24
+CORRELATED = 16
 """Pairs of correlated parameters that are shown."""
-
-
-def _correlations(f: Fitted) -> list[Json]:
-    return [{"a": a, "b": b, "r": r} for a, b, r in parameters.correlations(f, CORRELATED)]
 
 
 def _history(history: Sequence[Step]) -> Json:
@@ -349,7 +296,7 @@ def _trial(s: State) -> Json:
         "values": [
             {
                 "name": p.name,
-                "of": f"A{p.accelerometer}" if p.accelerometer else "",
+                "of": s.model.instrument.layout.names[p.accelerometer - 1] if p.accelerometer else "",
                 "text": numbers.with_unit(numbers.plus_minus(p.value, p.std), p.unit),
             }
             for p in (a.combinations or a.parameters)
@@ -377,19 +324,21 @@ def commands(s: State) -> list[str]:
     if s.loaded is None:
         return []
     model = shlex.quote(str(s.loaded.directory.path))
-    flights = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
+    files = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
     found = [f"ragg history {model}", f"ragg export {model} model-c --c"]
-    if s.paths:
-        found = [f"ragg {c} {model} {flights}" for c in ("compare", "diagnose")] + found
+    if s.lines:
+        found.append(f"ragg qc {files}")
+    elif s.paths:
+        found = [f"ragg {c} {model} {files}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
-        found[2:2] = [f"ragg add {model} {shlex.quote(e)} {flights}" for e in chosen]
-        found.insert(-1, f"ragg calibrate {model} {flights} --save")
+        found[2:2] = [f"ragg add {model} {shlex.quote(e)} {files}" for e in chosen]
+        found.insert(-1, f"ragg calibrate {model} {files} --save")
     if s.compensated is not None:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
-        found.append(f"ragg compensate {model} {flights} -o compensated.csv {options}")
+        found.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
     if s.survey is not None:
-        files = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
-        found.append(f"ragg survey {model} {' '.join(map(shlex.quote, files))}")
+        every = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
+        found.append(f"ragg survey {model} {' '.join(map(shlex.quote, every))}")
     cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
-    return [*_done(s, model, flights), *cut, *found]
+    return [*_done(s, model, files), *cut, *found]

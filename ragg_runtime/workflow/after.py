@@ -240,9 +240,11 @@ def contents(m: Loaded) -> Contents:
 def _chain(m: Loaded) -> str:
     """The text of the chain in NumPy."""
     files = derive.files_of(m.instrument)
-    return (
-        files["chain.py"] if files else resources.files("generated").joinpath("chain.py").read_text("utf-8")
-    )
+    if files:
+        return files["chain.py"]
+    kinematics = m.instrument.form.kinematics
+    package = "generated" if kinematics == "platform" else "generated.full"
+    return resources.files(package).joinpath("chain.py").read_text("utf-8")
 
 
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:

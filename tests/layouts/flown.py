@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 import numpy as np
 
 from ragg_runtime.flight import Flight
@@ -14,7 +17,9 @@ from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 RATE = 16.0
 
 
-def flown_by(sheet: Instrument, duration: float) -> Flight:
+def flown_by(
+    sheet: Instrument, duration: float, effects: Mapping[str, Mapping[str, object]] = MappingProxyType({})
+) -> Flight:
     """``duration`` s of an instrument that the sheet knows to a third of its errors, with white noise of 2 Eo/sqrt(Hz)."""
     white = eotvos_noise(2e-9, 0.1)
     s = simulate(
@@ -25,6 +30,6 @@ def flown_by(sheet: Instrument, duration: float) -> Flight:
         gravity=draw_gradient(np.random.default_rng(4)),
         noise=Noise(alpha=0.0, b=1.0, omega_T=white.omega_T),
         kinematics="full",
-        effects={"second-order-misalignment": {"kappa": 0.0}},
+        effects={"second-order-misalignment": {"kappa": 0.0}, **effects},
     )
     return s.flight()

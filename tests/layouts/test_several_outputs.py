@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import several_outputs
+from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -95,3 +97,35 @@ def test_complements_tell_their_noise() -> None:
             usual * 2.0 * np.sqrt(0.2), rel=0.25
         )  # 2 Eo/sqrt(Hz) of the cross channel
         assert noise == pytest.approx(float(str(told[f"expected_{channel}_Eo"])), rel=0.25)
+
+
+STEPS = ("bias-step", "gain-step")
+AT = 71.3
+
+
+@pytest.mark.parametrize(
+    ("hidden", "values"),
+    [
+        (None, {}),
+        ("bias-step", {"dK0": [0, 0, 0, 0, 0, 4e-9, 0, 0]}),
+        ("gain-step", {"dK1": [0, 0, 2e-8, 0, 0, 0, 0, 0]}),
+    ],
+)
+def test_a_step_is_found_in_several_outputs(hidden: str | None, values: dict[str, list[float]]) -> None:
+    sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
+    candidates = tuple(e for e in catalogue() if e.id in STEPS)
+    model, _ = derive.derived((), candidates, sheet.form, sheet.layout)
+    effects = {} if hidden is None else {hidden: {**values, "t_step": AT}}
+    flight = flown_by(sheet, 120.0, effects)
+    stage = Stage.of(fit(model, sheet, observations_of([flight], sheet)))
+    assert stage.choice.chosen == (() if hidden is None else (hidden,))
+    if hidden is None:
+        return
+    assert stage.instants[hidden] == pytest.approx(AT, abs=0.25)  # of some tens of sigma
+    (given,) = values.values()
+    own = [n for n, _ in stage.field.candidates[hidden]]
+    found, covariance = stage.fitted.coefficients(own)
+    scale = np.array([c.scale for _, c in stage.field.candidates[hidden]])
+    size, spread = found[-len(own) :] * scale, scale[:, None] * covariance[-len(own) :, -len(own) :] * scale
+    off = np.ravel(given) - size
+    assert off @ np.linalg.solve(spread, off) < 30.0  # chi-square of at most eight

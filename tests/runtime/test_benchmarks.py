@@ -58,6 +58,13 @@ def test_page_shows_rows_targets_failures_and_changes() -> None:
     assert "| fast | 1.23 x | 1.10 ... 1.40 | at least 1: met |  | +23 % |" in text
     assert "Failed: exit status 3." in text
     assert "About a." in text
+    rows = [Row("slow", 2.0, "s")]
+    some = {"b": {"seconds": 2.0, "load": 0.2, "rows": [vars(r) for r in rows]}}
+    again = page.renewed(text, some, {"b": "About b."}, {})  # one alone: the other stays as it was
+    assert again.split("## b")[0] == text.split("## b")[0]
+    assert "| slow | 2.00 s |" in again
+    assert "Failed" not in again
+    assert page.renewed(again, {}, {}, {}) == again
     assert ratios(results) == {"a": {"fast": 1.234}}
 
 

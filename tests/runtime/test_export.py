@@ -296,3 +296,15 @@ def test_a_calibration_of_another_model_is_not_exported(
     (copy / "calibration.json").write_text(text)
     told = run("export", copy, tmp_path / "c", "--c")
     assert "values of model.toml: the saved calibration belongs to another model" in told
+
+
+def test_numpy_of_the_models_own_kinematics_gives_its_answers(tmp_path: Path) -> None:
+    """`ragg new` makes a model of full kinematics, which no folder of its own derives."""
+    run("new", tmp_path / "m")
+    run("export", tmp_path / "m", tmp_path / "n", "--numpy")
+    motion = (tmp_path / "n" / "test" / "motion.csv").read_bytes()
+    done = subprocess.run(
+        [sys.executable, "ragg_model.py"], cwd=tmp_path / "n", input=motion, capture_output=True, check=True
+    )
+    found, said = answer(done.stdout)[1], answer((tmp_path / "n" / "test" / "G_out.csv").read_bytes())[1]
+    assert np.max(np.abs(found - said)) < 1e-9

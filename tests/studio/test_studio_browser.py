@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
@@ -28,8 +29,10 @@ if CHROMIUM is None and not os.environ.get("CI"):
     pytest.skip("no Chromium here (apt-get install chromium)", allow_module_level=True)
 
 from axe_playwright_python.sync_playwright import Axe  # noqa: E402
+from PIL import Image  # noqa: E402
 from playwright.sync_api import Browser, Page, expect, sync_playwright  # noqa: E402
 
+LOOKS = Path(__file__).with_name("looks")
 HOSTILE = 'a"><img src=x onerror=document.title=1>'
 
 
@@ -109,6 +112,30 @@ def test_01_the_page_says_where_one_stands(page: Page) -> None:
     assert page.title().startswith("model")  # the flight's name is text, and stays text
     expect(page.locator("#what")).to_contain_text(HOSTILE[:10])
     assert page.locator("img").count() == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_01_the_views_look_as_they_were_approved(page: Page, scheme: Any) -> None:
+    """Small pictures of them, so that letters of another machine are no difference but another layout or colour is.
+
+    Where a view is changed on purpose: ``LOOKS=renew``, then look at the pictures.
+    """
+    page.emulate_media(color_scheme=scheme)
+    expect(page.locator(".heat button.deep").first).to_be_visible(timeout=PATIENCE)
+    for key, view in (("1", "loop"), ("2", "parameters"), ("3", "sheet")):
+        page.keyboard.press(key)
+        page.wait_for_timeout(1000)
+        seen = (
+            Image.open(io.BytesIO(page.screenshot())).convert("RGB").resize((144, 90), Image.Resampling.BOX)
+        )
+        approved = LOOKS / f"{view}-{scheme}.png"
+        if os.environ.get("LOOKS") == "renew":
+            seen.save(approved, optimize=True)
+        apart = np.abs(np.asarray(seen, float) - np.asarray(Image.open(approved), float))
+        assert apart.mean() < 4.0, (view, scheme)  # of 255
+        assert (apart.max(axis=2) > 64.0).mean() < 0.03, (view, scheme)  # few places that are quite another
+    page.emulate_media(color_scheme="light")
+    page.keyboard.press("1")
 
 
 def test_02_pointing_lays_the_signature_over_the_residual(page: Page) -> None:
@@ -379,11 +406,34 @@ def test_13_nothing_runs_over_at_any_size(page: Page, width: int, height: int) -
     box = page.locator(".plot.residual .u-over").bounding_box()
     assert box is not None
     assert box["width"] > 0.4 * width
+    canvas = page.locator(".plot.residual canvas")
+    drawn = """c => {
+      const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+      return [c.width / c.clientWidth, parseFloat(c.getContext("2d").font) / rem];
+    }"""
+    screen = page.context.new_cdp_session(page)
+    for ratio in (2, 1):  # the window is moved to a screen of finer dots, and back
+        metrics = {"width": width - ratio, "height": height, "deviceScaleFactor": ratio, "mobile": False}
+        screen.send("Emulation.setDeviceMetricsOverride", metrics)
+        for _ in range(100):
+            dots, letters = canvas.evaluate(drawn)
+            if dots == pytest.approx(ratio, rel=0.01) and letters == pytest.approx(0.75 * ratio, rel=0.06):
+                break
+            page.wait_for_timeout(50)
+        else:
+            raise AssertionError((dots, letters))
+    screen.send("Emulation.clearDeviceMetricsOverride")
     page.set_viewport_size({"width": 1440, "height": 900})
 
 
 def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
-    for figure in ("spectrum", "spectrogram", "terms"):
+    page.keyboard.press("2")
+    with page.expect_download() as got:
+        page.locator("figure.drawn").hover()
+        page.get_by_role("button", name="Pull of the test sheet as SVG").click()
+    assert b"plausible errors" in Path(got.value.path()).read_bytes()
+    page.keyboard.press("1")
+    for figure in ("strip", "spectrum", "spectrogram", "terms"):
         for name, begin in (("SVG", b"<svg"), ("PNG", b"\x89PNG")):
             with page.expect_download() as got:
                 page.locator(f"figure.{figure}").hover()

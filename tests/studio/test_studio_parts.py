@@ -9,6 +9,7 @@ import re
 import struct
 import time
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +21,12 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import write_flight
+from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.studio import mapping, session, views
+from ragg_runtime.studio import drawing, mapping, session, views
 from ragg_runtime.studio.branches import branches, tree
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
@@ -35,6 +38,7 @@ from ragg_runtime.studio.surveys import flights_below
 from ragg_runtime.studio.timeline import missing
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
+from tests.layouts import sheets
 
 
 @pytest.fixture(scope="module")
@@ -238,6 +242,40 @@ def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: P
     assert s.jobs.status.error is not None
     assert views.overview(s.state, "0")["flights"] == []
     assert views.commands(s.state)
+
+
+def test_a_record_without_motion_is_drawn_and_its_quality_controlled(tmp_path: Path) -> None:
+    m = loop.new(tmp_path / "model")
+    t = np.arange(400.0)
+    rows = np.column_stack([t, 30.0 * np.sin(0.05 * t), np.cos(0.05 * t)])
+    path = tmp_path / "line.csv"
+    np.savetxt(path, rows, delimiter=",", header="time [s],inline [Eo],cross [Eo]", comments="")
+    s = Session(Places((tmp_path,)))
+    s._put(loaded=m)
+    s.open(None, [path])
+    s.jobs.wait(60)
+    assert s.jobs.status.error is not None  # what a model lacks is told
+    told = views.overview(s.state, "0")["flights"]
+    assert [(x["name"], x["rate_Hz"], x["outputs"]) for x in told] == [("line", 1.0, ["inline", "cross"])]
+    for k, unit in enumerate(("inline", "cross")):
+        asked = drawing.Asked("measured", unit, 0, 0, (), 0.0, 400.0, 400)
+        sent = drawing.series(s.state, asked)
+        assert np.frombuffer(sent[HEAD.size :], "<f4") == pytest.approx(rows[:, 1 + k], rel=1e-6)
+    s.control()
+    s.jobs.wait(60)
+    assert s.state.quality is not None
+    assert len(s.state.quality.lines) == 1
+    assert views.commands(s.state)[-1].startswith("ragg qc ")
+
+
+def test_an_output_is_told_from_those_of_other_flights(tmp_path: Path) -> None:
+    """Two flights of one name, each with another of two outputs, were taken for one."""
+    both = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
+    x = simulated(both, [], seed=3, duration=30.0, rate=8.0)
+    halves = [replace(x, outputs={n: x.outputs[n]}) for n in ("G_out_A", "G_out_B")]
+    found = observations_of([*halves, x], both)
+    assert [(o.flight, o.place) for o in found] == [(0, 0), (1, 1), (2, 0), (2, 1)]
+    assert [o.part(slice(0, 9)).flight for o in found] == [0, 1, 2, 2]
 
 
 def test_what_the_system_refuses_is_no_fault_of_the_program() -> None:

@@ -41,6 +41,12 @@ extern "C" {
 void ragg_folded_output(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
                         double *G);
 
+/* What changes of the parameters make of G_out, weighted and averaged over few <= 128 neighbours: of each of
+ * `count` <= 16 vectors p + k RAGG_FOLDED_PARAMETERS, k = 1 ... count, against p, means of the difference times two
+ * series of weights (2, n): found (count, 2, n / few). */
+void ragg_folded_changes(size_t n, const double *t, const double *const *in, size_t count, const double *p,
+                         const double *angle, size_t few, const double *weights, double *found);
+
 #ifdef __cplusplus
 }
 #endif

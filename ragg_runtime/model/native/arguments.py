@@ -84,7 +84,8 @@ class Base:
     def inputs(self) -> tuple[str, ...]:
         return self.chain.INPUTS
 
-    def _case(self, t: ArrayLike, inputs: Series, p: ArrayLike, angle: ArrayLike | None) -> Case:
+    def case(self, t: ArrayLike, inputs: Series, p: ArrayLike, angle: ArrayLike | None) -> Case:
+        """Arguments of an evaluation, checked."""
         time = _series(t, "t")
         if len(inputs) != len(self.chain.INPUTS):
             names = " ".join(self.chain.INPUTS)

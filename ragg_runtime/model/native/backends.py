@@ -96,7 +96,7 @@ class Compiled(Base):
         out: Array | None = None,
         which: int = 0,
     ) -> Array:
-        case = self._case(t, inputs, p, angle)
+        case = self.case(t, inputs, p, angle)
         G = into(out, len(case.t))
         name = "folded" if self.folded else self.name
         leading = (which,) if self.several else ()
@@ -116,7 +116,7 @@ class Compiled(Base):
         threads: int | None = None,
         members: Sequence[int] | None = None,
     ) -> Array:
-        case = self._case(t, inputs, p, angle)
+        case = self.case(t, inputs, p, angle)
         if not self.several:
             V = self._rows("voltages", 4, case, threads)
             return V if members is None or tuple(members) == (0, 1, 2, 3) else V[list(members)]
@@ -132,7 +132,7 @@ class Compiled(Base):
         angle: ArrayLike | None = None,
         threads: int | None = None,
     ) -> Array:
-        c = self._case(t, inputs, p, angle)
+        c = self.case(t, inputs, p, angle)
         return self._rows("derivatives", len(self.chain.ROWS), c, threads, (_accelerometer(j, self.size),))
 
     def _rows(
@@ -174,7 +174,7 @@ class Interpreted(Base):
             G = into(out, v.shape[1])
             G[:] = o.combined(v)
             return G
-        c = self._case(t, inputs, p, angle)
+        c = self.case(t, inputs, p, angle)
         G = into(out, len(c.t))
         of_several = {"which": which} if self.several else {}
         for first, last in cut(len(G), len(G)):
@@ -191,7 +191,7 @@ class Interpreted(Base):
         threads: int | None = None,
         members: Sequence[int] | None = None,
     ) -> Array:
-        c = self._case(t, inputs, p, angle)
+        c = self.case(t, inputs, p, angle)
         wanted = range(self.size) if members is None else members
         V = np.empty((len(wanted), len(c.t)))
         for k, j in enumerate(wanted):
@@ -207,7 +207,7 @@ class Interpreted(Base):
         angle: ArrayLike | None = None,
         threads: int | None = None,
     ) -> Array:
-        c = self._case(t, inputs, p, angle)
+        c = self.case(t, inputs, p, angle)
         D = np.empty((len(self.chain.ROWS), len(c.t)))
         self._chain(self.chain.derivatives, _accelerometer(j, self.size), c, D)
         return D

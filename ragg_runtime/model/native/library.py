@@ -40,6 +40,26 @@ class Library:
             address(found),
         )
 
+    def changes(self, model: str, case: Case, vectors: Array, few: int, weights: Array, found: Array) -> None:
+        """What ``vectors`` (count, size) make of the output against the case's own, as :func:`..changes.changes` says."""
+        call = getattr(self._library, f"ragg_{model}_changes")
+        call.restype = None
+        number, pointer = ctypes.c_size_t, ctypes.c_void_p
+        call.argtypes = [number, pointer, pointer, number, pointer, pointer, number, pointer, pointer]
+        addresses = case.addresses
+        p = np.concatenate([case.p[None], vectors])
+        call(
+            len(case.t),
+            address(case.t),
+            (ctypes.c_void_p * len(addresses))(*addresses),
+            len(vectors),
+            address(p),
+            None if case.angle is None else address(case.angle),
+            few,
+            address(weights),
+            address(found),
+        )
+
     def _function(self, model: str, function: str, leading: int) -> ctypes._NamedFuncPointer:
         call = self._functions.get((model, function))
         if call is None:

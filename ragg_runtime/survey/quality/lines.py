@@ -94,7 +94,7 @@ class Read:
 
 def is_gradient(name: str) -> bool:
     """Whether a channel is a gradient, by its name: ``inline``, ``cross_A``, ``Gamma_xx`` ..."""
-    return is_demodulated(name) or name.partition("_")[0] == "Gamma"
+    return not name.endswith("_std") and (is_demodulated(name) or name.partition("_")[0] == "Gamma")
 
 
 def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:

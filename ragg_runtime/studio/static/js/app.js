@@ -71,8 +71,9 @@ function job(status) {
   }
   const bar = box.querySelector("progress");
   if (status.share > 0.02) bar.value = status.share;
-  const left = status.share > 0.05 ? (status.spent_s * (1 - status.share)) / status.share : null;
-  box.querySelector(".left").textContent = left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
+  const beyond = status.share > 0.985; // nobody knows how long what takes longer than foreseen will take
+  const left = status.share > 0.05 && !beyond ? (status.spent_s * (1 - status.share)) / status.share : null;
+  box.querySelector(".left").textContent = beyond ? "longer than foreseen" : left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";
 }
 
 function darker() {

@@ -5,20 +5,29 @@ import { number, superscript } from "../dom.js";
 /** A colour of the style sheet. */
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-const fonts = () => {
-  const size = parseFloat(getComputedStyle(document.documentElement).fontSize);
-  return `${Math.round(size * 0.75)}px system-ui, "Helvetica Neue", Arial, sans-serif`;
-};
 export const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+const FAMILY = 'system-ui, "Helvetica Neue", Arial, sans-serif';
+const letters = () => Math.round(rem() * 0.75); // height of labels, CSS pixels
+const fonts = () => `${letters()}px ${FAMILY}`;
 
-const tick = (v) => (v === null ? "" : Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? number(v, 2).replaceAll("\u202f", "") : String(Number(v.toPrecision(6))).replace("-", "−").replace(/^(−?\d{2})(\d{3})\b/, "$1\u202f$2"));
+/** Widths that plots in one column share, so that their axes of time lie below each other. */
+export const LEFT = () => 4.6 * rem(), RIGHT = () => 0.9 * rem();
+
+const grouped = (text) => text.replace(/^\d{5,}/, (whole) => whole.replace(/\B(?=(\d{3})+$)/g, "\u202f"));
+const tick = (v) => (v < 0 ? "−" : "") + grouped(String(Number(Math.abs(v).toPrecision(6))));
+/** Labels of one axis are all written in one way: powers of ten where plain digits would be many. */
+const ticks = (found) => {
+  const largest = Math.max(...found.filter((v) => v !== null).map(Math.abs));
+  const powers = largest >= 1e7 || (largest > 0 && largest < 1e-3);
+  return found.map((v) => (v === null ? "" : v === 0 ? "0" : powers ? number(v, 2).replaceAll("\u202f", "") : tick(v)));
+};
 
 export function axis(label, more = {}) {
   return {
-    label, labelSize: label ? rem() * 1.15 : 0, labelGap: 0, ...(more.side === undefined ? {} : { space: 1.5 * rem() }), size: more.side === undefined ? rem() * 1.9 : rem() * 3.5, gap: 4,
+    label, labelSize: label ? rem() * 1.15 : 0, labelGap: 0, ...(more.side === undefined ? {} : { space: 1.5 * rem() }), size: () => (more.side === undefined ? rem() * 1.9 : rem() * 3.5), gap: 4,
     font: fonts(), labelFont: fonts(),
     stroke: () => colour("ink"), grid: { stroke: () => colour("grid"), width: 1 }, ticks: { stroke: () => colour("line"), width: 1, size: 4 },
-    values: (u, found) => found.map(tick),
+    values: (u, found) => ticks(found),
     ...more,
   };
 }
@@ -36,6 +45,18 @@ export const logValues = (u, found) => {
   });
 };
 
+const labelled = (u, splits) => {
+  const shown = logValues(u, splits);
+  return splits.map((v, k) => (shown[k] ? v : null));
+};
+/** Of a logarithmic axis: lines and ticks stand at its labels alone. */
+export const LOG = {
+  values: logValues,
+  filter: (u, splits) => splits, // logValues says which have room
+  grid: { stroke: () => colour("grid"), width: 1, filter: labelled },
+  ticks: { stroke: () => colour("line"), width: 1, size: 4, filter: labelled },
+};
+
 /**
  * A plot that fills its box and is drawn anew when that or the colours change.
  * `told(u, k)` says in words what stands at sample k below the pointer; it is shown in the figure's heading.
@@ -43,7 +64,19 @@ export const logValues = (u, found) => {
 export function mounted(box, options, data, told) {
   const size = () => ({ width: Math.max(200, box.clientWidth), height: Math.max(60, box.clientHeight) });
   const plot = new uPlot({ ...size(), ...options, legend: { show: false } }, data, box);
-  const watcher = new ResizeObserver(() => plot.setSize(size()));
+  let written = rem();
+  // letters are as high as the page's, which change with the window, the zoom and the screen it is on
+  const rewritten = () => {
+    if (rem() === written) return;
+    const factor = rem() / written;
+    written = rem();
+    for (const a of plot.axes) {
+      if (!a.show) continue;
+      a.labelSize *= factor;
+      a.font = a.labelFont = [`${letters() * devicePixelRatio}px ${FAMILY}`, letters() * devicePixelRatio, letters()];
+    }
+  };
+  const watcher = new ResizeObserver(() => (rewritten(), plot.setSize(size())));
   watcher.observe(box);
   if (told) reading(plot, box, told);
   const themed = () => plot.redraw(false);

@@ -1,7 +1,7 @@
 // Values of many flights side by side: a dot each, its standard deviation as a bar, levels as dashed steps.
 import uPlot from "../../vendor/uPlot.esm.js";
 import { number } from "../dom.js";
-import { axis, colour, logValues, mounted, rem } from "./axes.js";
+import { axis, colour, LOG, mounted, rem } from "./axes.js";
 
 /**
  * @param rows [{name, colour, values, stds, step}] over the flights; null where there is no value
@@ -21,7 +21,7 @@ export function dotPlot(box, { label, rows, log, picked }) {
         : { label: r.name, stroke: () => colour(r.colour), fill: () => colour(r.colour), paths: () => null, points: { show: true, size, width: 0, fill: () => colour(r.colour) } }))],
       axes: [
         axis("flight, by number in the table", { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000] }),
-        axis(label, { side: 3, size: 3.4 * rem(), labelSize: 1.4 * rem(), ...(wide ? { values: logValues } : {}) }),
+        axis(label, { side: 3, size: () => 3.4 * rem(), labelSize: 1.4 * rem(), ...(wide ? LOG : {}) }),
       ],
       cursor: { drag: { x: false, y: false }, points: { show: false }, y: false },
       hooks: { draw: [(u) => rows.forEach((r) => r.stds && bars(u, r))] },

@@ -86,6 +86,7 @@ function area(plot, { series: [upper, lower], fill }) {
 
 function ticks(plot, k, box) {
   const a = plot.axes[k], made = [];
+  if (!a.show) return "";
   const splits = a._splits || [], values = a._values || [];
   splits.forEach((v, i) => {
     if (v === null || !values[i]) return;
@@ -105,16 +106,19 @@ function ticks(plot, k, box) {
   return made.join("");
 }
 
-/** Curves as SVG text; `image` {href, x, y, width, height} lies below them (a spectrogram), `level` a line to either side of zero. */
-export function curvesText(plot, { image, level } = {}) {
+/**
+ * Curves as SVG text; `image` {href, x, y, width, height} lies below them (a spectrogram), `level` a line to either side of zero,
+ * `under` and `over` are further drawings, as SVG text.
+ */
+export function curvesText(plot, { image, level, under = "", over = "" } = {}) {
   const box = { w: plot.over.clientWidth, h: plot.over.clientHeight };
   const series = plot.series.slice(1).map((s, k) => curve(plot, k + 1));
   const areas = (plot.bands || []).map((b) => area(plot, b));
-  const under = image ? `<g clip-path="url(#c)"><image href="${image.href}" x="${image.x}" y="${image.y}" width="${image.width}" height="${image.height}" preserveAspectRatio="none" image-rendering="pixelated"/></g>` : "";
+  const picture = image ? `<g clip-path="url(#c)"><image href="${image.href}" x="${image.x}" y="${image.y}" width="${image.width}" height="${image.height}" preserveAspectRatio="none" image-rendering="pixelated"/></g>` : "";
   const levels = level ? [level, -level].map((v) => plot.valToPos(v, "y")).map((y) => `<line x1="0" x2="${box.w}" y1="${y}" y2="${y}" stroke="${colour("noise")}" stroke-dasharray="5 4"/>`).join("") : "";
   return wrapped(-74, -16 - HEAD, box.w + 94, box.h + 60 + HEAD, `${heading(plot.over, 0, -34)}
-${ticks(plot, 0, box)}${ticks(plot, 1, box)}${under}
-<clipPath id="c"><rect width="${box.w}" height="${box.h}"/></clipPath><g clip-path="url(#c)">${areas.join("\n")}${series.join("\n")}${levels}</g>
+${ticks(plot, 0, box)}${ticks(plot, 1, box)}${picture}
+<clipPath id="c"><rect width="${box.w}" height="${box.h}"/></clipPath><g clip-path="url(#c)">${under}${areas.join("\n")}${series.join("\n")}${levels}${over}</g>
 <rect width="${box.w}" height="${box.h}" fill="none" stroke="${colour("line")}"/>`);
 }
 

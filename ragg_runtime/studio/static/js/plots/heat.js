@@ -1,11 +1,22 @@
 // Harmonic x motion term as a table: every cell is a button, its number is there for those who do not see colours.
 import { fill, h } from "../dom.js";
+import { colour } from "./axes.js";
 
 /** Shade of a significance: nothing below the level, then by its logarithm. */
 function shade(z, level, top) {
   const size = Math.abs(z);
   if (!(size > level)) return 0;
   return 0.18 + 0.82 * Math.min(1, Math.log(size / level) / Math.log(Math.max(top / level, 4)));
+}
+
+const parsed = (hex) => [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
+const light = (rgb) => rgb.map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4)).reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+
+/** Ground and ink of a shade: black or white, whichever stands out more (at least 4.5 to 1). */
+function painted(amount) {
+  const [low, high] = [parsed(colour("grid")), parsed(colour("residual"))];
+  const ground = low.map((v, k) => Math.round(v + amount * (high[k] - v)));
+  return { background: `rgb(${ground.join(" ")})`, color: light(ground) > 0.179 ? "#000000" : "#ffffff" };
 }
 
 export function heatTable(box, found, { chosen, choose, marked }) {
@@ -25,7 +36,7 @@ export function heatTable(box, found, { chosen, choose, marked }) {
           type: "button", tabindex: "-1", "aria-pressed": String(chosen === id), "aria-label": `${row.words} times ${p.words}: ${z.toFixed(1)} sigma`,
           title: `${row.words} × ${p.words}: ${z.toFixed(1)} sigma`, onclick: () => choose(chosen === id ? "" : id), "data-cell": `${i} ${j}`,
         }, text);
-        button.style.setProperty("--heat", `${Math.round(amount * 100)}%`);
+        Object.assign(button.style, painted(amount));
         if (amount > 0.55) button.classList.add("deep");
         return h("td", {}, button);
       }),

@@ -1,6 +1,6 @@
 // The whole flight as a strip, and the window on it: drag to choose one, drag its middle to move it.
 import { h } from "../dom.js";
-import { axis, colour, mounted, rem } from "./axes.js";
+import { axis, colour, LEFT, mounted, RIGHT } from "./axes.js";
 
 export function overview(box, { whole, limits, moved, marks }) {
   const made = mounted(
@@ -10,7 +10,7 @@ export function overview(box, { whole, limits, moved, marks }) {
       series: [{}, { stroke: () => colour("before"), width: 1, points: { show: false } }, { stroke: () => colour("before"), width: 1, points: { show: false } }],
       bands: [{ series: [2, 1], fill: () => colour("before") }],
       axes: [axis(undefined, { labelSize: 0, label: undefined }), { show: false }],
-      padding: [2, rem(), 0, 4.6 * rem()],
+      padding: [() => 2, RIGHT, () => 0, LEFT],
       cursor: { show: false },
       hooks: { drawAxes: [(u) => marked(u, marks())], draw: [() => shade()] },
     },
@@ -51,6 +51,14 @@ export function overview(box, { whole, limits, moved, marks }) {
   return {
     ...made,
     shade,
+    /** Marks and window for the figure as a file. */
+    text() {
+      const { clientWidth: width, clientHeight: height } = plot.over, place = (t) => Math.min(Math.max(plot.valToPos(t, "x"), 0), width);
+      const { gaps, alone, cuts } = marks(), [x0, x1] = limits().map(place);
+      const columns = [[gaps, "gap"], [cuts, "cut"]].flatMap(([spans, name]) => spans.map(([a, b]) => `<rect x="${place(a)}" width="${Math.max(1, place(b) - place(a))}" height="${height}" fill="${colour(name)}"/>`));
+      const spikes = alone.map((t) => `<path d="M${place(t) - 3} 0h6l-3 6z" fill="${colour("noise")}"/>`);
+      return { under: [...columns, ...spikes].join(""), over: `<rect x="${x0}" width="${x1 - x0}" height="${height}" fill="none" stroke="${colour("ink")}"/>` };
+    },
     show(found) {
       const clean = (v) => Array.from(v, (x) => (Number.isNaN(x) ? null : x));
       plot.setData([found.x, clean(found.low), clean(found.high)]);

@@ -5,6 +5,8 @@ import { axis, mounted, rem, wheel } from "./axes.js";
 // cividis, which colour-blind people read as everyone does (Nunez, Anderton, Renslow 2018), in nine steps
 const STOPS = [[0, 32, 77], [0, 48, 111], [57, 72, 108], [87, 93, 109], [112, 113, 115], [138, 134, 120], [166, 157, 117], [196, 181, 108], [255, 234, 70]];
 
+const DEEPEST = 1e4; // below the strongest line everything has the darkest colour
+
 function paint(v) {
   const x = Math.min(Math.max(v, 0), 1) * (STOPS.length - 1), k = Math.min(Math.floor(x), STOPS.length - 2), t = x - k;
   return STOPS[k].map((c, i) => c + t * (STOPS[k + 1][i] - c));
@@ -17,7 +19,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
     {
       scales: { x: { time: false, range: () => limits() }, y: { range: () => (found ? [0, found.frequency[1]] : [0, 1.5]) } },
       series: [{}, { scale: "y", points: { show: false } }],
-      axes: [axis("time since the first sample, s", { grid: { show: false } }), axis("frequency, Hz", { side: 3, grid: { show: false }, size: 3 * rem(), labelSize: 1.4 * rem() })],
+      axes: [axis("time since the first sample, s", { grid: { show: false } }), axis("frequency, Hz", { side: 3, grid: { show: false }, size: () => 3 * rem(), labelSize: 1.4 * rem() })],
       cursor: { sync: { key: "time", scales: ["x", null] }, drag: { x: true, y: true, uni: 24, setScale: false }, points: { show: false }, y: false },
       hooks: {
         drawClear: [(u) => draw(u)],
@@ -97,7 +99,7 @@ export function spectrogramPlot(box, { limits, moved, band, banded, harmonic, sp
       const { width, height, density } = data;
       const shown = [...density].filter(Number.isFinite).sort((a, b) => a - b);
       // from below the noise to the strongest line
-      const low = Math.log(shown[Math.floor(shown.length * 0.05)] || 1e-9), high = Math.max(Math.log(shown.at(-1) || 1), low + Math.log(20));
+      const high = Math.log(shown.at(-1) || 1), low = Math.min(Math.max(Math.log(shown[Math.floor(shown.length * 0.05)] || 1e-9), high - Math.log(DEEPEST)), high - Math.log(20));
       image = document.createElement("canvas");
       image.width = width;
       image.height = height;

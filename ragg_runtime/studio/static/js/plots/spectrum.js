@@ -1,6 +1,6 @@
 // Amplitude densities on logarithmic axes, the multiples of the spin marked; a band can be brushed.
 import { number } from "../dom.js";
-import { axis, colour, logValues, mounted, plain, rem } from "./axes.js";
+import { axis, colour, LOG, mounted, plain, rem } from "./axes.js";
 
 const LINES = [
   { id: "beside", name: "model beside it", colour: "beside", width: 1.6 },
@@ -10,9 +10,6 @@ const LINES = [
   { id: "noise", name: "noise, as estimated", short: "noise", colour: "noise", width: 1.3, dash: [6, 4] },
 ];
 
-// only the labelled lines of a logarithmic grid
-const GRID = { stroke: () => colour("grid"), width: 1, filter: (u, splits) => { const shown = logValues(u, splits); return splits.map((v, k) => (shown[k] ? v : null)); } };
-
 export const spectrumLines = LINES;
 
 export function spectrumPlot(box, { band, banded, harmonic }) {
@@ -20,11 +17,11 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
   const made = mounted(
     box,
     {
-      scales: { x: { time: false, distr: 3 }, y: { distr: 3, range: (u, a, b) => spread(a, b) } },
+      scales: { x: { time: false, distr: 3, range: (u, a, b) => [a, b] }, y: { distr: 3, range: (u, a, b) => spread(a, b) } },
       series: [{}, ...LINES.map((l) => ({ label: l.name, stroke: () => colour(l.colour), width: l.width, dash: l.dash, points: { show: false } }))],
       axes: [
-        axis("frequency before demodulation, Hz", { values: logValues, grid: GRID }),
-        axis("residual, Eo/√Hz", { side: 3, values: logValues, size: 3 * rem(), labelSize: 1.4 * rem(), grid: GRID }),
+        axis("frequency before demodulation, Hz", LOG),
+        axis("residual, Eo/√Hz", { side: 3, size: () => 3 * rem(), labelSize: 1.4 * rem(), ...LOG }),
       ],
       cursor: { drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {
@@ -57,9 +54,11 @@ export function spectrumPlot(box, { band, banded, harmonic }) {
   };
 }
 
+const DEEPEST = 1e5; // below the top: what a low-pass leaves beyond its band is digits, not signal
+
 function spread(a, b) {
   if (!(a > 0)) return [0.1, 10];
-  const [low, high] = [a / 1.5, b * 1.5];
+  const [low, high] = [Math.max(a, b / DEEPEST) / 1.5, b * 1.5];
   const widen = Math.sqrt(Math.max(1, 10 / (high / low)));
   return [low / widen, high * widen];
 }

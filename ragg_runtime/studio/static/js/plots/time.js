@@ -1,5 +1,5 @@
 // Series over time: envelopes where samples are many, the noise's one sigma, and what is laid over them.
-import { axis, colour, mounted, plain, rem, span, wheel } from "./axes.js";
+import { axis, colour, LEFT, mounted, plain, RIGHT, span, wheel } from "./axes.js";
 
 const SYNC = "time";
 
@@ -61,7 +61,8 @@ export function timePlot(box, { label, lines, moved, level, limits, unit }) {
         y: { range: (u, low, high) => reach(low, high, level ? level() : 0) },
       },
       series, bands,
-      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: 4.6 * rem() })],
+      axes: [axis(label), axis("", { side: 3, label: undefined, labelSize: 0, size: LEFT })],
+      padding: [null, RIGHT, null, null],
       cursor: { sync: { key: SYNC }, drag: { x: true, y: false, setScale: false }, points: { show: false }, y: false },
       hooks: {
         draw: [(u) => noise(u, level)],

@@ -1,11 +1,12 @@
 // What a model is for: compensated channels with their band, quality control of the flights, and both as files.
 import { Refused, series } from "../api.js";
 import { counted, fill, h } from "../dom.js";
-import { on, server, view } from "../store.js";
+import { look, on, server, view } from "../store.js";
 import { curvesText } from "../plots/export.js";
 import { fileName, frame } from "../plots/figure.js";
 import { timePlot } from "../plots/time.js";
 import { doing } from "../doing.js";
+import { choose } from "./window.js";
 
 const KINDS = [
   ["self", "fitted to these flights", "parameters fitted to all of it: the band is a little narrow"],
@@ -26,14 +27,15 @@ export function applyView(main) {
   fill(main, box, figures, control);
   let plots = [], shown = "", window_ = null;
 
+  const flown = (state) => state.flights.length > 0 && !state.flights[0].glanced;
   const compensation = (state) => {
     const c = state.compensated, busy = Boolean(state.status.job);
     fill(box, h("h2", {}, "Compensated channels"),
       h("p.note", {}, "The gravity gradient as the instrument saw it: all removed that the model explains, demodulated, with one standard uncertainty of parameters and noise together."),
       h("div.row.choices", {}, choice("calibration", "parameters", KINDS), choice("demodulator", "demodulator", DEMODULATORS),
-        h("button.main", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("compensate", chosen) }, "Compensate")),
+        h("button.main", { type: "button", disabled: busy || !flown(state), onclick: () => doing("compensate", chosen) }, "Compensate")),
       h("div.row", {},
-        h("button", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
+        h("button", { type: "button", disabled: busy || !flown(state), onclick: () => doing("calibrate") }, "Keep the parameters of these flights"),
         h("p.note", {}, state.model.calibrated ? `The model keeps a calibration ${state.model.calibrated}.` : "The model keeps no calibration yet: it is what “as kept with the model” and the exported C use.")),
       c ? c.outputs.map((x) => [
         h("h3", {}, c.outputs.length > 1 ? `${x.flight}, ${x.output}` : x.flight),
@@ -68,12 +70,14 @@ export function applyView(main) {
     const key = JSON.stringify([c && [c.calibration, c.demodulator.name, c.channels, c.outputs.map((x) => x.rows)], view.flight]);
     if (key === shown) return;
     shown = key;
+    window_ = null;
     drop();
     figures.hidden = !c;
     if (!c) return;
     const panels = c.channels.map((name, k) => frame({ id: name, title: `${name}, Eo`, kind: "figure", name: () => fileName(server.state.flights[view.flight] && server.state.flights[view.flight].name, name), text: () => curvesText(plots[k].made.plot) }));
     panels.forEach((p) => p.keys([["value", "residual"], ["± one standard uncertainty", "band"]]));
-    fill(figures, panels.map((p) => p.element));
+    const names = server.state.flights.map((f) => f.name);
+    fill(figures, names.length > 1 ? h("div.row.choices", {}, choose("Flight", names, view.flight, (flight) => look({ flight }))) : null, panels.map((p) => p.element));
     plots = panels.map(({ body }, k) => ({ name: c.channels[k], box: body, made: timePlot(body, {
       limits, moved, unit: () => "Eo", label: k === panels.length - 1 ? "time since the first sample, s" : undefined,
       lines: [{ name: "±", colour: "before", band: true, alpha: "80" }, { name: "value", colour: "residual" }],

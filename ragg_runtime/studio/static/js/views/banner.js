@@ -14,8 +14,9 @@ export function banner(box) {
     const { state } = server;
     const b = state && state.banner;
     if (!b) {
-      const busy = state && state.status.job;
-      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : state.flights[0].glanced ? (busy ? "Reading and examining the flight …" : "This record could not be read as a flight; what is drawn is its output alone.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !state.flights[0].glanced && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+      const busy = state && state.status.job, line = state && state.flights.length && state.flights[0].line;
+      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : line ? "These records hold no motion, or none that a model can use: their demodulated channels are drawn as they are." : state.flights[0].glanced ? (busy ? "Reading and examining the flight …" : "This record could not be read as a flight; what is drawn is its output alone.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !state.flights[0].glanced && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+        line ? h("p.row", {}, h("button.main", { type: "button", onclick: () => look({ view: "apply" }) }, "Control their quality")) : null,
         state && !state.flights.length && !busy ? h("p.row", {},
           (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files", columns: path }) }, `Say what the columns of ${path.split("/").at(-1)} are`)),
           h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));
@@ -30,7 +31,7 @@ export function banner(box) {
         b.lead.map((t) => h("p.lead", {}, t)),
         h("p.flags", {},
           b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
-          h("span.flag", {}, (b.adequate && b.verdict !== "unexplained") || times < 1 ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
+          h("span.flag", {}, b.adequate && b.verdict !== "unexplained" ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
           h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
       ),
       h("dl.errors", {},

@@ -16,10 +16,11 @@ const MARGIN = 1; // windows to either side that are asked for beforehand, so th
 
 /** What an overlay shows: the effect that is pointed at, else the band or the term that is chosen, else what is ticked. */
 function laid() {
-  if (pointedAt()) return { what: "effect", effects: pointedAt(), words: "predicted signature" };
+  const tested = server.state.effects.length > 0; // until then nothing is known of what they would do
+  if (tested && pointedAt()) return { what: "effect", effects: pointedAt(), words: "predicted signature" };
   if (view.low !== null) return { what: `band:${view.low}:${view.high}`, words: `residual of ${number(view.low)} – ${number(view.high)} Hz` };
   if (view.term) return { what: `term:${view.term.replace("|", ":")}`, words: "term, fitted by itself" };
-  if (view.ticked.length) return { what: "effect", effects: view.ticked.join(","), words: "predicted signature" };
+  if (tested && view.ticked.length) return { what: "effect", effects: view.ticked.join(","), words: "predicted signature" };
   return null;
 }
 
@@ -33,6 +34,7 @@ export function figures(box) {
   const panel = (id, title, text) => frame({ id, title, text, name: () => fileName(flight() && flight().name, id), body: h(`div.plot.${id}`) });
   const heat = h("div.heat-box");
   const panels = {
+    strip: panel("strip", "The whole flight", () => curvesText(plots.strip.plot, plots.strip.text())),
     measured: panel("measured", "Measured over model", () => curvesText(plots.measured.plot)),
     residual: panel("residual", "Residual", () => curvesText(plots.residual.plot, { level: level() })),
     spectrum: panel("spectrum", "Spectrum", () => curvesText(plots.spectrum.plot)),
@@ -40,12 +42,12 @@ export function figures(box) {
     heat: frame({ id: "terms", title: "Where it fails: harmonic of the spin × motion term", body: heat, name: () => fileName(flight() && flight().name, "terms"), text: () => tableText(heat.querySelector("table")) }),
   };
   fill(panels.heat.legend, "σ, of what the model leaves");
-  const strip = h("div.plot.strip", { "aria-label": "The whole flight: drag to choose a stretch of time", role: "group" });
-  const { measured, residual, spectrum, spectrogram: gram } = panels;
-  fill(box, head, strip, measured.element, residual.element, h("div.pair", {}, spectrum.element, gram.element), panels.heat.element);
+  const { strip, measured, residual, spectrum, spectrogram: gram } = panels;
+  strip.body.title = "Drag to choose a stretch of time; drag its middle to move it";
+  fill(box, head, strip.element, measured.element, residual.element, h("div.pair", {}, spectrum.element, gram.element), panels.heat.element);
 
   const plots = {
-    strip: overview(strip, { whole, limits, moved, marks }),
+    strip: overview(strip.body, { whole, limits, moved, marks }),
     measured: timePlot(measured.body, { limits, moved, unit: unitName, lines: [{ name: "measured", colour: "before" }, { name: "model", colour: "residual" }] }),
     residual: timePlot(residual.body, {
       label: "time since the first sample, s", limits, moved, level, unit: unitName,
@@ -71,7 +73,7 @@ export function figures(box) {
       await work();
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      if (panels[id]) note(id, [error.facts.what, error.facts.remedy].filter(Boolean).join(": "));
+      if (panels[id] && id !== "strip") note(id, [error.facts.what, error.facts.remedy].filter(Boolean).join(": "));
       else if (id === "strip" && error.status) setTimeout(drawStrip, 1000);
     } finally {
       const { again } = pending[id];
@@ -83,11 +85,12 @@ export function figures(box) {
     const [a, b] = limits(), width = b - a;
     return { flight: view.flight, output: view.output, unit: view.unit, from: a - MARGIN * width, to: b + MARGIN * width, points: points * (2 * MARGIN + 1) };
   };
-  const points = () => Math.max(300, Math.round(residual.body.clientWidth));
+  const points = () => Math.max(300, Math.round(measured.body.clientWidth));
 
   const drawStrip = () => latest("strip", async () => {
     if (!flight()) return;
-    const [a, b] = whole();
+    const [a, b] = whole(), { gaps, alone, cuts } = marks();
+    legend("strip", [[ready() ? `residual, ${unitName()}` : "output", "before"], gaps.length && ["missing", "gap", "block"], alone.length && ["lone sample missing", "lone"], cuts.length && ["left out", "cut", "block"]]);
     plots.strip.show(await series({ flight: view.flight, output: view.output, unit: view.unit, what: ready() ? "residual" : "measured", from: a, to: b, points: points() }));
     if (!document.documentElement.dataset.drawn) document.documentElement.dataset.drawn = performance.now().toFixed(0);
   });
@@ -97,10 +100,11 @@ export function figures(box) {
     const began = performance.now();
     const [m, p] = await Promise.all([series({ ...common, what: "measured" }), modelled ? series({ ...common, what: "modelled" }) : null]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
-    note("measured", modelled ? "" : "As the file has it, not yet examined.");
+    const line = flight().line;
+    note("measured", modelled ? "" : line ? "As the file has it." : "As the file has it, not yet examined.");
     plots.measured.show([m, p]);
     loaded = { from: common.from, to: common.to, width: b - a };
-    legend("measured", [[`measured, ${modelled ? unitName() : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
+    legend("measured", [[`${line && flight().outputs.includes(view.unit) ? view.unit : line ? flight().outputs[0] : "measured"}, ${modelled ? unitName() : line ? "Eo" : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
   });
   const drawResidual = () => latest("residual", async () => {
     if (!ready()) return;
@@ -130,7 +134,7 @@ export function figures(box) {
   const drawSpectrogram = () => latest("spectrogram", async () => {
     if (!ready()) return;
     const [from, to] = limits();
-    const found = await spectrogram({ flight: view.flight, output: view.output, from, to, what: view.ticked.length ? "left" : "residual", effects: view.ticked.join(",") });
+    const found = await spectrogram({ flight: view.flight, output: view.output, from, to, what: view.ticked.length && server.state.effects.length ? "left" : "residual", effects: view.ticked.join(",") });
     note("spectrogram", "");
     const scale = plots.spectrogram.show(found);
     const key = h("i.ramp", { "aria-hidden": "true" });
@@ -139,6 +143,7 @@ export function figures(box) {
   });
   const drawHeat = () => latest("heat", async () => {
     if (!ready() || !server.state.effects.length) return;
+    if (!heatShown) note("heat", "Every term is being tried …");
     const found = await ask("heat", { flight: view.flight, output: view.output, effects: view.ticked.join(",") });
     heatShown = found;
     const stands = found.z.flat().some((z) => Math.abs(z) > found.level);
@@ -190,6 +195,8 @@ export function figures(box) {
     const { state } = server;
     if (state && view.flight >= state.flights.length && state.flights.length) look({ flight: 0 });
     if (flight() && view.output >= Math.max(1, (flight().parts || []).length) && ready()) look({ output: 0 });
+    if (flight() && flight().line && flight().outputs.includes("inline") && !flight().outputs.includes(view.unit)) look({ unit: "inline" });
+    else if (ready() && !spin() && !["V", "Eo"].includes(view.unit)) look({ unit: "Eo" });
     const b = state && state.banner;
     const key = JSON.stringify([state && state.model && state.model.path, state && state.flights.map((f) => f.cuts), b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path), state && state.beside && state.beside.step]);
     heading();
@@ -197,6 +204,7 @@ export function figures(box) {
     shown = key;
     box.classList.toggle("empty", !flight());
     box.classList.toggle("waiting", !ready());
+    box.classList.toggle("line", Boolean(flight() && flight().line));
     all();
   };
 
@@ -217,7 +225,9 @@ export function figures(box) {
     on("term", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
     on("low high", () => (drawResidual(), plots.spectrum.marked(), plots.spectrogram.marked(), drawHeatTable())),
     windowKeys(),
+    () => document.removeEventListener("themed", drawHeatTable),
   ];
+  document.addEventListener("themed", drawHeatTable);
   const calmHeat = calm(drawHeat, 250);
   return {
     known,

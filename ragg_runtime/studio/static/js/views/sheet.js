@@ -33,7 +33,7 @@ export function sheetView(main) {
       h("section.card", {},
         h("h2", {}, "Test sheet"),
         h("p.note", {}, "The nominal values, as model.toml holds them; comments there are kept. “Sure to” is how far the sheet says a value may be off, one standard deviation: one number for all accelerometers, or one for each with semicolons between. Where it is empty, the plausible error counts: one that would not surprise. The calibration moves a value by a few of these."),
-        h("div.wide", {}, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
+        h("div.wide", { tabindex: "0", role: "group", "aria-label": "Values of the test sheet" }, h("table.numbers.sheet", { class: names.length > 4 ? "many" : "" },
           h("thead", {}, h("tr", {}, h("th", {}, "parameter"), h("th", {}, "unit"), names.map((a) => h("th.n", {}, a)), h("th.n", {}, "sure to ±"), h("th.n", {}, "plausible ±"))),
           h("tbody", {}, rows.map((row) => h("tr", {},
             h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),

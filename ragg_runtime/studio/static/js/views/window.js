@@ -33,7 +33,11 @@ export const banded = (low, high) => look({ low, high });
 export const band = () => [view.low, view.high];
 export const harmonicOf = (id) => (id.startsWith("const") ? 0 : Number(id.split("|")[0].split(" ")[1]));
 export const harmonic = () => (view.term ? harmonicOf(view.term) : null);
-export const spin = () => (server.state && server.state.model ? Math.abs(server.state.model.spin_Hz) : 0);
+const part = () => ((flight() && flight().parts) || [])[view.output];
+/** How fast the disc turns that the output stands on, Hz; 0: it stands still. */
+export const spin = () => (part() ? part().spin_Hz : server.state && server.state.model ? Math.abs(server.state.model.spin_Hz) : 0);
+/** Whether a unit can be shown: of a disc that stands still nothing is demodulated. */
+const shows = (unit) => (flight() && flight().line ? flight().outputs.includes(unit) || (unit === "Eo" && !flight().outputs.includes("inline")) : unit === "V" || unit === "Eo" || spin() > 0);
 export const ready = () => Boolean(server.state && server.state.banner && flight());
 export const unitName = () => (view.unit === "V" ? "V" : "Eo");
 /** One standard deviation of the noise in the unit of the figures; 0 where it is not known. */
@@ -54,7 +58,7 @@ const pan = (share) => {
 
 const KEYS = {
   "+": () => zoom(1 / 1.6), "=": () => zoom(1 / 1.6), "-": () => zoom(1.6), "[": () => pan(-0.5), "]": () => pan(0.5), 0: () => moved(null),
-  ...Object.fromEntries(Object.entries(UNITS).map(([unit, [, key]]) => [key, () => look({ unit })])),
+  ...Object.fromEntries(Object.entries(UNITS).map(([unit, [, key]]) => [key, () => shows(unit) && look({ unit })])),
   f: () => server.state && server.state.flights.length && goto((view.flight + 1) % server.state.flights.length),
   o: () => flight() && (flight().parts || []).length > 1 && look({ output: (view.output + 1) % flight().parts.length }),
 };
@@ -77,13 +81,14 @@ export const windowText = () => {
   return f ? `${number(limits()[0], 4)} – ${number(limits()[1], 4)} s of ${number(f.duration_s, 4)} s at ${number(f.rate_Hz, 3)} Hz` : "";
 };
 
-const choose = (label, names, chosen, take) => h("select", { "aria-label": label, onchange: (e) => take(Number(e.target.value)) }, names.map((name, k) => h("option", { value: String(k), selected: k === chosen }, name)));
+export const choose = (label, names, chosen, take) => h("select", { "aria-label": label, onchange: (e) => take(Number(e.target.value)) }, names.map((name, k) => h("option", { value: String(k), selected: k === chosen }, name)));
 
 /** The flights or lines one after the other, as long as they last. */
 function lines(flights) {
   const longest = Math.max(...flights.map((x) => x.duration_s));
+  const last = flights.map((x) => x.name.split(/[/:]/).at(-1)), unique = new Set(last).size === last.length;
   return h("div.lines", { role: "group", "aria-label": "Flights" }, flights.map((x, k) => {
-    const made = h("button", { type: "button", "aria-pressed": String(k === view.flight), onclick: () => goto(k), title: `${x.name}: ${number(x.duration_s, 4)} s` }, x.name.split(/[/:]/).at(-1));
+    const made = h("button", { type: "button", "aria-pressed": String(k === view.flight), onclick: () => goto(k), title: `${x.name}: ${number(x.duration_s, 4)} s` }, unique ? last[k] : x.name);
     made.style.flexGrow = String(Math.max(0.05, x.duration_s / longest));
     return made;
   }));
@@ -103,8 +108,8 @@ export function windowHead(box) {
   fill(
     box,
     flights.length > 1 ? choose("Flight", flights.map((x) => x.name), view.flight, goto) : null,
-    f && f.parts && f.parts.length > 1 ? choose("Output", f.parts, view.output, (output) => look({ output })) : null,
-    h("div.toggle", { role: "group", "aria-label": "Unit" }, Object.entries(UNITS).map(([id, [name, key]]) => h("button", { type: "button", "aria-pressed": String(view.unit === id), onclick: () => look({ unit: id }), title: `${name} (${key})` }, name))),
+    f && f.parts && f.parts.length > 1 ? choose("Output", f.parts.map((x) => x.name), view.output, (output) => look({ output })) : null,
+    h("div.toggle", { role: "group", "aria-label": "Unit" }, Object.entries(UNITS).map(([id, [name, key]]) => h("button", { type: "button", "aria-pressed": String(view.unit === id), disabled: !shows(id), onclick: () => look({ unit: id }), title: shows(id) ? `${name} (${key})` : "This record does not have it" }, name))),
     h("p.window", {}, windowText()),
     h("div.toggle", { role: "group", "aria-label": "Window" },
       h("button", { type: "button", onclick: () => zoom(1 / 1.6), "aria-label": "Zoom in", title: "Zoom in (+)" }, "+"),
