@@ -21,6 +21,9 @@ PASSES = {"compare": 9.0, "diagnose": 10.5, "add": 17.0}
 QUIET = 4.0
 """A command that takes no longer than this shows no progress, s."""
 
+BEYOND = 0.99
+"""Share of the passes foreseen from which nobody knows how many more there will be."""
+
 INTERVAL = 15.0
 """Least time between two lines where stderr is a file, s."""
 
@@ -61,7 +64,7 @@ def shown(command: str, samples: int) -> Iterator[None]:
             nonlocal done
             done += amount
             if time.monotonic() - start > QUIET:
-                show(min(done / total, 0.99))
+                show(min(done / total, BEYOND))
 
         with heard(tell):
             yield
@@ -70,12 +73,15 @@ def shown(command: str, samples: int) -> Iterator[None]:
 @contextlib.contextmanager
 def _bar() -> Iterator[Callable[[float], None]]:
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
 
-    columns = (BarColumn(), TaskProgressColumn(), TextColumn("time left"), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True, speed_estimate_period=600.0) as bar:
+    start = time.monotonic()
+    columns = (BarColumn(), TaskProgressColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0, visible=False)
-        yield lambda share: bar.update(task, completed=share, visible=True)
+        yield lambda share: bar.update(
+            task, completed=share, visible=True, description=_left(share, time.monotonic() - start)
+        )
 
 
 def _lines() -> Callable[[float], None]:
@@ -86,10 +92,15 @@ def _lines() -> Callable[[float], None]:
         now = time.monotonic()
         if now - last >= max(INTERVAL, 0.02 * (now - start) / share):
             last = now
-            left = (now - start) * (1 / share - 1)
-            click.echo(f"... {100 * share:.0f} % done, about {_duration(left)} left", err=True)
+            click.echo(f"... {100 * share:.0f} % done, {_left(share, now - start)}", err=True)
 
     return show
+
+
+def _left(share: float, spent: float) -> str:
+    if share >= BEYOND:
+        return f"takes longer than foreseen, {_duration(spent)} so far"
+    return f"about {_duration(spent * (1 / share - 1))} left"
 
 
 def _duration(seconds: float) -> str:

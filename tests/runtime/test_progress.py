@@ -48,3 +48,17 @@ def test_short_commands_show_nothing(capsys: pytest.CaptureFixture[str]) -> None
     with progress.shown("diagnose", 10):
         progress.step(20.0)
     assert capsys.readouterr().err == ""
+
+
+def test_what_takes_longer_than_foretold_is_not_almost_done(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    with progress.shown("diagnose", 1000):
+        for _ in range(2):
+            now[0] += 300.0
+            progress.step(progress.PASSES["diagnose"] * 1000)
+    assert (
+        capsys.readouterr().err.splitlines()[-1] == "... 99 % done, takes longer than foreseen, 10 min so far"
+    )
