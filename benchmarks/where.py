@@ -21,7 +21,7 @@ STEPS = (
     "fit.fitted:fit",
     "fit.fitted:about",
     "fit.trust_region:minimise",
-    "fit.noise:estimated",
+    "fit.noise:estimate_noise",
     "fit.left_over:left_over",
     "fit.linearise:linearised",
     "fit.passes:whitened_columns",

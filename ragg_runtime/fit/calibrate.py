@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import Estimate, estimated, spread
+from ragg_runtime.fit.noise import estimate_noise, spread
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.square_root import join, triangle, with_prior
@@ -173,18 +173,10 @@ class _Task:
         fall = _linear(data, -x)
         return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, square, rows)
 
-    def noise(self, x: Array) -> list[Estimate]:
+    def noise(self, x: Array) -> list[Noise]:
         """Noise of every flight from what nothing explains about x."""
-        return [estimated(self._everything(x), o) for o in self.observations]
-
-    def noise_near(self, x: Array, before: Sequence[Estimate]) -> list[Noise]:
-        """The same, from what was estimated at a point near by where that was kept."""
-        at = self._everything(x)
-        pairs = list(zip(self.observations, before, strict=True))
-        return [e.at(at, o) or estimated(at, o, keep=False).noise for o, e in pairs]
-
-    def _everything(self, x: Array) -> Point:
-        return Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
+        return [estimate_noise(everything, o) for o in self.observations]
 
     def _nowhere(self, x: Array) -> _Fall:
         """A point at which the model is no instrument: infinitely far from any record."""
@@ -244,40 +236,26 @@ def fit(
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
     loud, whole = unweighted, _Unweighted(task)
-    estimates: list[Estimate] = []
     if noise is None:
         short = all(len(flight_segments(o)) <= WHITE_SEGMENTS for o in observations)
         some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
-        estimates = task.noise(x)
-        noise = [e.noise for e in estimates]
+        noise = task.noise(x)
         loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
     if not loud:
-        estimates.clear()
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
-    return _loud(whole, x, noise, estimates, fixed=unweighted)
+    return _loud(whole, x, noise, fixed=unweighted)
 
 
-def _loud(
-    p: _Unweighted, x: Array, noise: Sequence[Noise], estimates: Sequence[Estimate], fixed: bool
-) -> Calibration:
-    """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``.
-
-    It was estimated before at a point near that end, by ``estimates``; where it falls much from there, that was not near.
-    """
+def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
+    """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
         left = p.left(x)
         found = p.fit(x, max(_size(noise), left / LEAN))
         if fixed:
             break
-        x, before = found.x, noise
-        near = p.task.noise_near(x, estimates) if estimates else []
-        estimates = []
-        if not near or _size(near) <= FALLING * _size(before):
-            noise = [e.noise for e in p.task.noise(x)]
-        else:
-            noise = near
+        x, before, noise = found.x, noise, p.task.noise(found.x)
         if _size(noise) > FALLING * _size(before) and p.left(x) > FALLING * left:
             break
     return _calibration(p.task, found, noise)

@@ -47,16 +47,6 @@ class Left:
     columns: Array = field(repr=False)
     directions: Array = field(repr=False)
 
-    def lean(self) -> Left:
-        """Without what was fitted."""
-        return replace(self, columns=np.empty(0), directions=np.empty(0))
-
-    def of(self, y: Array) -> Left:
-        """What the same columns leave of another residual (rows,). Twice over: their directions are orthogonal to rounding."""
-        for _ in range(2):
-            y = y - (self.directions @ (self.directions.T @ (self.columns @ y))) @ self.columns
-        return replace(self, rest=y)
-
 
 def left_over(
     flat: Array,
@@ -73,7 +63,7 @@ def left_over(
     """
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:
-        return left
+        return replace(left, columns=np.empty(0), directions=np.empty(0))
     time = np.flatnonzero(valid) / rate
 
     def beside(found: list[Disturbance]) -> Left:
@@ -93,7 +83,7 @@ def left_over(
         if not seen:
             break
         left = beside([*left.found, *(lines or seen)])
-    return left
+    return replace(left, columns=np.empty(0), directions=np.empty(0))
 
 
 def _and(left: Left, column: Array, valid: NDArray[np.bool_]) -> Left:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +27,6 @@ from ragg_runtime.signals.noise_level import Level
 from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, white_noise
 
 Array = NDArray[np.float64]
-R = TypeVar("R")
-
 TAPS = 24576
 """Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
 
@@ -53,50 +50,13 @@ class _Part:
     taken: float
     random: Mapping[str, tuple[Array, ...]]
 
-    def lean(self) -> _Part:
-        """Without the columns."""
-        return replace(self, outputs=tuple(x.lean() for x in self.outputs))
-
-    def of(self, residuals: Sequence[Array]) -> _Part:
-        """What the same columns leave of other residuals (rows,), one of each output."""
-        return replace(self, outputs=tuple(x.of(y[-1]) for x, y in zip(self.outputs, residuals, strict=True)))
-
     def rest(self, m: int) -> Array:
         """(N,): of an output, zero where a sample is not valid."""
         return placed(self.outputs[m].rest, self.valid)
 
 
-KEPT = 1 << 25
-"""Most numbers of columns that are kept to estimate a noise once more: half an hour at 16 Hz, whole catalogue, has 9 million."""
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """The noise of an observation, and what it was estimated from."""
-
-    noise: Noise
-    _parts: Sequence[_Part] = field(repr=False)
-
-    def at(self, at: Point, o: Observation) -> Noise | None:
-        """The noise in what the same columns leave of the residual at a point near by; ``None`` if they were not kept.
-
-        Between two ends of a fit columns turn by parts in a thousand, and what they span by less: what nothing explains
-        of the residual there is what these leave of it.
-        """
-        if not all(x.columns.size for p in self._parts for x in p.outputs):
-            return None
-        apart = self.noise.combinations
-        rests = _passed(replace(at, with_candidates=False), o, apart, lambda piece: _each(piece, o))
-        return _noise_of([p.of(rest) for p, rest in zip(self._parts, rests, strict=True)], o, apart)
-
-
 def estimate_noise(at: Point, o: Observation) -> Noise:
     """Noise of each output from what no column (base, candidate, unknown gradient) explains."""
-    return estimated(at, o, keep=False).noise
-
-
-def estimated(at: Point, o: Observation, *, keep: bool = True) -> Estimate:
-    """The same, its columns kept (where they are not too many) for another residual."""
     if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
             "the record is too short to estimate its noise",
@@ -105,20 +65,13 @@ def estimated(at: Point, o: Observation, *, keep: bool = True) -> Estimate:
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
-    parts, apart = _parts(at, o, None), None
-    if not o.recorded.demodulated:
-        rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
-        apart = combinations.telling(rests, o.signs)
-    if apart is not None:
-        parts = _parts(at, o, apart)
-    noise = _noise_of(parts, o, apart)
-    keep = keep and sum(x.columns.size for p in parts for x in p.outputs) <= KEPT
-    return Estimate(noise, parts if keep else [p.lean() for p in parts])
-
-
-def _noise_of(parts: Sequence[_Part], o: Observation, apart: Array | None) -> Noise:
+    parts = _parts(at, o, None)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
+    rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
+    apart = combinations.telling(rests, o.signs)
+    if apart is not None:
+        parts = _parts(at, o, apart)
     noise = _of_level(parts, o, Level())
     level = _level(parts, o, noise)
     if level.parts:
@@ -163,7 +116,7 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
 
     def part(piece: Piece) -> _Part:
         valid = piece.observation.record.valid
-        each = _each(piece, o)
+        each = np.split(piece.white, len(o.series), axis=1)
         known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
@@ -173,23 +126,13 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
             random={e: tuple(flat[place] ** 2 for flat in each) for place, e in shown if e is not None},
         )
 
-    return list(_passed(at, o, apart, part))
-
-
-def _passed(at: Point, o: Observation, apart: Array | None, work: Callable[[Piece], R]) -> Iterator[R]:
-    """What ``work`` makes of the segments that the noise is estimated of, spread over the flight, in order."""
     unwhitened = white_noise(o.record.rate, len(o.series))
     if apart is not None:
         unwhitened = replace(unwhitened, combinations=apart)
-    enough = (
+    enough = [
         s for s in spread(flight_segments(o), NOISE_SEGMENTS) if np.sum(o.record.valid[s.rows]) >= SHORTEST
-    )
-    return passed(at, o, unwhitened, work, chosen=list(enough))
-
-
-def _each(piece: Piece, o: Observation) -> list[Array]:
-    """Unwhitened columns (n + 1, rows) of every output."""
-    return np.split(piece.white, len(o.series), axis=1)
+    ]
+    return list(passed(at, o, unwhitened, part, chosen=enough))
 
 
 def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:

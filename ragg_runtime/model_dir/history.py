@@ -68,7 +68,8 @@ def history_text(steps: tuple[Step, ...]) -> str:
 def _error(found: Any) -> Mapping[str, Any] | None:
     """An error object as it stands in the file; TypeError, ValueError or AttributeError if it is none."""
     inner = found.get("calibrated", found) if found else {}
-    float((inner or {}).get("rms_Eo") or 0.0)  # what is told of a step
+    told = inner.get("rms_Eo") if inner else None  # of a step
+    float(0.0 if told is None else told)
     json.dumps(found, allow_nan=False)  # it is written again with the next step
     return None if found is None else dict(found)
 

@@ -8,8 +8,10 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -18,7 +20,7 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import clear_stale, scratch, temporary_name
-from ragg_runtime.flight import files, lines, read_flight
+from ragg_runtime.flight import Flight, files, lines, read_flight
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.model import native
@@ -51,9 +53,21 @@ def test_a_file_that_unfolds_without_end_is_refused_before_it_fills_the_disc(
     (tmp_path / "empty").mkdir()
     path = bomb(tmp_path / "bomb.parquet", 1 << 21)
     monkeypatch.setattr(files, "UNFOLDS", (1 << 27) / path.stat().st_size * 0.8)
-    monkeypatch.setattr(files, "spooled", lambda *a: pytest.fail("it was laid down"))
+    laid: list[int] = []
+    spooled = files.spooled
+
+    def counted(parts: Iterable[Flight]) -> Iterator[Flight]:
+        for x in parts:
+            laid.append(x.time.nbytes * (len(x.channels) + 3))
+            yield x
+
+    def watched(parts: Iterable[Flight], *others: Any) -> Flight:
+        return spooled(counted(parts), *others)
+
+    monkeypatch.setattr(files, "spooled", watched)
     with pytest.raises(UserError, match="unfolds to more than a record can be compressed"):
         read_flight(path, 9.8)
+    assert sum(laid) <= files.UNFOLDS * path.stat().st_size  # and no more was on the disk on the way
     assert list((tmp_path / "empty").iterdir()) == []
 
 
