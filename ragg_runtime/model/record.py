@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,7 +18,14 @@ from ragg_runtime.instrument.layout import Vector3, gain
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator
-from ragg_runtime.signals.derivative import DEGREE, differentiate, smooth_slope
+from ragg_runtime.signals.derivative import (
+    DEGREES,
+    best_degree,
+    differentiate,
+    smooth_slope,
+    steady_and_swing,
+    stretches,
+)
 
 Array = NDArray[np.float64]
 
@@ -34,7 +41,11 @@ SPIN = ("d_spin_angle", "d2_spin_angle")
 
 SPIN_WINDOW = 0.6
 """Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
-differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn."""
+differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn. How closely the
+smooth angle follows is chosen by the record itself (``best_degree``)."""
+
+CHUNK = 1 << 16
+"""Samples of a long record's encoder that are looked at at a time."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +77,8 @@ class Record:
         How inline and cross were made, where they are what was recorded.
     every
         Samples from one at which they were recorded to the next.
+    whole
+        What this is a part of; ``None``: it is the whole record.
     """
 
     time: Array
@@ -80,6 +93,7 @@ class Record:
     axes: tuple[Vector3, Vector3] | None = None
     demodulation: Demodulation = OURS
     every: int = 1
+    whole: Record | None = None
 
     @cached_property
     def low_pass(self) -> Demodulator:
@@ -120,6 +134,13 @@ class Record:
     def _quarters(self, time: Array) -> tuple[Array, Array]:
         angle = np.pi / 2 * np.remainder(np.rint(time * self.rate), 4.0 * self.every) / self.every
         return np.asarray(np.cos(angle)), np.asarray(np.sin(angle))
+
+    @cached_property
+    def spin_degree(self) -> int:
+        """Of the polynomials that give the disc's rate from its encoder: those of the whole record, in every part of it."""
+        if self.whole is not None:
+            return self.whole.spin_degree
+        return spin_degree(self.wide.get(self.angle_column), self.rate)
 
     @cached_property
     def cos_phi(self) -> Array:
@@ -172,7 +193,8 @@ class Record:
         valid = np.array(self.valid[rows])
         let_go(*self.wide.values(), self.valid, self.time)
         time = np.array(self.time[rows])
-        return replace(self, time=time, wide=wide, valid=valid, halo=(a - first, last - b))
+        halo = (a - first, last - b)
+        return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
 
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:
         """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
@@ -193,7 +215,7 @@ class Record:
         if name in SPIN:
             encoder = self.wide.get(self.angle_column)
             length = len(self.time) + sum(self.halo)
-            return spin(name, encoder, length, self.rate, self.spin_frequency)
+            return spin(name, encoder, length, self.rate, self.spin_frequency, self.spin_degree)
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
@@ -201,19 +223,51 @@ class Record:
         return None
 
 
-def spin(name: str, encoder: Array | None, samples: int, rate: float, spin_frequency: float) -> Array:
+def spin(
+    name: str,
+    encoder: Array | None,
+    samples: int,
+    rate: float,
+    spin_frequency: float,
+    degree: int = DEGREES[0],
+) -> Array:
     """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad) if there is one.
 
-    By least squares a polynomial of the fifth degree is laid through ``SPIN_WINDOW`` on either side of a sample.
+    By least squares a polynomial of this degree is laid through ``SPIN_WINDOW`` on either side of a sample; NaN where the
+    encoder has none, and in runs of a few samples.
     """
     order = SPIN.index(name) + 1
     if encoder is None:
         return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)
-    half = min(max(round(SPIN_WINDOW * rate), DEGREE), HALO, (samples - 1) // 2)
-    if 2 * half < DEGREE:
-        return np.full(samples, np.nan)
-    angle = np.unwrap(encoder)
-    return smooth_slope(angle - angle[0], half, order) * (rate if order == 1 else rate * rate)
+    found = np.full(samples, np.nan)
+    for run in stretches(np.isfinite(encoder), DEGREES[0] + 2):
+        half = min(_half(rate), (run.stop - run.start - 1) // 2)
+        steady, swing = steady_and_swing(encoder[run])
+        bearable = max(d for d in DEGREES if d == DEGREES[0] or d <= min(degree, 2 * half - 1))
+        slope = smooth_slope(swing, half, order, bearable)
+        found[run] = (slope + steady) * rate if order == 1 else slope * (rate * rate)
+    return found
+
+
+def spin_degree(encoder: Array | None, rate: float) -> int:
+    """Of the polynomials for the rate of the angle (N,), rad, of a whole record; the lowest without an encoder."""
+    if encoder is None:
+        return DEGREES[0]
+    half = _half(rate)
+
+    def angles() -> Iterator[Array]:
+        for a in range(0, len(encoder), CHUNK):
+            angle = np.array(encoder[max(0, a - half) : a + CHUNK + half])
+            let_go(encoder)
+            for run in stretches(np.isfinite(angle), 2):
+                yield steady_and_swing(angle[run])[1]
+
+    return best_degree(angles(), half)
+
+
+def _half(rate: float) -> int:
+    """Samples on either side."""
+    return min(max(round(SPIN_WINDOW * rate), DEGREES[0]), HALO)
 
 
 def disc_angle(time: Array, spin_frequency: float) -> Array:

@@ -17,7 +17,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin
+from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin, spin_degree
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
@@ -260,7 +260,8 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
         if name in SPIN:
             disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
             encoder = flight.channels.get(disc.angle_column)
-            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency)
+            degree = spin_degree(encoder, flight.rate)
+            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency, degree)
             continue
         order = 2 if name.startswith("d2_") else 1
         base = name.removeprefix("d2_").removeprefix("d_")

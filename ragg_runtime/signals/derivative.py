@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -115,43 +117,98 @@ def weights(window: int, at: int) -> Array:
     return weights
 
 
-DEGREE = 5
-"""Of the polynomials that smooth a series for its slope."""
+DEGREES = (5, 7, 9, 11, 13)
+"""Of the polynomials that smooth a series for its slope: each leaves less of a fast swing out, and lets more noise in."""
 
 
-def smooth_slope(x: Array, half: int, order: int) -> Array:
-    """First or second derivative per sample, (N,), by polynomials of the fifth degree through ``half`` samples on either side.
+def smooth_slope(x: Array, half: int, order: int, degree: int = DEGREES[0]) -> Array:
+    """First or second derivative per sample, (N,), by polynomials through ``half`` samples on either side.
 
     Towards an end the polynomial is that through the last 2 ``half`` + 1 samples. The operations and their order are
     those of the exported programs.
     """
     window, found = 2 * half + 1, np.empty(len(x))
-    middle = polynomial_weights(half, 0, order)
+    middle = polynomial_weights(half, 0, order, degree)
+    if order == 2:
+        middle = _without_mean(middle)
     ndimage.correlate1d(x, middle, output=found, mode="nearest")
     for k in range(half):
-        found[k] = np.cumsum(polynomial_weights(half, k - half, order) * x[:window])[-1]
-        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order) * x[-window:])[-1]
+        found[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
+        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
+    return found
+
+
+def steady_and_swing(angle: Array) -> tuple[float, Array]:
+    """An angle, rad, (N,), N > 1, in which whole turns may be missing: its mean step a sample, and what it has beyond it, (N,).
+
+    A swing of a radian keeps its digits where the angle itself, of thousands of radians, would lose them.
+    """
+    steps = np.diff(angle)
+    steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
+    mean = float(np.cumsum(steps)[-1]) / len(steps)
+    return mean, np.concatenate([[0.0], np.cumsum(steps - mean)])
+
+
+def best_degree(x: Iterable[Array], half: int) -> int:
+    """That of DEGREES with the least expected error of the second derivative of runs of samples, (N,) each.
+
+    A step from one degree to the next changes the derivative by weights w, and so by s^2 |w|^2 in the mean square where there is
+    nothing but noise; the error grows by as much, and falls by what the change is beyond it (Mallows, Technometrics 15 (1973)
+    661). The variance s^2 is by what the highest degree leaves, or, where that is more, by a later step: the rounding of an
+    encoder whose turning fits the samples is not white, and a swing fades from step to step. Runs shorter than two windows
+    are too few samples to tell.
+    """
+    degrees, kernels = _choices(half)
+    if not kernels:
+        return DEGREES[0]
+    squares = np.zeros(len(kernels))
+    for run in x:
+        if len(run) >= 2 * (2 * half + 1):
+            inner = slice(half, len(run) - half)
+            squares += [float(np.sum(ndimage.correlate1d(run, w)[inner] ** 2)) for w in kernels]
+    gains = np.array([float(w @ w) for w in kernels])
+    noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
+    grows = 2 * noise[1:] * gains[:-1] - squares[:-1]
+    return degrees[int(np.argmin(np.cumsum([0.0, *grows])))]
+
+
+@cache
+def _choices(half: int) -> tuple[tuple[int, ...], tuple[Array, ...]]:
+    """Degrees that a window bears, and weights: of each step's change of the curvature, and of what the highest leaves."""
+    degrees = tuple(d for d in DEGREES if d < 2 * half)
+    if len(degrees) < 2:
+        return degrees, ()
+    curvatures = [_without_mean(polynomial_weights(half, 0, 2, d)) for d in degrees]
+    left = _without_mean(-polynomial_weights(half, 0, 0, degrees[-1]))
+    return degrees, (*(b - a for a, b in pairwise(curvatures)), left)
+
+
+def _without_mean(weights: Array) -> Array:
+    """The same even weights with a middle one that makes their sum zero, or a series far from zero would leave its rounding."""
+    found, half = weights.copy(), len(weights) // 2
+    found[half] = -2.0 * np.cumsum(found[:half])[-1]
     return found
 
 
 @cache
-def polynomial_weights(half: int, at: int, order: int) -> Array:
+def polynomial_weights(half: int, at: int, order: int, degree: int) -> Array:
     """(2 half + 1,): weights of the derivative at a sample counted from the middle one (Gorry, Anal. Chem. 62 (1990) 570)."""
-    everywhere, there = _gram(half, np.arange(-half, half + 1.0)), _gram(half, np.array([float(at)]))
+    everywhere = _gram(half, np.arange(-half, half + 1.0), degree)
+    there = _gram(half, np.array([float(at)]), degree)
     total, below, above = np.zeros(2 * half + 1), 1.0, 2.0 * half + 1.0
-    for k in range(DEGREE + 1):
+    for k in range(degree + 1):
         total = total + (2 * k + 1) * below / above * everywhere[k][0] * there[k][order]
         below *= 2 * half - k
-        above = float(np.prod([2.0 * half + k + 2 - i for i in range(k + 2)]))
+        above = float(np.cumprod([2.0 * half + k + 2 - i for i in range(k + 2)])[-1])
     total.flags.writeable = False
     return total
 
 
-def _gram(half: int, t: Array) -> list[list[Array]]:
-    """Gram polynomials of degree 0 ... DEGREE at t, and their first two derivatives: [degree][order]."""
+def _gram(half: int, t: Array, degree: int) -> list[list[Array]]:
+    """Gram polynomials of degree 0 ... ``degree`` at t, and their first two derivatives: [degree][order]."""
     zero = np.zeros(len(t))
     found = [[zero + 1.0, zero, zero]]
-    for k in range(1, DEGREE + 1):
+    for k in range(1, degree + 1):
         whole = k * (2.0 * half - k + 1)
         a, b = (4 * k - 2) / whole, (k - 1) * (2.0 * half + k) / whole
         one, two = found[-1], found[-2] if k > 1 else [zero] * 3

@@ -52,15 +52,14 @@ def flown(
     return s.flight(voltages=True)
 
 
-def worst(i: Instrument, flight: Flight) -> float:
-    """Largest difference of any output, Eo."""
+def worst(i: Instrument, flight: Flight, inner: slice = slice(20, -20)) -> float:
+    """Largest difference of any output, Eo; by default not at the ends, where the rate of a recorded angle is less sure."""
     model, _ = derive.derived((), (), i.form, i.layout)
     p = vector(model, i)
     found = []
     for k, o in enumerate(i.layout.outputs):
         r = record(flight, i, k)
         left = flight.outputs[o.name] - output(model.chain, r, p, o)
-        inner = slice(20, -20)  # the rate of a recorded angle is smoothed
         found.append(float(np.max(np.abs(left[inner]))) / scale_factor(model, p, k))
     return max(found)
 

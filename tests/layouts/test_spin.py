@@ -11,6 +11,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import read_flight, write_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.model.record import spin as turning_rate
+from ragg_runtime.model.record import spin_degree
+from ragg_runtime.signals.derivative import DEGREES
 from ragg_runtime.workflow.simulate import simulated
 from ragg_runtime.workflow.spin import turning_of
 from tests.layouts import sheets
@@ -38,6 +41,38 @@ def test_exact_model_of_full_kinematics_is_the_simulated_instrument(layout: str,
     name = i.layout.output_names[0]
     away = np.std(flight.outputs[name] - steady.outputs[name])
     assert away > 0.1 * np.std(steady.outputs[name])  # it does matter how the disc turns
+
+
+@pytest.mark.parametrize(("five", "spin"), [
+    (False, "0.25,0.1@0.1"), (False, "0.25,0.4@0.05,0.1@0.21"), (True, "0.25,0.3@0.1"),
+])  # fmt: skip
+def test_the_rate_of_a_clean_encoder_follows_a_fast_swing(five: bool, spin: str) -> None:
+    """Of five accelerometers at unlike places the Euler force, R phi'', does not cancel: the ends of the record count as well."""
+    places = zip((0.0, 70.0, 100.0, 200.0, 300.0), (1, 1, -1, 1, -1), strict=True)
+    disc = sheets.disc("A", [sheets.accelerometer(f"A{k}", a, s) for k, (a, s) in enumerate(places)])
+    i = parse_instrument(sheets.sheet([disc], 5, sheets.EXACT)) if five else of_paper()
+    flight = simulated(i, (), duration=120.0, noise=0.0, sheet_error=0.0, spin=[spin])
+    assert worst(i, flight, slice(None)) < LIMIT
+
+
+@pytest.mark.parametrize("swing", [0.0, 0.1, 0.3])
+@pytest.mark.parametrize(("encoder", "f"), [("16 bits", 0.2503), ("16 bits", 0.3), ("1 mrad", 0.25)])
+def test_the_rate_of_a_coarse_encoder_is_as_smooth_as_it_was(encoder: str, f: float, swing: float) -> None:
+    """Also of one whose steps come in time with the samples (0.3 Hz at 16 Hz): its rounding is no white noise."""
+    t, step = np.arange(9600) / 16.0, 2 * np.pi / 2**16
+    angle = 2 * np.pi * f * t + swing * np.sin(2 * np.pi * 0.1 * t)
+    noisy = angle + 1e-3 * np.random.default_rng(1).standard_normal(t.size)
+    read = noisy if encoder == "1 mrad" else step * np.round(angle / step)
+    assert spin_degree(np.mod(read, 2 * np.pi), 16.0) == DEGREES[0]
+
+
+def test_a_gap_in_the_encoder_stays_where_it_is() -> None:
+    t = np.arange(400) / 16.0
+    angle = np.mod(2 * np.pi * 0.25 * t, 2 * np.pi)
+    angle[100:103] = np.nan
+    rate = turning_rate("d_spin_angle", angle, t.size, 16.0, 9.9)
+    assert np.array_equal(np.isnan(rate), np.isnan(angle))
+    assert rate[~np.isnan(rate)] == pytest.approx(2 * np.pi * 0.25, abs=1e-9)
 
 
 def test_each_disc_turns_as_it_is_told() -> None:

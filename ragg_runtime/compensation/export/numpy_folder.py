@@ -10,7 +10,7 @@ from ragg_runtime.compensation.export.document import json_files
 from ragg_runtime.compensation.export.program import example_files
 from ragg_runtime.flight.angular_acceleration import wide_weights
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
-from ragg_runtime.signals.derivative import DEGREE, WINDOW, weights
+from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
 
 
 def numpy_files(c: Contents) -> dict[str, str]:
@@ -19,7 +19,7 @@ def numpy_files(c: Contents) -> dict[str, str]:
     slopes = {
         "short": short,
         "long": [float(x) for x in wide_weights()],
-        "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degree": DEGREE},
+        "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degrees": DEGREES},
     }
     program = (
         resources.files("ragg_runtime.compensation.export")

@@ -6,6 +6,7 @@ omegadot, where it is not there, is derived from omega; without an encoder's col
 """
 
 import csv
+import itertools
 import json
 import sys
 from pathlib import Path
@@ -16,6 +17,7 @@ import numpy as np
 MODEL = json.loads((Path(__file__).parent / "model.json").read_text("utf-8"))
 SLOPES = json.loads((Path(__file__).parent / "derivative.json").read_text("utf-8"))
 SHORT, LONG, SPIN = np.array(SLOPES["short"]), np.array(SLOPES["long"]), SLOPES["spin"]
+DEGREES = SPIN["degrees"]
 PARAMETERS = np.concatenate([q["values"] for q in MODEL["parameters"]])
 OMEGADOT = [f"omegadot_{axis}" for axis in "xyz"]
 
@@ -98,17 +100,44 @@ def acceleration(omega, t):
 def spin(angle, order, t):
     """Rate (order 1) or acceleration (2) of an encoder's angle, by polynomials through the samples around each."""
     rate = rate_of(t)
-    half = min(max(round(SPIN["seconds"] * rate), SPIN["degree"]), SPIN["most"], (len(t) - 1) // 2)
-    if 2 * half < SPIN["degree"]:
+    half = min(max(round(SPIN["seconds"] * rate), DEGREES[0]), SPIN["most"], (len(t) - 1) // 2)
+    if 2 * half < DEGREES[0]:
         raise SystemExit("ragg_model: too few rows for the rate of a disc")
-    x = np.unwrap(angle)
-    x, window = x - x[0], 2 * half + 1
-    found = np.empty(len(x))
-    found[half : len(x) - half] = weighed(polynomial_weights(half, 0, order), 1 if order == 2 else -1, x)
+    steps = np.diff(angle)
+    steps -= 2 * np.pi * np.rint(steps / (2 * np.pi))
+    steady, window = np.cumsum(steps)[-1] / len(steps), 2 * half + 1
+    x = np.concatenate([[0.0], np.cumsum(steps - steady)])
+    degree, found = best_degree(x, half), np.empty(len(x))
+    middle = polynomial_weights(half, 0, order, degree)
+    found[half : len(x) - half] = (
+        weighed(middle, -1, x) if order == 1 else weighed(without_mean(middle), 1, x)
+    )
     for k in range(half):
-        found[k] = np.cumsum(polynomial_weights(half, k - half, order) * x[:window])[-1]
-        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order) * x[-window:])[-1]
-    return found * (rate if order == 1 else rate * rate)
+        found[k] = np.cumsum(polynomial_weights(half, k - half, order, degree) * x[:window])[-1]
+        found[len(x) - 1 - k] = np.cumsum(polynomial_weights(half, half - k, order, degree) * x[-window:])[-1]
+    return (found + steady) * rate if order == 1 else found * (rate * rate)
+
+
+def best_degree(x, half):
+    """The degree with the least expected error of the second derivative: ragg_runtime/signals/derivative.py says why."""
+    degrees = [d for d in DEGREES if d < 2 * half]
+    if len(x) < 2 * (2 * half + 1) or len(degrees) < 2:
+        return DEGREES[0]
+    curvatures = [without_mean(polynomial_weights(half, 0, 2, d)) for d in degrees]
+    left = without_mean(-polynomial_weights(half, 0, 0, degrees[-1]))
+    kernels = [*(b - a for a, b in itertools.pairwise(curvatures)), left]
+    gains = np.array([w @ w for w in kernels])
+    squares = np.array([np.sum(weighed(w, 1, x) ** 2) for w in kernels])
+    noise = np.maximum.accumulate((squares / gains)[::-1])[::-1]
+    grows = 2 * noise[1:] * gains[:-1] - squares[:-1]
+    return degrees[int(np.argmin(np.cumsum([0.0, *grows])))]
+
+
+def without_mean(weights):
+    """The same even weights with a middle one that makes their sum zero."""
+    found, half = weights.copy(), len(weights) // 2
+    found[half] = -2.0 * np.cumsum(found[:half])[-1]
+    return found
 
 
 def weighed(weights, sign, x):
@@ -120,22 +149,25 @@ def weighed(weights, sign, x):
     return total
 
 
-def polynomial_weights(half, at, order):
+def polynomial_weights(half, at, order, degree):
     """Weights of 2 half + 1 samples for the derivative at one, counted from the middle (Gorry, Anal. Chem. 62 (1990) 570)."""
-    everywhere, there = gram(half, np.arange(-half, half + 1.0)), gram(half, np.array([float(at)]))
+    everywhere, there = (
+        gram(half, np.arange(-half, half + 1.0), degree),
+        gram(half, np.array([float(at)]), degree),
+    )
     total, below, above = 0.0, 1.0, 2.0 * half + 1.0
-    for k in range(SPIN["degree"] + 1):
+    for k in range(degree + 1):
         total = total + (2 * k + 1) * below / above * everywhere[k][0] * there[k][order]
         below *= 2 * half - k
-        above = float(np.prod([2.0 * half + k + 2 - i for i in range(k + 2)]))
+        above = float(np.cumprod([2.0 * half + k + 2 - i for i in range(k + 2)])[-1])
     return total
 
 
-def gram(half, t):
+def gram(half, t, degree):
     """Gram polynomials at t, and their first two derivatives: [degree][order]."""
     zero = np.zeros(len(t))
     found = [[zero + 1.0, zero, zero]]
-    for k in range(1, SPIN["degree"] + 1):
+    for k in range(1, degree + 1):
         whole = k * (2.0 * half - k + 1)
         a, b = (4 * k - 2) / whole, (k - 1) * (2.0 * half + k) / whole
         one, two = found[-1], found[-2] if k > 1 else [zero] * 3
