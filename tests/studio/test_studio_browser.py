@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import os
@@ -533,3 +534,24 @@ def test_15_the_address_holds_the_view_for_another_tab(page: Page, server: Serve
     other.goto(page.url)
     expect(other.locator(".figure-head [aria-pressed=true]")).to_have_text("cross", timeout=PATIENCE)
     other.close()
+
+
+def test_18_flights_are_chosen_and_dropped(page: Page, server: Served, tmp_path: Path) -> None:
+    laid = server.folder / "model" / "flights"  # type: ignore[attr-defined]
+    for name in ("chosen.parquet", "dropped.parquet"):
+        brief(tmp_path / name)
+        page.keyboard.press("5")
+        if name == "chosen.parquet":
+            page.locator("input[type=file]").set_input_files(tmp_path / name)
+        else:
+            given = page.evaluate_handle(
+                "([name, text]) => { const d = new DataTransfer();"
+                " d.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name)); return d; }",
+                [name, base64.b64encode((tmp_path / name).read_bytes()).decode()],
+            )
+            page.dispatch_event(".drop", "drop", {"dataTransfer": given})
+        expect(page.locator(".view-loop")).to_be_visible(timeout=PATIENCE)
+        page.keyboard.press("5")
+        expect(page.locator("section.card th[scope=row]")).to_contain_text(name.removesuffix(".parquet"))
+        idle(page)
+        assert (laid / name).read_bytes() == (tmp_path / name).read_bytes()
