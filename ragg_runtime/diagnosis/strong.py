@@ -149,15 +149,14 @@ def _alike(a: Test, b: Test) -> bool:
 
 
 def _charge(columns: Array, rows: int) -> float:
-    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction,
-    or less where the record tells less of it than one of the prior's width.
+    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction that
+    the record sees; of one that it does not, by which the evidence with a prior of unit width is lower, ln(1 + s^2).
 
-    The evidence of a direction of norm s is lower by ln(1 + s^2) with a prior of unit width, and BIC's prior is one of which a
-    single row tells as much: of two the narrower holds. Otherwise an effect would lose to a twin for coefficients of which
-    the record says nothing (the third angle of a turn, the weak combinations of four accelerometers).
+    Otherwise an effect would lose to a twin for coefficients of which the record says nothing (the third angle of a turn,
+    weak combinations of four accelerometers).
     """
     s = np.linalg.svd(columns, compute_uv=False)
-    return float(np.sum(np.minimum(np.log(rows), np.log1p(s**2))))
+    return float(np.sum(np.where(s < 1.0, np.log1p(s**2), np.log(rows))))
 
 
 def _derived(
