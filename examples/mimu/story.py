@@ -243,7 +243,10 @@ def ranked(d: Diagnosis, most: int = 4) -> str:
         (
             f"`{r.effect}`",
             f"{r.log_p / np.log(10.0):.0f}" if np.isfinite(r.log_p) else "certain",
-            ", ".join(f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit}" for q in r.parameters[:3]),
+            ", ".join(
+                f"{q.name} = {q.value:.2g} ± {q.std:.1g} {q.unit.removesuffix('1')}".rstrip()
+                for q in r.parameters[:3]
+            ),
         )
         for r in d.ranking[:most]
     ]
