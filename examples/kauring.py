@@ -12,6 +12,7 @@ from __future__ import annotations
 import sys
 import tempfile
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,6 @@ from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 
 Array = NDArray[np.float64]
@@ -132,11 +132,7 @@ def eotvos(path: Path) -> Found:
     plain, own = parse_instrument(SHEET), parse_instrument(SHEET.replace("effects = []", EOTVOS))
     with tempfile.TemporaryDirectory() as folder:
         every = flights(path, Path(folder), plain)
-
-        def extended(model: Model, ids: object, /, *, candidates: bool = False) -> Model:
-            return derive.with_effects(plain, model, tuple(ids), candidates=candidates)  # type: ignore[call-overload]
-
-        d = diagnose(derive.model_of(plain), plain, every, extended)
+        d = diagnose(derive.model_of(plain), plain, every, partial(derive.with_effects, plain))
         c = fit(derive.without_signatures(own, own.form), own, observations_of(every, own)).calibration
     (n,) = (n for n, q in enumerate(c.columns) if q.effect == "eotvos")
     unit = -2 * EARTH_RATE

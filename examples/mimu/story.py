@@ -6,6 +6,7 @@ import io
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +27,6 @@ from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.record import ANGULAR_RATE
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
 
 Array = NDArray[np.float64]
@@ -128,11 +128,7 @@ def diagnosed(text: str, misread: float = 1.0, motion: Path = HERE / "motion.par
 
 def diagnosed_of(i: Instrument, both: Sequence[Flight]) -> Diagnosis:
     """The same of any flights of the array."""
-
-    def extended(model: Model, ids: object, /, *, candidates: bool = False) -> Model:
-        return derive.with_effects(i, model, tuple(ids), candidates=candidates)  # type: ignore[call-overload]
-
-    return diagnose(derive.model_of(i), i, both, extended)
+    return diagnose(derive.model_of(i), i, both, partial(derive.with_effects, i))
 
 
 BESIDE = 1

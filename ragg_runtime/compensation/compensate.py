@@ -54,9 +54,9 @@ def without_gradients(flight: Flight) -> Flight:
 class Prepared:
     """Flights with the parameters that compensate them.
 
-    ``observations`` are outputs of ``flights``, of which ``of`` says whose; ``stretches`` and ``noise`` (densities are in
-    the calibration) of each of them; ``seeing`` are those that see a gradient on a turning disc. ``validity``, and
-    ``change`` (how what these flights say departs from the calibration), only if frozen.
+    ``observations`` are outputs of ``flights``; ``stretches`` and ``noise`` (densities are in the calibration) of each of
+    them; ``seeing`` are those that see a gradient on a turning disc. ``validity``, and ``change`` (how what these flights
+    say departs from the calibration), only if frozen.
     """
 
     kind: Kind
@@ -64,7 +64,6 @@ class Prepared:
     instrument: Instrument
     flights: tuple[Flight, ...]
     observations: tuple[Observation, ...]
-    of: tuple[int, ...]
     seeing: tuple[int, ...]
     calibration: Calibration
     stretches: tuple[tuple[Stretch, ...], ...]
@@ -74,7 +73,7 @@ class Prepared:
 
     def of_flight(self, k: int) -> list[int]:
         """The observations of a flight that are compensated."""
-        return [n for n in self.seeing if self.of[n] == k]
+        return [n for n in self.seeing if self.observations[n].flight == k]
 
 
 @one_thread
@@ -85,9 +84,7 @@ def prepared(
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(without_gradients(x) for x in flights)
-    each = [observations_of([x], instrument) for x in flights]
-    observations = tuple(o for own in each for o in own)
-    of = tuple(k for k, own in enumerate(each) for _ in own)
+    observations = tuple(observations_of(flights, instrument))
     sighted = seeing(instrument, observations)
     validity: dict[str, tuple[float, float]] = {}
     change: frozen.Change | None = None
@@ -104,7 +101,7 @@ def prepared(
         c, settled = f.calibration, f.calibration.converged
         root = inverse(information(f))
         stretches = (
-            schedule.crossed(f, of)
+            schedule.crossed(f)
             if kind == "crossed"
             else [schedule.whole(c, root, len(o.record.time)) for o in observations]
         )
@@ -114,7 +111,6 @@ def prepared(
         instrument=instrument,
         flights=flights,
         observations=observations,
-        of=of,
         seeing=sighted,
         calibration=c,
         stretches=tuple(stretches),
@@ -150,7 +146,8 @@ class Compensated:
     """
 
     def __init__(self, p: Prepared, k: int, name: str) -> None:
-        self.flight, o = p.flights[p.of[k]], p.observations[k]
+        o = p.observations[k]
+        self.flight = p.flights[o.flight]
         rate = o.record.rate
         self.demodulator = demodulator(name, rate)
         _long_enough(self.flight, self.demodulator)

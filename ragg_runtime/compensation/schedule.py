@@ -48,22 +48,25 @@ def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
     return (_stretch(c, 0, samples, c.p, root),)
 
 
-def crossed(f: Fitted, flights: Sequence[int]) -> list[tuple[Stretch, ...]]:
+def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
     """Of every observation: each block of time with the calibration on everything else.
 
-    ``flights`` says to which flight an observation belongs: of that block, none of its outputs counts.
+    Of that block none of the outputs of the observation's flight counts.
     """
     c = f.calibration
     scale = np.array([q.scale for q in c.columns])
     all_of = [base(x, f.n_base) for x in f.triangles]
     found = []
-    for k, o in enumerate(f.observations):
+    for o in f.observations:
         edges = block_edges(len(o.record.time))
         stretches = []
         for b in range(BLOCKS):
-            block = (flights[k], b)
+            block = (o.flight, b)
             others = [
-                t for x, ts in zip(flights, all_of, strict=True) for y, t in enumerate(ts) if (x, y) != block
+                t
+                for x, ts in zip(f.observations, all_of, strict=True)
+                for y, t in enumerate(ts)
+                if (x.flight, y) != block
             ]
             normal = with_sheet(join(others), f.to_nominal)
             p = c.p.copy()

@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from ragg_runtime.diagnosis.explained import Explained
 from ragg_runtime.fit.fitted import Fitted, estimated
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.evaluate import output
-from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def too_loud(f: Fitted) -> str | None:
             continue  # that is said
         members = list(x.observation.output.members)
         most = LOUDEST * float(np.linalg.norm((slope * bias)[members]))
-        density = _density(x.observation, x.noise)
+        density = _density(x)
         if density > most:
             return (
                 f"what is taken for noise, {density / k_ggi:.3g} Eo/sqrt(Hz) before demodulation, is more than"
@@ -64,11 +64,11 @@ def too_loud(f: Fitted) -> str | None:
     return None
 
 
-def _density(o: Observation, noise: Noise) -> float:
+def _density(x: PreparedFlight) -> float:
     """V/sqrt(Hz) of an output's noise at its carriers; where nothing turns, over its band."""
-    r = o.record
+    r = x.observation.record
     at = np.array([2 * abs(r.spin_frequency)]) if r.turning else np.linspace(r.rate / 32, r.rate / 2, 64)
-    return float(np.sqrt(np.mean(noise.psd(at, o.signs))))
+    return float(np.sqrt(np.mean(x.noise_psd(at))))
 
 
 def thinned(f: Fitted) -> str | None:

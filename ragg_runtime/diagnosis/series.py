@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from ragg_runtime.base import series_name
-from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.fitted import Fitted, estimated
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.signals.demodulate import CUTOFF, WIDTH, low_pass
@@ -26,7 +26,6 @@ LEAST = 8
 
 SEGMENT = 128.0
 """Length of the segments of a drawn spectrum, s: a resolution of a fraction of the spin rate."""
-
 
 BAND = CUTOFF
 """Hz up to which the demodulated channels hold the gradient."""
@@ -114,9 +113,9 @@ def noise_density(w: PreparedFlight, k_ggi: float, spin: float, f: Array) -> Arr
 
 def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
     """One-sided, V^2/Hz; where only the channels were recorded, through their low-pass about 2 spin."""
-    psd = w.noise.psd(f, w.observation.signs)
+    psd = w.noise_psd(f)
     if not w.observation.recorded.demodulated:
-        return np.asarray(psd)
+        return psd
     r = w.observation.record
     H = r.low_pass.response(np.minimum(np.abs(f - 2 * spin), r.rate / 2))
     return np.asarray(psd * np.abs(H) ** 2)
@@ -124,8 +123,7 @@ def _noise_psd(w: PreparedFlight, spin: float, f: Array) -> Array:
 
 def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
     """rms of the estimated noise of what was observed as G_out, Eo."""
-    share = w.observation.recorded.noise_share(w.observation.record)
-    return float(np.sqrt(share * w.noise.variance(w.observation.signs))) / abs(k_ggi)
+    return float(np.sqrt(estimated(w))) / abs(k_ggi)
 
 
 def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:

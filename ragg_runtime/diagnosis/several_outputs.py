@@ -131,7 +131,7 @@ def gradient_seen(f: Fitted, n: int) -> Seen:
     left = np.concatenate([_without_motion(f, o.part(s.rows)) for s in segments(len(o.record.time))])
     time, inline, cross = channels(left, o.record, k_ggi, o.record.valid)
     rate = o.record.rate
-    psd = f.prepared[n].noise.psd(np.array([2 * abs(o.record.spin_frequency)]), o.signs)
+    psd = f.prepared[n].noise_psd(np.array([2 * abs(o.record.spin_frequency)]))
     noise = float(np.sqrt(float(psd[0]) * rate * np.sum(low_pass(rate) ** 2))) / k_ggi
     return Seen(place=o.place, time=time, inline=inline, cross=cross, inline_std=2 * noise, cross_std=noise)
 

@@ -23,7 +23,7 @@ has a quarter in common with all, two have the half."""
 
 
 def doubtful(f: Fitted, effect: str) -> str | None:
-    """Why an effect is not offered on these flights, in words: the sheet would do as well if it was wrong."""
+    """Why an effect is not offered on these flights, in words: the sheet, if it was wrong, or a constant would do as well."""
     e = f.model.effect(effect)
     if e is None:
         return None

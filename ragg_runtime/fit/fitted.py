@@ -69,11 +69,6 @@ class _Counted:
     samples: Array
 
 
-def _another(before: Observation, o: Observation) -> bool:
-    """Whether an observation is of another flight than the one before it: outputs stand in their order, and may be missing."""
-    return o.place <= before.place or o.flight != before.flight
-
-
 def _left(v: Array, piece: Piece) -> Array:
     return np.asarray(piece.left(v)[0])
 
@@ -131,7 +126,9 @@ class Fitted:
     @property
     def first(self) -> list[int]:
         """Place among the observations of the first of each flight, of however many outputs."""
-        return [n for n, o in enumerate(self.observations) if not n or _another(self.observations[n - 1], o)]
+        return [
+            n for n, o in enumerate(self.observations) if not n or o.flight != self.observations[n - 1].flight
+        ]
 
     @property
     def flights(self) -> list[Observation]:

@@ -27,6 +27,7 @@ from ragg_runtime.signals.noise_level import Level
 from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, white_noise
 
 Array = NDArray[np.float64]
+
 TAPS = 24576
 """Greatest length of the whitening filter, samples: red noise needs as much memory as it has power."""
 

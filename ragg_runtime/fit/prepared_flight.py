@@ -43,6 +43,10 @@ class PreparedFlight:
         """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
         return block_edges(len(self.observation.record.time))
 
+    def noise_psd(self, f: Array) -> Array:
+        """One-sided density of the noise of the output before demodulation at frequencies f, V^2/Hz."""
+        return self.noise.psd(f, self.observation.signs)
+
     def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
         """What ``work`` makes of every segment, in order: one pass over the flight.
 

@@ -90,7 +90,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
     k = int(np.argmax(chi2[:-1]))
     if not chi2[k] > 0.0:
         return None
-    volts2 = float(x.noise.psd(near[k : k + 1], x.observation.signs)[0]) * r.rate / 2
+    volts2 = float(x.noise_psd(near[k : k + 1])[0]) * r.rate / 2
     return NearLine(
         frequency=float(near[k]),
         chi2=float(chi2[k]),

@@ -278,7 +278,7 @@ def _line(s: Scores) -> tuple[float, Found] | None:
     if line is None:
         return None
     # back from the whitened residual: the noise's own density at the line
-    volts2 = float(s.prepared.noise.psd(np.array([line.frequency]), s.prepared.observation.signs)[0])
+    volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
     mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
     chi2 = line.share * s.sums.square
     found = Found(

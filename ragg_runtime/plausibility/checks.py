@@ -141,12 +141,10 @@ def _still(values: Array, there: NDArray[np.bool_]) -> float | None:
         part = np.asarray(values[start : start + _LONGEST])[there[start : start + _LONGEST]]
         first = float(part[0]) if first is None and len(part) else first
         if np.any(part != first):
+            first = None
             break
-    else:
-        let_go(values)
-        return first
     let_go(values)
-    return None
+    return first
 
 
 def _rates(flight: Flight) -> list[str]:

@@ -102,10 +102,8 @@ def _sides(e: Array) -> tuple[Array, Array]:
     reach = SIDE // 2 + 1
     z = np.pad(np.pad(e, reach, mode="reflect"), SIDE // 2, mode="reflect")
     low, high = np.minimum(z[:-1], z[1:]), np.maximum(z[:-1], z[1:])
-    f, g = (
-        np.maximum(low[:-3], low[3:]),
-        np.minimum(high[:-3], high[3:]),
-    )  # the median is of these and the middle one
+    # the median is that of these two and the middle one
+    f, g = np.maximum(low[:-3], low[3:]), np.minimum(high[:-3], high[3:])
     median = np.maximum(np.minimum(f, g), np.minimum(z[2:-2], np.maximum(f, g)))
     return median[: len(e)], median[2 * reach :]
 

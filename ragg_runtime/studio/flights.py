@@ -35,7 +35,10 @@ def shown(s: State) -> list[Json]:
             "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
             "outputs": list(x.outputs),
             "cuts": [list(c) for c in cuts],
-            "parts": [{"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency)} for o in seen],
+            "parts": [
+                {"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency) * o.record.turning}
+                for o in seen
+            ],
             "missing": timeline.missing(seen[0].record.valid if seen else x.valid, x.rate),
         }
         for x, p, cuts, seen in zip(s.flights, s.paths, s.cuts, _observed(s), strict=True)

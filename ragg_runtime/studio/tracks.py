@@ -226,7 +226,7 @@ class Tracks:
             x = self.series(name, flight, effects)
             time = r.time
             if unit in DEMODULATED:
-                if not r.spin_frequency:
+                if not r.turning:
                     raise UserError(STANDS_STILL)
                 found = comparison.demodulated_one(f, flight, x)
                 if not len(found[0]):

@@ -30,7 +30,7 @@ def flown() -> tuple[Scenario, Flight]:
 
 
 def fitted(s: Scenario, *flights: Flight) -> fitted_.Fitted:
-    return fitted_.fit(model.packaged(), s.sheet, [observation.observe(x, s.sheet) for x in flights])
+    return fitted_.fit(model.packaged(), s.sheet, observation.observations_of(flights, s.sheet))
 
 
 def test_effects_that_act_alike_are_not_promised_apart(flown: tuple[Scenario, Flight]) -> None:
@@ -133,7 +133,7 @@ def test_the_separation_is_what_the_reference_shows_when_it_is_flown(found: Foun
         tmp_path / "motion.csv",
     )
     y = simulated(m.instrument, hidden, seed=7, motion=tmp_path / "motion.csv")
-    both = fitted_.fit(m.model, m.instrument, [observation.observe(q, m.instrument) for q in (x, y)])
+    both = fitted_.fit(m.model, m.instrument, observation.observations_of((x, y), m.instrument))
     one, field = (field_of(g, selection.testable_effects(g)) for g in (f, both))
     for p in made.separations:
         signal = next_motion.signal_of(f, one, p.effect)

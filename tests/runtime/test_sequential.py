@@ -8,7 +8,7 @@ from scipy.integrate import trapezoid
 
 from ragg_runtime.evidence.sequential import Evidence, evidence, log_e
 from ragg_runtime.fit import fitted
-from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
 
@@ -23,8 +23,8 @@ def test_an_e_value_has_mean_one_under_the_null() -> None:
 
 def followed(*hidden: dict[str, dict[str, list[float]]]) -> Evidence:
     s = scenario(3, duration=480.0)
-    flights = [observe(s.simulate(h).flight(f"leg {n}"), s.sheet) for n, h in enumerate(hidden)]
-    return evidence(fitted.fit(model.packaged(), s.sheet, flights))
+    flights = [s.simulate(h).flight(f"leg {n}") for n, h in enumerate(hidden)]
+    return evidence(fitted.fit(model.packaged(), s.sheet, observations_of(flights, s.sheet)))
 
 
 def test_a_model_that_holds_is_let_be() -> None:
