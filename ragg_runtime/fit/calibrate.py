@@ -249,11 +249,13 @@ def fit(
 
 
 def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
-    """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
+    """The fit from x, where ``noise`` is that of what nothing explains, of what leaves more than noise; the noise is estimated
+    anew at its end unless it is ``fixed``, or the end is where it began.
+    """
     for _ in range(ROUNDS):
         left = p.left(x)
         found = p.fit(x, max(_size(noise), left / LEAN))
-        if fixed:
+        if fixed or np.array_equal(found.x, x):
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
         if _size(noise) > FALLING * _size(before) and p.left(x) > FALLING * left:
