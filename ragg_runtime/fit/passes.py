@@ -74,10 +74,6 @@ class Piece:
                 left -= np.tensordot(own[few], self.columns[self.n_base + few], 1)
         return self.observed(e)
 
-    def unexplained(self) -> Array:
-        """Residual of G_out (1, N), V, at the point itself; no unknown gradient."""
-        return self.observed(self.columns[-1:])
-
     def observed(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""
         e = unknown_gradient.without(e, self.windows, self.observation.record.valid)
