@@ -241,7 +241,7 @@ def fit(
         some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
-        loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
+        loud = loud or some.left(x) ** 2 > MISFIT * loudness(noise) ** 2
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
@@ -252,16 +252,16 @@ def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Cali
     """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
         left = p.left(x)
-        found = p.fit(x, max(_size(noise), left / LEAN))
+        found = p.fit(x, max(loudness(noise), left / LEAN))
         if fixed:
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
-        if _size(noise) > FALLING * _size(before) and p.left(x) > FALLING * left:
+        if loudness(noise) > FALLING * loudness(before) and p.left(x) > FALLING * left:
             break
     return _calibration(p.task, found, noise)
 
 
-def _size(noise: Sequence[Noise]) -> float:
+def loudness(noise: Sequence[Noise]) -> float:
     """Root of the mean power of the outputs' noise over all flights, V."""
     return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
 
