@@ -30,6 +30,7 @@ from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
 from ragg_runtime.fit.off_sheet import with_room
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
@@ -288,13 +289,14 @@ def _score(
     which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, instrument = derived
-    c = calibrate.fit(model, instrument, f.observations, noise=noise)
+    observations = certain(model, instrument, f.observations)
+    c = calibrate.fit(model, instrument, observations, noise=noise)
     for _ in range(WIDENED):
         wider = with_room(model, instrument, c)
         if wider is None:
             break
         instrument = wider
-        c = calibrate.fit(model, instrument, f.observations, noise=noise, start=c.p)
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
@@ -304,7 +306,8 @@ def _score(
         given = np.linalg.solve(C[others], C.T)
         cost = float(values @ np.linalg.solve(C[others], values))
         known += float(np.sum(given * C.T)) - len(others)
-    return c.chi2 + cost + 2.0 * known
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
+    return c.chi2 + left_out + cost + 2.0 * known
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
