@@ -33,6 +33,7 @@ from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -298,16 +299,21 @@ def _score(
         instrument = wider
         c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
+    x = (c.p - vector(model, instrument))[c.index] / np.array([q.scale for q in c.columns])
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
     if others:
         # of a Gaussian: the variances once some of its variables are given
         C = c.covariance[:, others]
         given = np.linalg.solve(C[others], C.T)
-        cost = float(values @ np.linalg.solve(C[others], values))
+        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
+        x -= x[others] @ given
         known += float(np.sum(given * C.T)) - len(others)
     left_out = f.calibration.rows - c.rows  # each would have its share of the noise
-    return c.chi2 + left_out + cost + 2.0 * known
+    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
+    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
+    tails = float(np.sum(np.log1p(own**2) - own**2))
+    return c.chi2 + left_out + cost + 2.0 * known + tails
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
