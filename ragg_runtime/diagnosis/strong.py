@@ -111,7 +111,7 @@ class Taken:
     stage
         The one at which it was taken.
     open
-        A contender that an effect not yet in the model may have decided against.
+        Contenders that an effect not yet in the model may have decided against, the best of them first.
     """
 
     effect: str
@@ -121,33 +121,37 @@ class Taken:
     rivals: tuple[str, ...]
     instant: float | None
     stage: Stage
-    open: str | None = None
-
-
-def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
-    """The strong effects in the order of their strength, and the stage at which nothing strong is left."""
-    if extend is None:
-        return [], first
-    found, last = _followed(first, [], first, extend)
-    for n, t in enumerate(found):
-        if t.open is not None and len(found) + len(last.choice.chosen) > n + 1:
-            other = _followed(first, found[:n], t.stage, extend, t.open)
-            return other if _better(other, (found, last), first, extend) else (found, last)
-    return found, last
+    open: tuple[str, ...] = ()
 
 
 End = tuple[list[Taken], Stage]
 """The strong effects, and the stage at which nothing strong is left."""
 
+Block = tuple[Stage, str, tuple[int, ...]]
+"""An effect, the stage whose field has its columns, and those of them that its test needs."""
+
+
+def taken(first: Stage, extend: Extend | None) -> End:
+    """The strong effects in the order of their strength, and the stage at which nothing strong is left."""
+    if extend is None:
+        return [], first
+    end = _followed(first, [], first, extend)
+    for n, t in enumerate(end[0]):
+        if t.open and len(_blocks(end)) > n + 1:
+            other = _followed(first, end[0][:n], t.stage, extend, (*t.open, t.effect))
+            end = other if _better(other, end, first, extend) else end
+            break
+    return [_with_rivals(end, n, first, extend) for n in range(len(end[0]))], end[1]
+
 
 def _followed(
-    first: Stage, before: Sequence[Taken], stage: Stage, extend: Extend, begin: str | None = None
+    first: Stage, before: Sequence[Taken], stage: Stage, extend: Extend, begin: tuple[str, ...] = ()
 ) -> End:
-    """One strong effect after the other from a stage on, the first of them ``begin`` if one is given."""
+    """One strong effect after the other from a stage on, the first of them that of ``begin``, whose others are open."""
     found = list(before)
     while stage.strong and len(found) < selection.MOST:
-        found.append(_strongest(stage, extend) if begin is None else _in_model(stage, begin, (), extend))
-        begin = None
+        found.append(_in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend))
+        begin = ()
         found = _needed(found, first.fitted, extend)
         stage = Stage.of(found[-1].after, found)
     return found, stage
@@ -158,23 +162,42 @@ def _better(a: End, b: End, first: Stage, extend: Extend) -> bool:
 
     As little is what differs by no more than the strongest effect can be trusted to.
     """
-    sizes = [len(found) + len(last.choice.chosen) for found, last in (a, b)]
+    sizes = [len(_blocks(end)) for end in (a, b)]
     trusted = TRUNCATED**2 * max(t.test.chi2 for found, _ in (a, b) for t in found)
     noise = min((last.fitted.calibration.noise for _, last in (a, b)), key=calibrate.loudness)
-    left = [_left(end, noise, first, extend) for end in (a, b)]
+    left = [_left(end, _blocks(end), noise, first, extend) for end in (a, b)]
     room = max(trusted, INDISTINGUISHABLE) if sizes[0] < sizes[1] else -INDISTINGUISHABLE
     return left[0] < left[1] + room
 
 
-def _left(end: End, noise: Sequence[Noise], first: Stage, extend: Extend) -> float:
-    """Chi-square that is left with all effects of an end in the model, and what their coefficients are charged."""
+def _with_rivals(end: End, n: int, first: Stage, extend: Extend) -> Taken:
+    """A strong effect with those of its open contenders that do as well once all others are in the model."""
+    t, blocks, noise = end[0][n], _blocks(end), end[1].fitted.calibration.noise
+    contenders = [e for e in t.open if e not in {name for _, name, _ in blocks}]
+    if not contenders or len(blocks) < 2:
+        return t
+    most = _left(end, blocks, noise, first, extend) + INDISTINGUISHABLE
+    swapped = {
+        e: [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]] for e in contenders
+    }
+    equal = [e for e in contenders if _left(end, swapped[e], noise, first, extend) < most]
+    return replace(t, rivals=tuple(sorted({*t.rivals, *equal})))
+
+
+def _blocks(end: End) -> list[Block]:
+    """All effects of an end, the strong ones first."""
     found, last = end
+    strong = [(t.stage, t.effect, t.test.which) for t in found]
+    return [*strong, *((last, e, last.choice.blocks[e]) for e in last.choice.chosen)]
+
+
+def _left(end: End, blocks: Sequence[Block], noise: Sequence[Noise], first: Stage, extend: Extend) -> float:
+    """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
     f = first.fitted
-    blocks = [(t.stage, t.effect, t.test.which) for t in found]
-    blocks += [(last, e, last.choice.blocks[e]) for e in last.choice.chosen]
     charge = sum(_charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
     held = frozenset(label for s, e, which in blocks for label in _others(s.field, e, which))
-    instants = {t.effect: t.instant for t in found if t.instant is not None} | dict(last.instants)
+    instants = dict(first.instants) | dict(end[1].instants)
+    instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
     return _score(f, noise, held, _derived(f, [e for _, e, _ in blocks], instants, extend)) + charge
 
 
@@ -224,14 +247,15 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     # what nothing explains, and a degree of freedom for each column that could
     noise = float(stage.field.P[-1, -1] ** 2) + stage.field.P.shape[1]
     far = {e: left[e] - left[effect] for e in tried if e not in (effect, *rivals)}
-    open_ = [e for e in far if far[e] < OPEN * (left[effect] - noise)]
-    found = _in_model(stage, effect, rivals, extend)
+    undecided = [e for e in far if far[e] < OPEN * (left[effect] - noise)]
+    undecided = sorted(undecided, key=lambda e: (far[e], e))
+    found = _in_model(stage, effect, tuple(undecided), extend)
     if len(tests) > 1 and impossible(found.after, (effect,)):
         return _strongest(stage, extend, (*without, effect))
-    return replace(found, open=min(open_, key=lambda e: (far[e], e), default=None))
+    return replace(found, rivals=rivals)
 
 
-def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
+def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Extend) -> Taken:
     """An effect of a stage derived into the model, and everything fitted anew."""
     f = stage.fitted
     model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
@@ -240,9 +264,10 @@ def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend
         test=stage.choice.tests[effect],
         before=f,
         after=fit(model, instrument, f.observations),
-        rivals=rivals,
+        rivals=(),
         instant=stage.instants.get(effect),
         stage=stage,
+        open=undecided,
     )
 
 
