@@ -21,6 +21,7 @@ from ragg_runtime.fit import calibrate, observation
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.significance import log_sf
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
 
@@ -51,7 +52,7 @@ def gain(
     def fitted(ids: Sequence[str]) -> Calibration:
         sheet = fly._with_instants(f.instrument, {e: t for e, t in instants.items() if e in ids})
         model = derive.with_effects(sheet, f.model, ids) if ids else replace(f.model, candidates=())
-        return calibrate.fit(model, sheet, f.observations, noise=f.calibration.noise)
+        return calibrate.fit(model, sheet, certain(model, sheet, f.observations), noise=f.calibration.noise)
 
     return _gain(fitted(hidden), fitted([e for e in hidden if e != effect]), effect)
 
@@ -61,7 +62,8 @@ def _fitted(p: fly.Prepared, hidden: Sequence[Hidden]) -> Calibration:
     ids = [h.effect for h in hidden]
     sheet = fly._with_instants(sheet, {h.effect: h.instant for h in hidden if h.instant is not None})
     model = derive.with_effects(sheet, model, ids) if ids else replace(model, candidates=())
-    return calibrate.fit(model, sheet, [observation.observe(p.flight, sheet)], noise=[p.bench.noise])
+    observations = certain(model, sheet, [observation.observe(p.flight, sheet)])
+    return calibrate.fit(model, sheet, observations, noise=[p.bench.noise])
 
 
 def _gain(with_it: Calibration, without: Calibration, effect: str) -> dict[str, float]:

@@ -293,16 +293,10 @@ SIMPLER_THAN_ONE = 16.0
 are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
 
 
-TRUNCATED = 2e-3
-"""Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
-theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
-of a further one."""
-
-
 def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:
     """Whether all that remains is small beside the strong effects that are in the model."""
     strongest = max((abs(t.z) for s in rem.searches for t in s.terms), default=np.inf)
-    return bool(strongest**2 < TRUNCATED**2 * sum(t.test.chi2 for t in steps))
+    return bool(strongest**2 < strong.TRUNCATED**2 * sum(t.test.chi2 for t in steps))
 
 
 def _without_terms(rem: Remainder) -> Remainder:

@@ -5,6 +5,9 @@ strong: enough to prefer a wrong effect, to name another one beside the right, a
 So the strongest effect is chosen among those that come near it with each of them derived into the model and fitted
 nonlinearly; with the best in the model everything is done anew: calibration, noise, tests of the rest. These fits begin at
 the sheet: parameters that had to absorb what was missing may be far from it, in a valley that is long and curved.
+
+Where the one that came next explains less by no more than what the chosen one leaves, an effect that is not in the model yet may
+have decided between them: then the other one is followed to its end, too, and the ends are compared.
 """
 
 from __future__ import annotations
@@ -27,9 +30,12 @@ from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
 from ragg_runtime.fit.off_sheet import with_room
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
+from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -43,6 +49,18 @@ the order of two."""
 
 CONTENDERS = 3
 """Most effects that are tried in the model at each stage."""
+
+OPEN = 4.0
+"""What a contender leaves more than the chosen effect does, over what that leaves beside noise, up to which an effect that is not
+in the model yet may have decided: of such an effect a twin may take four fifths."""
+
+TRUNCATED = 2e-3
+"""Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
+theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
+of a further one that is like it."""
+
+LIKE = 0.1
+"""Share of what a strong effect explains that another one explains alone, from which what is left of the first looks like it."""
 
 
 class Extend(Protocol):
@@ -64,10 +82,11 @@ class Stage:
     choice: Choice
 
     @staticmethod
-    def of(f: Fitted, *, beside: bool = False) -> Stage:
-        """``beside``: effects were taken into the model before."""
+    def of(f: Fitted, beside: Sequence[Taken] = ()) -> Stage:
+        """``beside``: effects that were taken into the model before."""
         field, fitted, instants = with_steps(f)
-        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
+        choice = selection.choose(field, beside=bool(beside), least=_may_be_left(beside))
+        return Stage(field, fitted, instants, choice)
 
     @property
     def strong(self) -> bool:
@@ -89,6 +108,10 @@ class Taken:
         Effects that would have done as well, derived in its place.
     instant
         Of a step, s.
+    stage
+        The one at which it was taken.
+    open
+        Contenders that an effect not yet in the model may have decided against, the best of them first.
     """
 
     effect: str
@@ -97,18 +120,100 @@ class Taken:
     after: Fitted
     rivals: tuple[str, ...]
     instant: float | None
+    stage: Stage
+    open: tuple[str, ...] = ()
 
 
-def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
+End = tuple[list[Taken], Stage]
+"""The strong effects, and the stage at which nothing strong is left."""
+
+Block = tuple[Stage, str, tuple[int, ...]]
+"""An effect, the stage whose field has its columns, and those of them that its test needs."""
+
+
+def taken(first: Stage, extend: Extend | None) -> End:
     """The strong effects in the order of their strength, and the stage at which nothing strong is left."""
-    found: list[Taken] = []
-    stage = first
-    while extend is not None and stage.strong and len(found) < selection.MOST:
-        best = _strongest(stage, extend)
-        found.append(best)
+    if extend is None:
+        return [], first
+    end = _followed(first, [], first, extend)
+    for n, t in enumerate(end[0]):
+        if t.open and len(_blocks(end)) > n + 1:
+            other = _followed(first, end[0][:n], t.stage, extend, (*t.open, t.effect))
+            end = other if _better(other, end, first, extend) else end
+            break
+    return [_with_rivals(end, n, first, extend) for n in range(len(end[0]))], end[1]
+
+
+def _followed(
+    first: Stage, before: Sequence[Taken], stage: Stage, extend: Extend, begin: tuple[str, ...] = ()
+) -> End:
+    """One strong effect after the other from a stage on, the first of them that of ``begin``, whose others are open."""
+    found = list(before)
+    while stage.strong and len(found) < selection.MOST:
+        found.append(_in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend))
+        begin = ()
         found = _needed(found, first.fitted, extend)
-        stage = Stage.of(found[-1].after, beside=True)
+        stage = Stage.of(found[-1].after, found)
     return found, stage
+
+
+def _better(a: End, b: End, first: Stage, extend: Extend) -> bool:
+    """Whether one end is better than another: less is left, as BIC counts it; or as little, by fewer effects.
+
+    As little is what differs by no more than the strongest effect can be trusted to.
+    """
+    sizes = [len(_blocks(end)) for end in (a, b)]
+    trusted = TRUNCATED**2 * max(t.test.chi2 for found, _ in (a, b) for t in found)
+    noise = min((last.fitted.calibration.noise for _, last in (a, b)), key=calibrate.loudness)
+    left = [_left(end, _blocks(end), noise, first, extend) for end in (a, b)]
+    room = max(trusted, INDISTINGUISHABLE) if sizes[0] < sizes[1] else -INDISTINGUISHABLE
+    return left[0] < left[1] + room
+
+
+def _with_rivals(end: End, n: int, first: Stage, extend: Extend) -> Taken:
+    """A strong effect with those of its open contenders that do as well once all others are in the model."""
+    t, blocks, noise = end[0][n], _blocks(end), end[1].fitted.calibration.noise
+    contenders = [e for e in t.open if e not in {name for _, name, _ in blocks}]
+    if not contenders or len(blocks) < 2:
+        return t
+    most = _left(end, blocks, noise, first, extend) + INDISTINGUISHABLE
+    swapped = {
+        e: [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]] for e in contenders
+    }
+    equal = [e for e in contenders if _left(end, swapped[e], noise, first, extend) < most]
+    return replace(t, rivals=tuple(sorted({*t.rivals, *equal})))
+
+
+def _blocks(end: End) -> list[Block]:
+    """All effects of an end, the strong ones first."""
+    found, last = end
+    strong = [(t.stage, t.effect, t.test.which) for t in found]
+    return [*strong, *((last, e, last.choice.blocks[e]) for e in last.choice.chosen)]
+
+
+def _left(end: End, blocks: Sequence[Block], noise: Sequence[Noise], first: Stage, extend: Extend) -> float:
+    """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
+    f = first.fitted
+    charge = sum(_charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
+    held = frozenset(label for s, e, which in blocks for label in _others(s.field, e, which))
+    instants = dict(first.instants) | dict(end[1].instants)
+    instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
+    return _score(f, noise, held, _derived(f, [e for _, e, _ in blocks], instants, extend)) + charge
+
+
+def _others(field: Field, effect: str, which: Sequence[int]) -> list[str]:
+    """Labels of an effect's columns that its test does not need."""
+    return [c.label for n, c in field.candidates[effect] if n not in which]
+
+
+def _may_be_left(strong: Sequence[Taken]) -> dict[str, float]:
+    """Chi-square of effects that are like strong ones that may be what is left of these."""
+    least: dict[str, float] = {}
+    for t in strong:
+        for e, own in t.stage.choice.tests.items():
+            if own.chi2 > LIKE * t.test.chi2:
+                least[e] = max(least.get(e, 0.0), TRUNCATED**2 * t.test.chi2)
+    return least
 
 
 def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> Taken:
@@ -124,28 +229,56 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     near = sorted(near, key=lambda e: (tests[e].log_p, e))
 
     def score(e: str) -> float:
-        held = frozenset(c.label for n, c in stage.field.candidates[e] if n not in tests[e].which)
-        charge = _charge(stage.field.P[:, list(tests[e].which)], f.calibration.rows)
-        return _score(f, charge, held, _derived(f, [e], stage.instants, extend))
+        held = frozenset(_others(stage.field, e, tests[e].which))
+        return _score(f, f.calibration.noise, held, _derived(f, [e], stage.instants, extend))
 
+    charge = {e: _charge(stage.field.P[:, list(tests[e].which)], f.calibration.rows) for e in near}
     tried = near[:CONTENDERS]
-    scores = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
-    best = min(tried, key=lambda e: (scores[e], e))
+    left = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    best = min(tried, key=lambda e: (left[e] + charge[e], e))
     # effects with the same signature are all of its group, however many they are
-    scores |= {e: score(e) for e in near[CONTENDERS:] if _alike(tests[e], tests[best])}
-    equal = [e for e in near if scores.get(e, np.inf) < scores[best] + INDISTINGUISHABLE]
-    effect = equal[0]
-    model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
-    after = fit(model, instrument, f.observations)
-    if len(tests) > 1 and impossible(after, (effect,)):
+    left |= {e: score(e) for e in near[CONTENDERS:] if _alike(tests[e], tests[best])}
+    equal = [e for e in left if left[e] + charge[e] < left[best] + charge[best] + INDISTINGUISHABLE]
+    effect = min(equal, key=near.index)
+    as_near = [
+        e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
+    ]
+    rivals = tuple(sorted({*equal, *as_near} - {effect}))
+    # what nothing explains, and a degree of freedom for each column that could
+    noise = float(stage.field.P[-1, -1] ** 2) + stage.field.P.shape[1]
+    far = {e: left[e] - left[effect] for e in tried if e not in (effect, *rivals)}
+    undecided = [e for e in far if far[e] < OPEN * (left[effect] - noise)]
+    undecided = sorted(undecided, key=lambda e: (far[e], e))
+    found = _in_model(stage, effect, tuple(undecided), extend)
+    if len(tests) > 1 and impossible(found.after, (effect,)):
         return _strongest(stage, extend, (*without, effect))
-    instant = stage.instants.get(effect)
-    return Taken(effect, tests[effect], f, after, tuple(sorted(equal[1:])), instant)
+    return replace(found, rivals=rivals)
+
+
+def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Extend) -> Taken:
+    """An effect of a stage derived into the model, and everything fitted anew."""
+    f = stage.fitted
+    model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
+    return Taken(
+        effect=effect,
+        test=stage.choice.tests[effect],
+        before=f,
+        after=fit(model, instrument, f.observations),
+        rivals=(),
+        instant=stage.instants.get(effect),
+        stage=stage,
+        open=undecided,
+    )
 
 
 def _alike(a: Test, b: Test) -> bool:
     """Whether two effects explain the same, as surely, as far as a linear test tells."""
-    return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and a.log_p < b.log_p + selection.AS_SURE
+    return abs(a.chi2 - b.chi2) < INDISTINGUISHABLE and _as_sure(a, b)
+
+
+def _as_sure(a: Test, b: Test) -> bool:
+    """Whether the first is no less sure for its many coefficients."""
+    return a.log_p < b.log_p + selection.AS_SURE
 
 
 def _charge(columns: Array, rows: int) -> float:
@@ -172,32 +305,40 @@ def _derived(
     return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
 
 
-def _score(f: Fitted, charge: float, held: frozenset[str], derived: tuple[Model, Instrument]) -> float:
-    """Chi-square that a nonlinear fit leaves with an effect in the model, and what its coefficients are charged.
+def _score(
+    f: Fitted, noise: Sequence[Noise], held: frozenset[str], derived: tuple[Model, Instrument]
+) -> float:
+    """Chi-square that a nonlinear fit leaves with effects in the model, without what their coefficients are charged.
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
     the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
     which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, instrument = derived
-    noise = f.calibration.noise
-    c = calibrate.fit(model, instrument, f.observations, noise=noise)
+    observations = certain(model, instrument, f.observations)
+    c = calibrate.fit(model, instrument, observations, noise=noise)
     for _ in range(WIDENED):
         wider = with_room(model, instrument, c)
         if wider is None:
             break
         instrument = wider
-        c = calibrate.fit(model, instrument, f.observations, noise=noise, start=c.p)
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in others])
+    x = (c.p - vector(model, instrument))[c.index] / np.array([q.scale for q in c.columns])
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
     if others:
         # of a Gaussian: the variances once some of its variables are given
         C = c.covariance[:, others]
         given = np.linalg.solve(C[others], C.T)
-        cost = float(values @ np.linalg.solve(C[others], values))
+        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
+        x -= x[others] @ given
         known += float(np.sum(given * C.T)) - len(others)
-    return c.chi2 + cost + charge + 2.0 * known
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
+    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
+    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
+    tails = float(np.sum(np.log1p(own**2) - own**2))
+    return c.chi2 + left_out + cost + 2.0 * known + tails
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

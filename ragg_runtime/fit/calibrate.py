@@ -237,7 +237,7 @@ def fit(
         some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
-        loud = loud or some.left(x) ** 2 > MISFIT * _size(noise) ** 2
+        loud = loud or some.left(x) ** 2 > MISFIT * loudness(noise) ** 2
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
@@ -250,16 +250,16 @@ def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Cali
     """
     for _ in range(ROUNDS):
         left = p.left(x)
-        found = p.fit(x, max(_size(noise), left / LEAN))
+        found = p.fit(x, max(loudness(noise), left / LEAN))
         if fixed or np.array_equal(found.x, x):
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
-        if _size(noise) > FALLING * _size(before) and p.left(x) > FALLING * left:
+        if loudness(noise) > FALLING * loudness(before) and p.left(x) > FALLING * left:
             break
     return _calibration(p.task, found, noise)
 
 
-def _size(noise: Sequence[Noise]) -> float:
+def loudness(noise: Sequence[Noise]) -> float:
     """Root of the mean power of the outputs' noise over all flights, V."""
     return float(np.sqrt(np.mean([m.rms**2 for n in noise for m in n.models])))
 

@@ -69,6 +69,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
     digits = digits_of(flight, instrument.units)
+    slopes = (a["k_VI"] * a["K1"])[list(o.members)]
     weights = (k_ggi**2 / 8, k_ggi**2 / 2) if form.demodulated else (1.0,) * len(columns)
     return Observation(
         recorded=form,
@@ -77,6 +78,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         name=name,
         output=o,
         place=place,
+        gains=slopes / np.mean(slopes) if form.separate else np.ones(len(series)),
         digits=digits,
         rounded={
             n: w * digits.columns[n].mean_square(flight.outputs[n][valid])
@@ -93,7 +95,8 @@ class Observation:
     ``recorded`` says which form of the output they are; all are in V.
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them; ``flight`` counts the flights that are looked at together. ``digits`` says how the columns were
+    ``place`` counts them; ``flight`` counts the flights that are looked at together. ``gains`` (m,) says how large the sheet's
+    scale factor of each series is over their mean. ``digits`` says how the columns were
     written, ``rounded`` what those of the output make in G_out, V^2.
     """
 
@@ -104,6 +107,7 @@ class Observation:
     output: Output = PAPER.outputs[0]
     place: int = 0
     flight: int = 0
+    gains: Array = field(default_factory=lambda: np.ones(1))
     digits: Digits = field(default_factory=Digits)
     rounded: Mapping[str, float] = field(default_factory=dict)
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
@@ -136,7 +140,16 @@ class Observation:
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
         record = self.record.part(rows)
-        return Observation(self.recorded, record, series, self.name, self.output, self.place, self.flight)
+        return Observation(
+            recorded=self.recorded,
+            record=record,
+            series=series,
+            name=self.name,
+            output=self.output,
+            place=self.place,
+            flight=self.flight,
+            gains=self.gains,
+        )
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:

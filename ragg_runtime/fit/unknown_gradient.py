@@ -153,15 +153,17 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
 
 
 def _shares(o: Observation, X: Array) -> list[Array]:
-    """What each output of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each."""
+    """What each series of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each: a voltage as much as its
+    scale factor is large (by the sheet).
+    """
     alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
     if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
-        return [w * X for w in o.weights]
+        return [w * X for w in o.weights * o.gains]
     sine, cosine = X[0::2], X[1::2]
     found = []
     largest = max(o.output.radii) or 1.0
-    for c, radius in zip(o.output.carriers, o.output.radii, strict=True):
-        g = c * radius / largest
+    for c, radius, gain in zip(o.output.carriers, o.output.radii, o.gains, strict=True):
+        g = gain * c * radius / largest
         x = np.empty_like(X)
         x[0::2], x[1::2] = g.real * sine + g.imag * cosine, g.real * cosine - g.imag * sine
         found.append(x)

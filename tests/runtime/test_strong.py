@@ -47,6 +47,10 @@ STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
     "time-offset": ({"time-offset": {"delta_t": 8e-4}}, {"time-offset"}),
     "gain-drift": ({"gain-drift": {"dK1_dt": [1e-9, -1e-9, 5e-10, 0]}}, {"gain-drift"}),
     "gain-step": ({"gain-step": {"dK1": [0, 1e-5, 0, 0], "t_step": 240.0}}, {"gain-step"}),
+    "a converter's step": (
+        {"adc-nonlinearity": {"h": [-6.6e-8, -1.3e-7, -3.3e-8, 1.2e-7]}},
+        {"adc-nonlinearity"},
+    ),
     "unequal pair": (
         {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}, "cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}},
         {"thermal-scale", "cubic-input"},

@@ -1,0 +1,26 @@
+"""A gradient that was not recorded, in voltages of accelerometers whose scale factors differ."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.unknown_gradient import windows, without
+from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.reference.scenario import scenario
+from ragg_runtime.signals.noise_spectrum import white_noise
+
+
+def test_an_unknown_gradient_is_taken_out_of_each_voltage_by_its_scale_factor() -> None:
+    s = scenario(62, trim="table-v", duration=200.0, noise_density=0.0)  # 10 to 12 mA/g
+    flight = s.simulate(record_gradient=False).flight(voltages=True)
+    o = observe(flight, s.sheet)
+    model = load.packaged()
+    true = s.sheet.replace(**s.instrument.accelerometers)
+    e = linearised(Point(model, s.sheet, vector(model, true), with_candidates=False), o)[-1:]
+    n = len(o.record.time)
+    left = without(e, windows(o, slice(0, n), white_noise(o.record.rate, 4)), o.record.valid)
+    assert np.std(e) > 1e-3
+    assert np.std(left) < 0.01 * np.std(e)
