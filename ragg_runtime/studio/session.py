@@ -347,7 +347,7 @@ class Session:
 
         def work(part: Part) -> None:
             part("starting the survey", 1.0)
-            self._put(survey=surveyed(m, folder, files, self.workers, part))
+            self._put(survey=surveyed(m, folder, files, self.workers, part, self.jobs.note))
 
         self.jobs.start("surveying", work)
 
