@@ -28,6 +28,7 @@ from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.run import ordered
 from ragg_runtime.survey.table import check_place, parquet
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
@@ -387,6 +388,13 @@ def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey)
         assert row["found"] == r["found"]
         assert row["parameters"] == [{k: p[k] for k in row["parameters"][0]} for p in r["parameters"]]
         assert row["ranking"] == r["ranking"]
+
+
+def test_flights_come_in_the_order_of_the_names_that_they_are_given() -> None:
+    """Days in folders, each with the same lines: the days follow one another, and so does what drifts."""
+    days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
+    assert ordered([*days, days[0]]) == sorted(days)
+    assert ordered(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
 
 
 def test_few_flights_are_chance_many_are_not() -> None:
