@@ -299,7 +299,9 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     flights: Flights, tmp_path: Path
 ) -> None:
     m = loop.load(flights[0])
-    kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a.parquet", "b.parquet"))
+    kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a/line.parquet", "b/line.parquet"))
+    one.parent.mkdir()
+    two.parent.mkdir()
     one.write_bytes(flights[1][1].read_bytes())
     two.write_bytes(flights[1][2].read_bytes())
     first = loop.survey(m, [one, two], jobs=1, resume=kept)
@@ -310,7 +312,7 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
         seen.append(f"{done}/{total}" if record is None else record["flight"])
 
     second = loop.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
-    assert seen == ["1/2", "b.parquet"]
+    assert seen == ["1/2", "b/line.parquet"]
     assert second.records[0] == first.records[0]
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
