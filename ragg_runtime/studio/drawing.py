@@ -98,7 +98,7 @@ def _unexamined(s: State, flight: int, unit: str) -> Pyramid | None:
 
 def _place(s: State, a: Asked) -> tuple[int, Record, float]:
     """The observation that is asked for, its record, and k_ggi of its output (V/Eo)."""
-    f, n = s.tracks.fitted, s.tracks.place(a.flight, a.output)
+    f, n = s.tracks.compared.fitted, s.tracks.place(a.flight, a.output)
     return n, f.prepared[n].observation.record, f.scales[n]
 
 
@@ -106,7 +106,7 @@ def spectra(s: State, a: Asked) -> dict[str, Any]:
     """Amplitude densities, Eo/sqrt(Hz), of the residual now, before the last step, and with effects; and the noise."""
     n, r, k_ggi = _place(s, a)
     rows = _rows(r, a)
-    f = s.tracks.fitted
+    f = s.tracks.compared.fitted
     valid = r.valid[rows]
     lines = {}
     for name in _lines(s, a):

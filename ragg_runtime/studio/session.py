@@ -12,11 +12,10 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import PASSES
+from ragg_runtime.diagnosis import foresee
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.foresee import Unwhitened
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import foresee
-from ragg_runtime.evidence.foresee import Unwhitened
-from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.instrument.edit_toml import set_parameters
@@ -89,12 +88,6 @@ class State:
     compensated: Compensation | None = None
     quality: Quality | None = None
     tracks: Tracks = field(default_factory=Tracks)
-
-    @property
-    def field(self) -> Field | None:
-        """The testable effects, steps included, on the triangles of everything."""
-        d = self.diagnosed
-        return None if d is None else field_of(d.fitted, [r.effect for r in d.ranking])
 
     @property
     def model(self) -> Loaded:

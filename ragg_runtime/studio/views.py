@@ -9,7 +9,6 @@ from typing import Any
 
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.record import left_out
 from ragg_runtime.model.model import Effect
 from ragg_runtime.model_dir.history import Step
@@ -82,9 +81,9 @@ def _about(e: Effect) -> Json:
     }
 
 
-def error(e: Error) -> Json:
+def error(rms: float, told: Mapping[str, object]) -> Json:
     """The error object, as numbers and as text."""
-    return {"json": e.as_json(), "rms_Eo": finite(e.rms_Eo), "text": numbers.number(e.rms_Eo)}
+    return {"json": told, "rms_Eo": rms, "text": numbers.number(rms)}
 
 
 def _banner(s: State) -> Json | None:
@@ -99,11 +98,19 @@ def _banner(s: State) -> Json | None:
         "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
         "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
         "errors": [
-            {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
-            {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},
+            {
+                "label": "nominal",
+                **error(c.nominal.rms_Eo, c.nominal.as_json()),
+                "about": "with the values of the test sheet",
+            },
+            {
+                "label": "calibrated",
+                **error(c.calibrated.rms_Eo, c.calibrated.as_json()),
+                "about": "parameters fitted to these flights",
+            },
             {
                 "label": "held out",
-                **error(c.holdout),
+                **error(c.holdout.rms_Eo, c.holdout.as_json()),
                 "about": "fitted on half of the blocks of time, scored on the rest",
             },
         ],
@@ -136,11 +143,11 @@ def effects(d: Diagnosis) -> list[Json]:
                 "found": row["found"],
                 "significant": row["significant"],
                 "p": row["p"],
-                "evidence": finite(-r.log_p / math.log(10.0)),
+                "evidence": -r.log_p / math.log(10.0),
                 "probability": probability if isinstance(probability, float) else None,
                 "delta_bic": row["delta_bic"],
-                "after_Eo": finite(r.after.rms_Eo),
-                "holdout_Eo": finite(r.after_holdout.rms_Eo),
+                "after_Eo": r.after.rms_Eo,
+                "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.rank > 0 and r.effect in _linear(d),
                 "seen_from": sizes.get(r.effect, []),
                 "values": []

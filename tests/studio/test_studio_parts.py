@@ -18,13 +18,12 @@ import pytest
 from serving import brief, foreign, new
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import foresee, heat
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import write_flight
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import drawing, mapping, session, views
 from ragg_runtime.studio.branches import branches, tree
