@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ragg_runtime.flight import timeline
 from ragg_runtime.flight.glance import Glance
-from ragg_runtime.studio import timeline
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.survey.quality.lines import SurveyLine

@@ -21,12 +21,13 @@ from starlette.staticfiles import StaticFiles
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import foresee
-from ragg_runtime.studio import drawing, mapping, sheet, views
+from ragg_runtime.studio import drawing, mapping, views
 from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.jobs import Busy
 from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.take_away import take_away
 from ragg_runtime.studio.uploads import receive
+from ragg_runtime.workflow import sheet
 
 BEAT = 0.15
 """How often a page is told of changes, s."""
