@@ -19,6 +19,7 @@ from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
 from ragg_runtime.compensation.compensate import (
+    KINDS,
     Compensated,
     Kind,
     meaning,
@@ -32,6 +33,7 @@ from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import format_for, writing
 from ragg_runtime.compensation.saved import Saved, with_another
+from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
@@ -134,6 +136,16 @@ class Compensation:
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)
 
+    def write(self, path: Path) -> None:
+        """The series of all flights, one after the other, into a file of the format that its ending names."""
+        with writing(path, sum(len(x["time"]) for x in self.series), self.units) as write:
+            for rows in self.series:
+                write(rows)
+
+
+QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
+"""What the marks of samples mean, by the name under which a compensation counts them."""
+
 
 def compensate(
     m: Loaded,
@@ -154,6 +166,8 @@ def compensate(
     output
         A file for the series; without one they are in the result.
     """
+    if calibration not in KINDS:
+        raise UserError("there is no such calibration", found=repr(calibration), expected=", ".join(KINDS))
     saved = saved_calibration(m) if calibration == "frozen" else None
     if saved is None:
         distinct(flights)
