@@ -38,7 +38,7 @@ export function sheetView(main) {
           h("tbody", {}, rows.map((row) => h("tr", {},
             h("th", { scope: "row" }, symbol(row.symbol), h("small", {}, ` ${row.meaning}`)), h("td", {}, row.unit_shown),
             row.values.map((v, k) => h("td.n", {}, h("input", { type: "text", inputmode: "decimal", value: plain(v), "aria-label": `${row.name} of ${names[k]}, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.value[k] = parsed(e.target.value))) }))),
-            h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: number(row.plausible[0]), "aria-label": `${row.name}: how sure the sheet is, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
+            h("td.n", {}, h("input", { type: "text", value: sure(row), placeholder: plain(row.plausible[0]), "aria-label": `${row.name}: how sure the sheet is, ${row.unit}`, autocomplete: "off", oninput: (e) => edit(row, e.target, (now) => (now.sigma = sigmas(e.target.value, names.length))) })),
             h("td.n.quiet", {}, number(row.plausible[0], 3))))))),
         h("div.row", {}, save, revert)),
     );
