@@ -15,17 +15,20 @@ from derive.simplify.page import page as simplified_page
 GENERATED, MANIFEST = "generated", "manifest.json"
 
 
-def folders() -> Mapping[str, Mapping[str, str]]:
-    """Folder of the project -> path in it -> text."""
-    return {
-        GENERATED: derive_base(),
-        "docs": {"errata.md": audit.page(), "simplified.md": simplified_page(), **pages.effects()},
-    }
+DOCS = "docs"
+
+
+def folders(*, docs: bool = True) -> Mapping[str, Mapping[str, str]]:
+    """Folder of the project -> path in it -> text; the pages, half of the work, if ``docs`` are wanted."""
+    found: dict[str, Mapping[str, str]] = {GENERATED: derive_base()}
+    if docs:
+        found[DOCS] = {"errata.md": audit.page(), "simplified.md": simplified_page(), **pages.effects()}
+    return found
 
 
 def below(root: Path) -> Mapping[str, Mapping[str, str]]:
-    """As :func:`folders`, but only what concerns this root: pages, if it has a docs folder."""
-    return {folder: files for folder, files in folders().items() if _concerns(root, folder)}
+    """As :func:`folders`, but only what concerns this root: an installed package carries no docs."""
+    return folders(docs=(root / DOCS).is_dir())
 
 
 def difference(root: Path) -> str:
@@ -69,8 +72,3 @@ def about_versions(root: Path) -> str | None:
 
 def _with_version(manifest: str, version: str) -> str:
     return pipeline.manifest_text(json.loads(manifest) | {"sympy": version})
-
-
-def _concerns(root: Path, folder: str) -> bool:
-    """An installed package carries no docs."""
-    return folder == GENERATED or (root / folder).is_dir()

@@ -137,7 +137,8 @@ def layout_harmonics(title: str, order: Order, kinematics: Kinematics, layout: L
     )
 
 
-def numbers_of_place(order: Order, layout: Layout) -> dict[str, sp.Expr]:
+@cache
+def numbers_of_place(order: Order, layout: Layout) -> Mapping[str, sp.Expr]:
     """The numbers of an accelerometer at its place: k1, K0, its input axis i, its place r, and Q of second-order terms.
 
     Where these terms do not see the angles, their place is another one: q.

@@ -37,13 +37,12 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import model as load
 from ragg_runtime.model_dir import derive
-from ragg_runtime.plausibility.examine import examined
 from ragg_runtime.reference.motion import recorded_motion
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.workflow.loaded import as_read
 
 Array = NDArray[np.float64]
 
@@ -175,7 +174,7 @@ def flown(kind: str, index: int, sample: int) -> dict[str, object]:
 
 def _flown(s: Scenario, flight: Flight) -> dict[str, object]:
     model = load.packaged()
-    x = settled(examined(model, s.sheet, flight))
+    x = as_read(model, s.sheet, flight)
     d: Diagnosis = diagnose.diagnose(
         model, s.sheet, [x], lambda m, ids, **k: derive.with_effects(s.sheet, m, ids, **k)
     )

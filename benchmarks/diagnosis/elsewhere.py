@@ -31,7 +31,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import ragg
 from benchmarks.diagnosis import effect_free, oracle, score
 from benchmarks.diagnosis.kept import Kept
 from ragg_runtime.base.errors import UserError
@@ -48,6 +47,7 @@ from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion
 from ragg_runtime.reference.turbulence import SHAPES
 from ragg_runtime.signals.demodulate import low_pass
 from ragg_runtime.signals.fir import convolved
+from ragg_runtime.workflow import loop
 
 Array = NDArray[np.float64]
 
@@ -243,14 +243,14 @@ def _flown(w: World) -> dict[str, object]:
         place = Path(folder)
         (place / "sheet.toml").write_text(model_text(w.scenario.sheet), "utf-8")
         write_flight(x, place / "flight.parquet")
-        m = ragg.new(place / "model", place / "sheet.toml")
-        flights = ragg.read_flights(m, [place / "flight.parquet"])
+        m = loop.new(place / "model", place / "sheet.toml")
+        flights = loop.read_flights(m, [place / "flight.parquet"])
         begin = time.perf_counter()
-        d = ragg.diagnose(m, flights)
+        d = loop.diagnose(m, flights)
         seconds = time.perf_counter() - begin
         after = d.before.rms_Eo
         for e in d.found:
-            step = ragg.add(m, e, flights)
+            step = loop.add(m, e, flights)
             m = step.loaded or m
             if step.after is not None:
                 after = step.after.calibrated.rms_Eo

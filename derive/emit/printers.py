@@ -135,22 +135,27 @@ _SYMBOLS |= {SPIN_RATE.name: r"{\dot\phi}", SPIN_ACCELERATION.name: r"\ddot\phi"
 _SYMBOLS |= {TURN[i, k].name: f"u_{{{'rtz'[i]}{'rtz'[k]}}}" for i in range(3) for k in range(3)}
 
 
+_IN_NUMPY = _NumPy()
+_IN_C, _IN_FUSED_C, _IN_WIDE_C = (kind({"contract": False}) for kind in (_C, _Fused, _Wide))
+"""One printer each: to make one takes as long as to print an expression."""
+
+
 @cache  # models that are derived one after the other share most of their expressions
 def to_numpy(e: sp.Expr) -> str:
-    return str(_NumPy().doprint(e))
+    return str(_IN_NUMPY.doprint(e))
 
 
 def to_c(e: sp.Expr) -> str:
-    return str(_C({"contract": False}).doprint(e))
+    return str(_IN_C.doprint(e))
 
 
 @cache
 def to_fused_c(e: sp.Expr) -> str:
-    return str(_Fused({"contract": False}).doprint(e))
+    return str(_IN_FUSED_C.doprint(e))
 
 
 def to_wide_c(e: sp.Expr) -> str:
-    return str(_Wide({"contract": False}).doprint(e))
+    return str(_IN_WIDE_C.doprint(e))
 
 
 def to_latex(e: sp.Expr, **settings: Any) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 
 from sympy.polys.rings import PolyElement
 
@@ -66,11 +67,14 @@ def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]
                 key = (n, motion, parameters)
                 value = abs(Fraction(int(c.numerator), int(c.denominator)))
                 coefficients[key] = max(value, coefficients.get(key, value))
+    of_motion = cache(lambda powers: product(motions, powers))  # many terms share either
+    of_parameters = cache(lambda powers: product(nominal, powers) * scale)
+    departure = cache(envelope.departure)
     result = []
     for (n, motion, parameters), c in coefficients.items():
-        size = c * product(motions, motion) * product(nominal, parameters) * scale
+        size = c * of_motion(motion) * of_parameters(parameters)
         if balanced(n, parameters):
-            size *= envelope.departure(parameters)
+            size *= departure(parameters)
         result.append(Size(n, motion, parameters, size))
     return tuple(result)
 

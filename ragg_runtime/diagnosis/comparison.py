@@ -41,15 +41,18 @@ LOUD = 1.15
 
 @dataclass(frozen=True, repr=False)
 class Comparison:
-    """The result of ``compare``: the interface's JSON, and what the report draws."""
+    """The result of ``compare``: the interface's JSON, and what the report draws.
+
+    ``adequate`` and ``remainder`` are ``None`` where the errors alone were asked for.
+    """
 
     fitted: Fitted
     nominal: Error
     scored: Scored
     holdout: Error
     noise_floor: float
-    adequate: bool
-    remainder: Remainder
+    adequate: bool | None
+    remainder: Remainder | None
     nominal_values: Array
     ladder: tuple[Rung, ...] = ()
     complaint: str | None = None
@@ -133,7 +136,7 @@ class Comparison:
 
     def terms(self) -> list[dict[str, object]]:
         """Generic terms in the calibrated residual (see :func:`terms_json`)."""
-        return terms_json(self.remainder, self.scored.mean_square)
+        return [] if self.remainder is None else terms_json(self.remainder, self.scored.mean_square)
 
     def by_time(self) -> list[dict[str, object]]:
         """Error in every block of time, Eo, largest first."""
@@ -200,16 +203,22 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
 
 
 @one_thread
-def compare(model: Model, instrument: Instrument, flights: Sequence[Flight]) -> Comparison:
-    """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails."""
+def compare(
+    model: Model, instrument: Instrument, flights: Sequence[Flight], *, judged: bool = True
+) -> Comparison:
+    """Nominal, calibrated and held-out errors of a model on flights, the noise, and where it fails.
+
+    Without ``judged`` neither the candidates are tested nor what is left is searched.
+    """
     observations = observations_of(flights, instrument)
-    f = fit(model, instrument, observations)
+    f = fit(model, instrument, observations, candidates=judged)
     calibrated, half, nominal = _three_scores(f)
     if calibrated.whole.rms_V > nominal.whole.rms_V:
         # Whitened least squares may leave more of the noise that it counts little; plain ones cannot.
-        f = fit(model, instrument, observations, f.calibration.noise, unweighted=True)
+        noise = f.calibration.noise
+        f = fit(model, instrument, observations, noise, unweighted=True, candidates=judged)
         calibrated, half, nominal = _three_scores(f)
-    return concluded(f, nominal.whole, calibrated, half.held_out)
+    return concluded(f, nominal.whole, calibrated, half.held_out, judged=judged)
 
 
 def _three_scores(f: Fitted) -> tuple[Scored, Scored, Scored]:
@@ -225,17 +234,19 @@ def errors(f: Fitted, coefficients: Sequence[Array]) -> list[Scored]:
     return f.score([f.vector(c) for c in coefficients], lambda x: nominal_residual(f, p, x)[None], 1)
 
 
-def concluded(f: Fitted, nominal: Error, calibrated: Scored, holdout: Error) -> Comparison:
-    """Search what is left, and say whether the model is adequate."""
-    rem = remainder(f)
-    available = testable_effects(f)
+def concluded(
+    f: Fitted, nominal: Error, calibrated: Scored, holdout: Error, *, judged: bool = True
+) -> Comparison:
+    """Search what is left, and say whether the model is adequate (if it is to be ``judged``)."""
+    rem = remainder(f) if judged else None
+    available = testable_effects(f) if judged else []
     choice = selection.choose(field_of(f, available)) if available else None
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
     doubt = spoiled(f, output_explained) or too_loud(f)
     quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
-    adequate = quiet and not rem.significant and not (choice and choice.chosen)
+    adequate = None if rem is None else quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(
         fitted=f,
         nominal=nominal,

@@ -99,8 +99,6 @@ class _Fall(Linear):
         (n,): the prior's centre as seen from the point, in scales.
     sums
         Place of an output among the layout's -> (n + 1,), V: of the columns of G_out and of its residual.
-    square
-        Sum of squares of the residual of G_out, V^2.
     rows
         Whitened samples.
     """
@@ -108,7 +106,6 @@ class _Fall(Linear):
     data: Array
     to_nominal: Array
     sums: Mapping[int, Array]
-    square: float
     rows: int
 
     @property
@@ -158,20 +155,19 @@ class _Task:
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
             return self._nowhere(x)
         point = Point(self.model, self.instrument, p, with_candidates=False)
-        triangles, rows, square = [], 0, 0.0
+        triangles, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n in zip(self.observations, noise, strict=True):
             chosen = None if most is None else spread(flight_segments(o), most)
-            for T, count, part, left in passed(point, o, n, _triangle, chosen=chosen):
+            for T, count, part in passed(point, o, n, _triangle, chosen=chosen):
                 triangles.append(T)
                 rows += count
                 sums[o.place] += part
-                square += left
         data = join(triangles)
         if not np.isfinite(data).all():
             return self._nowhere(x)
         fall = _linear(data, -x)
-        return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, square, rows)
+        return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, rows)
 
     def noise(self, x: Array) -> list[Noise]:
         """Noise of every flight from what nothing explains about x."""
@@ -181,7 +177,7 @@ class _Task:
     def _nowhere(self, x: Array) -> _Fall:
         """A point at which the model is no instrument: infinitely far from any record."""
         n = len(x)
-        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, {}, np.inf, 1)
+        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, {}, 1)
 
 
 @dataclass(frozen=True)
@@ -249,11 +245,13 @@ def fit(
 
 
 def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
-    """The fit from x of what leaves more than noise; the noise is estimated anew at its end unless it is ``fixed``."""
+    """The fit from x, where ``noise`` is that of what nothing explains, of what leaves more than noise; the noise is estimated
+    anew at its end unless it is ``fixed``, or the end is where it began.
+    """
     for _ in range(ROUNDS):
         left = p.left(x)
         found = p.fit(x, max(loudness(noise), left / LEAN))
-        if fixed:
+        if fixed or np.array_equal(found.x, x):
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)
         if loudness(noise) > FALLING * loudness(before) and p.left(x) > FALLING * left:
@@ -287,8 +285,8 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
     )
 
 
-def _triangle(piece: Piece) -> tuple[Array, int, Array, float]:
-    return triangle(piece.white), piece.white.shape[1], piece.sums(), float(np.sum(piece.unexplained() ** 2))
+def _triangle(piece: Piece) -> tuple[Array, int, Array]:
+    return triangle(piece.white), piece.white.shape[1], piece.sums()
 
 
 def _linear(T: Array, to_nominal: Array) -> Linear:

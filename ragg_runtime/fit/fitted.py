@@ -280,11 +280,12 @@ def fit(
     start: Array | None = None,
     *,
     unweighted: bool = False,
+    candidates: bool = True,
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
     The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
-    ``unweighted``: all samples weigh the same in it.
+    ``unweighted``: all samples weigh the same in it. Without ``candidates`` nothing is prepared for tests of effects.
     """
     observations = certain(model, instrument, observations)
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
@@ -304,15 +305,20 @@ def fit(
             expected="the disc angle, spin frequency, axes and signs of the model",
             remedy="check spin_frequency, spin_angle, the order of the axes, units and the sign of G_out",
         )
-    return about(model, instrument, observations, c)
+    return about(model, instrument, observations, c, candidates=candidates)
 
 
 @one_thread
 def about(
-    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    c: Calibration,
+    *,
+    candidates: bool = True,
 ) -> Fitted:
-    """The evidence about a calibration, however it was found."""
-    prepared = prepared_flight.prepare(model, instrument, observations, c)
+    """The evidence about a calibration, however it was found; of its parameters alone without ``candidates``."""
+    prepared = prepared_flight.prepare(model, instrument, observations, c, candidates=candidates)
     triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
     return Fitted(
         model,

@@ -96,13 +96,11 @@ class _Rows:
         own = {j - 1: _runs(x) for j, x in made.items() if j is not None}
         return _Rows(own=own, shared=_runs(made.get(None, ())))
 
-    def put(self, target: Array, output: int, at: slice, rows: Array, j: int, sign: float) -> None:
-        """Put derivatives of accelerometer j (rows, n), times its sign, into columns (columns, m, N) at some samples."""
-        for run in self.own.get(j, ()):
-            np.multiply(rows[run.rows], sign * run.scale, out=target[run.columns, output, at])
-        for run in self.shared:
-            place = target[run.columns, output, at]
-            np.add(place, rows[run.rows] * (sign * run.scale), out=place)
+    @staticmethod
+    def put(target: Array, at: slice, rows: Array, runs: Sequence[_Run], sign: float = 1.0) -> None:
+        """Put derivatives (rows, n), times a sign, into columns (columns, N) at some samples."""
+        for run in runs:
+            np.multiply(rows[run.rows], sign * run.scale, out=target[run.columns, at])
 
 
 @dataclass(frozen=True)
@@ -116,11 +114,26 @@ class _Module:
 
     def put(self, columns: Array, o: Observation, some: slice) -> None:
         """Columns (columns, m, N) of some samples."""
-        case = self._case(o, some)
-        signs = np.ones(len(o.output.members)) if o.recorded.separate else np.array(o.output.signs, float)
-        for k, (j, sign) in enumerate(zip(o.output.members, signs, strict=True)):
-            place = k if o.recorded.separate else 0
-            self.rows.put(columns, place, some, self.evaluator.derivatives(j, *case), j, float(sign))
+        case, rows = self._case(o, some), self.rows
+        if o.recorded.separate:
+            for k, j in enumerate(o.output.members):
+                rows.put(
+                    columns[:, k],
+                    some,
+                    self.evaluator.derivatives(j, *case),
+                    (*rows.own.get(j, ()), *rows.shared),
+                )
+            return
+        together: Array | None = None  # signed sum over the accelerometers, in the cache
+        for j, sign in zip(o.output.members, o.output.signs, strict=True):
+            found = self.evaluator.derivatives(j, *case)
+            rows.put(columns[:, 0], some, found, rows.own.get(j, ()), sign)
+            if rows.shared and together is None:
+                together = found if sign > 0 else np.negative(found, out=found)
+            elif together is not None:
+                (np.add if sign > 0 else np.subtract)(together, found, out=together)
+        if together is not None:
+            rows.put(columns[:, 0], some, together, rows.shared)
 
     def predict(self, found: Array, o: Observation, some: slice) -> None:
         """The outputs themselves (m, N), V, at some samples."""

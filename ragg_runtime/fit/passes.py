@@ -66,12 +66,13 @@ class Piece:
 
     def left(self, coefficients: Array) -> Array:
         """Residuals of G_out (k, N), V, once columns have these coefficients (k, n); no unknown gradient."""
-        n = coefficients.shape[1]
-        return self.observed(self.columns[-1] - np.tensordot(coefficients, self.columns[:n], 1))
-
-    def unexplained(self) -> Array:
-        """Residual of G_out (1, N), V, at the point itself; no unknown gradient."""
-        return self.observed(self.columns[-1:])
+        base, further = coefficients[:, : self.n_base], coefficients[:, self.n_base :]
+        e = self.columns[-1] - np.tensordot(base, self.columns[: base.shape[1]], 1)
+        for left, own in zip(e, further, strict=True):  # of an effect's fit all but a few are zero
+            few = np.flatnonzero(own)
+            if len(few):
+                left -= np.tensordot(own[few], self.columns[self.n_base + few], 1)
+        return self.observed(e)
 
     def observed(self, e: Array) -> Array:
         """What residuals of the series (k, m, N), V, are of G_out (k, N); no unknown gradient."""

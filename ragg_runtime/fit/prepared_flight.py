@@ -124,10 +124,15 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
 
 
 def prepare(
-    model: Model, instrument: Instrument, observations: Sequence[Observation], c: Calibration
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    c: Calibration,
+    *,
+    candidates: bool,
 ) -> tuple[PreparedFlight, ...]:
     """Every flight about the calibrated parameters."""
-    at = Point(model, instrument, c.p, with_candidates=True)
+    at = Point(model, instrument, c.p, with_candidates=candidates)
     return tuple(PreparedFlight(o, noise, at) for o, noise in zip(observations, c.noise, strict=True))
 
 

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import linalg
 
+from ragg_runtime.base.threads import mapped
+
 Array = NDArray[np.float64]
 
 
@@ -33,8 +35,11 @@ def orthonormal(columns: Array) -> Array:
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
 
 
-CHUNK = 1024
+CHUNK = 512
 """Rows that enter a triangle at a time: they stay in the cache."""
+
+WORTH_TWO = 8 * CHUNK
+"""Rows of a triangle from which it is made of two, a thread each."""
 
 PANEL = 16
 """Columns that LAPACK eliminates at a time."""
@@ -42,6 +47,17 @@ PANEL = 16
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
+    rows = columns.shape[1]
+    if rows < WORTH_TWO:
+        return _eliminated(columns)
+    halves = (
+        columns[:, : rows // 2],
+        columns[:, rows // 2 :],
+    )  # however many threads there are: the same bytes
+    return fold(list(mapped(_eliminated, halves)))
+
+
+def _eliminated(columns: Array) -> Array:
     n, rows = columns.shape
     R = np.zeros((n, n), order="F")
     for start in range(0, rows, CHUNK):

@@ -36,7 +36,7 @@ LEAD_SECONDS = 100.0
 that oscillates at twice the spin rate."""
 
 
-TOGETHER = 64
+TOGETHER = 128
 """Columns that it is projected out of at a time: more leave the cache."""
 
 TAKEN = 0.6 / KNOT_SECONDS
@@ -176,7 +176,9 @@ def project(columns: Floats, found: Sequence[Window]) -> None:
         Q = w.white.astype(columns.dtype, copy=False)
         for some in stretches(len(columns), TOGETHER):
             part = columns[some, w.rows]
-            columns[some, w.rows] = np.subtract(part, np.matmul(np.matmul(part, Q), Q.T))
+            part -= np.matmul(np.matmul(part, Q), Q.T)
+            if not isinstance(w.rows, slice):  # then ``part`` is a copy
+                columns[some, w.rows] = part
 
 
 def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:

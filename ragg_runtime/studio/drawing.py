@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import series as reported
 from ragg_runtime.flight.record import DEMODULATED
-from ragg_runtime.model.record import Record
 from ragg_runtime.report.spectrogram import spectrogram
 from ragg_runtime.studio import apply
 from ragg_runtime.studio.pyramid import HEAD, Pyramid, pyramid
@@ -69,9 +68,9 @@ def series(s: State, a: Asked) -> bytes:
     return drawn.window(a.first, a.last, a.points)
 
 
-def _rows(r: Record, a: Asked) -> slice:
-    n = len(r.time)
-    first, last = ((t - float(r.time[0])) * r.rate for t in (a.first, a.last))
+def _rows(time: Array, rate: float, a: Asked) -> slice:
+    n = len(time)
+    first, last = ((t - float(time[0])) * rate for t in (a.first, a.last))
     i, j = int(np.clip(np.floor(first), 0, n)), int(np.clip(np.ceil(last) + 1, 0, n))
     if j - i < 64:
         raise UserError("the stretch is too short for a spectrum", found=f"{max(0, j - i)} samples")
@@ -96,17 +95,11 @@ def _unexamined(s: State, flight: int, unit: str) -> Pyramid | None:
     return made
 
 
-def _place(s: State, a: Asked) -> tuple[int, Record, float]:
-    """The observation that is asked for, its record, and k_ggi of its output (V/Eo)."""
-    f, n = s.tracks.fitted, s.tracks.place(a.flight, a.output)
-    return n, f.prepared[n].observation.record, f.scales[n]
-
-
 def spectra(s: State, a: Asked) -> dict[str, Any]:
     """Amplitude densities, Eo/sqrt(Hz), of the residual now, before the last step, and with effects; and the noise."""
-    n, r, k_ggi = _place(s, a)
-    rows = _rows(r, a)
-    f = s.tracks.fitted
+    f, n = s.tracks.compared.fitted, s.tracks.place(a.flight, a.output)
+    r, k_ggi = f.prepared[n].observation.record, f.scales[n]
+    rows = _rows(r.time, r.rate, a)
     valid = r.valid[rows]
     lines = {}
     for name in _lines(s, a):
@@ -156,8 +149,9 @@ def _volts(s: State, a: Asked, n: int, name: str, rows: slice) -> Array:
 
 def spectrogram_of(s: State, a: Asked, highest: float) -> bytes:
     """Instants, frequencies and densities (Eo/sqrt(Hz)) as floats: two lengths, first and last of each axis, values."""
-    n, r, k_ggi = _place(s, a)
-    rows = _rows(r, a)
+    f, n = s.tracks.compared.fitted, s.tracks.place(a.flight, a.output)
+    r, k_ggi = f.prepared[n].observation.record, f.scales[n]
+    rows = _rows(r.time, r.rate, a)
     spin = abs(r.spin_frequency)
     top = highest or MULTIPLES * spin or r.rate / 2
     name = a.what if a.what in ("residual", "before", "left", "measured") else "residual"

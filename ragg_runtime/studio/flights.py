@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.fit.observation import Observation
+from ragg_runtime.flight import timeline
 from ragg_runtime.flight.glance import Glance
-from ragg_runtime.studio import timeline
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State
 from ragg_runtime.survey.quality.lines import SurveyLine
@@ -22,6 +21,7 @@ def shown(s: State) -> list[Json]:
         return [_line(x) for x in s.lines]
     if not s.flights:
         return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
+    observed = () if s.compared is None else s.compared.fitted.observations
     return [
         {
             "name": numbers.clean(x.name),
@@ -41,14 +41,9 @@ def shown(s: State) -> list[Json]:
             ],
             "missing": timeline.missing(seen[0].record.valid if seen else x.valid, x.rate),
         }
-        for x, p, cuts, seen in zip(s.flights, s.paths, s.cuts, _observed(s), strict=True)
+        for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=True))
+        for seen in [[o for o in observed if o.flight == n]]
     ]
-
-
-def _observed(s: State) -> list[list[Observation]]:
-    """What of each flight was compared."""
-    known = s.tracks.now is not None
-    return [[o for _, o in s.tracks.of_flight(n)] if known else [] for n in range(len(s.flights))]
 
 
 def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:

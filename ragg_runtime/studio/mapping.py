@@ -12,16 +12,14 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import read_text, replacing
+from ragg_runtime.base.files import read_text
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.guess import draft, sample
 from ragg_runtime.flight.mapping import UNKNOWN, Mapped, parse_mapping
 from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.flight.source import Heading, Look
-from ragg_runtime.instrument.units import Units
-from ragg_runtime.model_dir.directory import MAPPING
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow.loop import Loaded
+from ragg_runtime.workflow.loaded import Loaded, keep_mapping, mapping_of
 
 Json = dict[str, Any]
 
@@ -39,12 +37,11 @@ def begun(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
     headings = open_file(path, Look(text=True))[0].headings
     names = {h.name for h in headings}
-    own = m.directory.path / MAPPING
-    text = read_text(own) if own.exists() else None
-    if text is not None and parse_mapping(text, own).columns <= names:
-        return _shown(tomllib.loads(text), headings, {}, kept=True)
+    own = mapping_of(m, None)
+    if own is not None and own.columns <= names:
+        return _shown(tomllib.loads(read_text(own.path)), headings, {}, kept=True)
     made = draft(path)
-    return _shown(tomllib.loads(made.text), headings, made.sure, kept=text is not None)
+    return _shown(tomllib.loads(made.text), headings, made.sure, kept=own is not None)
 
 
 def _shown(data: Json, headings: tuple[Heading, ...] | Any, sure: Mapping[str, str], *, kept: bool) -> Json:
@@ -99,7 +96,7 @@ def written(given: Mapping[str, Any]) -> str:
 def _toml(value: Any) -> str:
     """Texts, numbers and lists of them are written alike in JSON and TOML."""
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
-        raise UserError("a number is needed", where=MAPPING)
+        raise UserError("a number is needed", where="the mapping")
     return json.dumps(value, ensure_ascii=False)
 
 
@@ -112,14 +109,14 @@ def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
     text = ""
     try:
         text = written(given)
-        how = parse_mapping(text, Path(MAPPING))
-        return {"text": text, "error": None, "preview": _preview(m.instrument.units, path, how)}
+        how = parse_mapping(text, Path("mapping.toml"))
+        return {"text": text, "error": None, "preview": _preview(m, path, how)}
     except UserError as e:
         facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
         return {"text": text, "error": facts, "preview": []}
 
 
-def _preview(known: Units, path: Path, how: Mapped) -> list[Json]:
+def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
     table = open_file(path, Look(text=True))[0]
     values, units = sample(table), {h.name: h.unit or "" for h in table.headings}
     found = []
@@ -131,7 +128,7 @@ def _preview(known: Units, path: Path, how: Mapped) -> list[Json]:
         unit = e.unit or units[e.column]
         si = SI_UNITS.get(name, unit)
         x = np.asarray(values[e.column], dtype=np.float64) * e.factor + e.offset
-        x = known.to_si(x, unit, si, f"[columns] {name}") if unit != si else x
+        x = m.instrument.units.to_si(x, unit, si, f"[columns] {name}") if unit != si else x
         seen = x[np.isfinite(x)]
         step = max(1, len(x) // POINTS)
         middle = numbers.number(float(np.median(seen)), 4) if len(seen) else numbers.ABSENT
@@ -143,11 +140,6 @@ def _preview(known: Units, path: Path, how: Mapped) -> list[Json]:
 
 def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
     """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
-    text, place = written(given), m.directory.path / MAPPING
-    _preview(m.instrument.units, path, parse_mapping(text, place))
-    if place.exists() and not replace and read_text(place) != text:
-        raise UserError(
-            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
-        )
-    with replacing(place) as temporary:
-        temporary.write_text(text, "utf-8")
+    text = written(given)
+    _preview(m, path, parse_mapping(text, Path("mapping.toml")))
+    keep_mapping(m, text, replace=replace)

@@ -20,13 +20,14 @@ from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.evidence import foresee
-from ragg_runtime.studio import drawing, mapping, sheet, views
+from ragg_runtime.diagnosis import foresee
+from ragg_runtime.studio import drawing, mapping, views
 from ragg_runtime.studio.guard import TooLong
 from ragg_runtime.studio.jobs import Busy
 from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.take_away import take_away
 from ragg_runtime.studio.uploads import receive
+from ragg_runtime.workflow import sheet
 
 BEAT = 0.15
 """How often a page is told of changes, s."""
@@ -206,9 +207,10 @@ async def _preview(session: Session, request: Request) -> Response:
 
     def made() -> Any:
         s = session.state
-        d, unwhitened, known = s.diagnosed, s.unwhitened, s.field
-        if d is None or unwhitened is None or known is None:
+        d, unwhitened = s.diagnosed, s.unwhitened
+        if d is None or unwhitened is None:
             raise UserError("the effects are not tested yet", remedy="wait a moment")
+        known = foresee.field(d)
 
         def foreseen(*effects: str) -> foresee.Foreseen:
             make = partial(foresee.foreseen, d.fitted, unwhitened, known, effects)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import socket
 import sys
 import webbrowser
@@ -61,7 +62,8 @@ def serve(
             session.open(model, flights)
         if browser:
             webbrowser.open(address)
-        uvicorn.Server(config).run(sockets=[listening])
+        with contextlib.suppress(KeyboardInterrupt):  # which is how one ends it: what was done is kept
+            uvicorn.Server(config).run(sockets=[listening])
         session.jobs.cancel()
 
 

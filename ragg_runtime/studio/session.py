@@ -12,28 +12,26 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.progress import PASSES
+from ragg_runtime.diagnosis import foresee
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.foresee import Unwhitened
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import foresee
-from ragg_runtime.evidence.foresee import Unwhitened
-from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.glance import Glance, glance
-from ragg_runtime.instrument.edit_toml import set_parameters
-from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.studio import apply
-from ragg_runtime.studio.branches import branches, text_of
 from ragg_runtime.studio.jobs import Busy, Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
-from ragg_runtime.studio.sheet import Edit
 from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.survey.quality.lines import SurveyLine
 from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.workflow import after, loop, versions
+from ragg_runtime.workflow import quality as control
 from ragg_runtime.workflow.after import Compensation
+from ragg_runtime.workflow.branches import branches, text_of
 from ragg_runtime.workflow.loop import Added, Loaded
+from ragg_runtime.workflow.sheet import Edit
 
 Part = Callable[[str, float], None]
 
@@ -89,12 +87,6 @@ class State:
     compensated: Compensation | None = None
     quality: Quality | None = None
     tracks: Tracks = field(default_factory=Tracks)
-
-    @property
-    def field(self) -> Field | None:
-        """The testable effects, steps included, on the triangles of everything."""
-        d = self.diagnosed
-        return None if d is None else field_of(d.fitted, [r.effect for r in d.ranking])
 
     @property
     def model(self) -> Loaded:
@@ -207,9 +199,8 @@ class Session:
         s = self.state
         if s.loaded is None or self.jobs.status.name:
             return
-        path = s.loaded.directory.path
-        if load_model_dir(path).digest != s.loaded.directory.digest:
-            self._changed(loop.load(path))
+        if versions.changed_by_others(s.loaded):
+            self._changed(loop.load(s.loaded.directory.path))
 
     def _changed(self, m: Loaded) -> None:
         """Another model in the place of this one: what was known of it becomes the state before."""
@@ -248,10 +239,9 @@ class Session:
     def edit(self, values: Mapping[str, Edit]) -> None:
         """Change values of the test sheet, and how sure it is of them."""
         self._idle()
-        m = self.state.model
+        sheet = {n: value for n, (value, _) in values.items()}
         sigmas = {n: sigma for n, (_, sigma) in values.items()}
-        text = set_parameters(m.directory.text, {n: value for n, (value, _) in values.items()}, sigmas)
-        self._changed(versions.change(m, text, "edit", ", ".join(values)))
+        self._changed(versions.edited(self.state.model, sheet, sigmas))
 
     def go(self, action: str, step: int | None = None) -> None:
         """Undo, redo, or go back to the state after a step of the history."""
@@ -336,7 +326,7 @@ class Session:
         def work(part: Part) -> None:
             s = self.state
             part("quality control", s.samples)
-            self._put(quality=apply.quality(s.model, s.paths, s.flights, s.compensated))
+            self._put(quality=control.quality(s.model, s.paths, s.flights, s.compensated))
 
         self.jobs.start("quality control", work)
 
@@ -347,7 +337,7 @@ class Session:
 
         def work(part: Part) -> None:
             part("starting the survey", 1.0)
-            self._put(survey=surveyed(m, folder, files, self.workers, part))
+            self._put(survey=surveyed(m, folder, files, self.workers, part, self.jobs.note))
 
         self.jobs.start("surveying", work)
 

@@ -48,14 +48,23 @@ class Surveyed:
 
 
 def surveyed(
-    m: Loaded, folder: Path, files: Sequence[Path], workers: Workers, part: Callable[[str, float], None]
+    m: Loaded,
+    folder: Path,
+    files: Sequence[Path],
+    workers: Workers,
+    part: Callable[[str, float], None],
+    note: Callable[[str], None],
 ) -> Surveyed:
-    """Diagnose the flights of ``folder``; what is done is kept, and is taken when it is asked for again."""
+    """Diagnose the flights of ``folder``; what is done is kept, and is taken when it is asked for again.
+
+    ``part`` is told how many there are, ``note`` how many are done.
+    """
 
     def show(done: int, total: int, record: Record | None) -> None:
         if record is None:
             part(f"surveying {total} flights", float(total))
         progress.step(float(done) if record is None else 1.0)
+        note(f"{done} of {total} done")
 
     found = loop.survey(
         m, files, scheduler=workers.scheduler, tls=workers.tls, resume=_results(m, folder), progress=show

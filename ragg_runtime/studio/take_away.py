@@ -14,10 +14,10 @@ from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report import add_html, compare_html, diagnose_html
 from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
-from ragg_runtime.studio.branches import branches
 from ragg_runtime.studio.session import State
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.workflow import after, loop, origin
+from ragg_runtime.workflow.branches import branches
 
 File = tuple[str, str, bytes]
 HTML, JSON, TEXT = "text/html", "application/json", "text/plain"

@@ -11,17 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis import comparison, foresee, heat
 from ragg_runtime.diagnosis import series as reported
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import foresee
-from ragg_runtime.evidence.selection import field_of
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import DEMODULATED
-from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 
 Array = NDArray[np.float64]
@@ -33,9 +27,6 @@ MOST_BYTES = 1 << 30
 """Most memory that they may take together, bytes."""
 
 STANDS_STILL = "of a disc that stands still nothing is demodulated"
-
-WIDEST = 8 * ROWS
-"""Most samples of a long flight for which the signature of an effect is computed while one waits."""
 
 
 @dataclass(frozen=True)
@@ -98,26 +89,27 @@ class Tracks:
         return replace(self, found=d)
 
     @property
-    def fitted(self) -> Fitted:
+    def compared(self) -> Comparison:
         """UserError if there is none yet."""
         if self.now is None:
             raise UserError("there is nothing to draw yet", remedy="wait until the flights are compared")
-        return self.now.fitted
+        return self.now
 
-    def of_flight(self, flight: int) -> list[tuple[int, Observation]]:
-        """What was compared of a flight, with its place among all: one observation of each output that it holds."""
-        return [(n, o) for n, o in enumerate(self.fitted.observations) if o.flight == flight]
+    def places(self, flight: int) -> list[int]:
+        """What was compared of a flight, by its place among all: one observation of each output that it holds."""
+        return [n for n, o in enumerate(self.compared.fitted.observations) if o.flight == flight]
 
     def place(self, flight: int, output: int) -> int:
         """Which observation an output of a flight is: what ``flight`` means everywhere below."""
-        known = self.of_flight(flight)
+        known = self.places(flight)
         if not 0 <= output < len(known):
             raise UserError("there is no such flight", found=f"flight {flight + 1}, output {output + 1}")
-        return known[output][0]
+        return known[output]
 
     def volts(self, name: str, flight: int) -> Array:
         """(N,) V of ``measured``, ``modelled``, ``residual`` or ``before``; zero where a sample is not valid."""
-        f = self.fitted
+        now = self.compared
+        f = now.fitted
         if not 0 <= flight < len(f.prepared):
             raise UserError("there is no such flight", found=flight + 1)
         if name == "before":
@@ -126,8 +118,6 @@ class Tracks:
             if old is None or not same:
                 raise UserError("there is no step before this one")
             return self._of("before", lambda: old.residual)[flight]
-        now = self.now
-        assert now is not None
         if name == "residual":
             return self._of("residual", lambda: now.residual)[flight]
         if name == "measured":
@@ -148,21 +138,10 @@ class Tracks:
             raise UserError("the effects are not tested yet", remedy="wait a moment")
         if not 0 <= flight < len(d.fitted.prepared):
             raise UserError("there is no such flight", found=flight + 1)
-        r = d.fitted.prepared[flight].observation.record
-        n, rows = len(r.time), slice(0, len(r.time))
-        if n > ROWS:
-            first, last = window or (0.0, float("inf"))
-            a, b = (int(np.clip((t - r.time[0]) * r.rate, 0, n)) for t in (first, last))
-            if b - a > WIDEST or b <= a:
-                raise UserError(
-                    "the signature of an effect is drawn of a part of so long a flight",
-                    remedy=f"zoom in to less than {WIDEST / r.rate:.0f} s",
-                )
-            rows = slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
+        rows = foresee.rows_within(d.fitted, flight, window or (0.0, float("inf")))
 
         def make() -> Effect:
-            known = field_of(d.fitted, [x.effect for x in d.ranking])
-            v = foresee.coefficients(d.fitted, known, effects)
+            v = foresee.coefficients(d.fitted, foresee.field(d), effects)
             return Effect(*foresee.signature(d.fitted, flight, v, rows))
 
         return self.cache.get(("effect", effects, flight, rows.start, rows.stop), make)  # type: ignore[return-value]
@@ -175,7 +154,7 @@ class Tracks:
         c = float(h.coefficient[h.harmonics.index(harmonic), h.products.index(product)])
         if not np.isfinite(c):
             raise UserError("the model holds this term already", found=f"{harmonic} x {product}")
-        prepared = self.fitted.prepared[flight]
+        prepared = self.compared.fitted.prepared[flight]
         return self.cache.get(  # type: ignore[return-value]
             ("term", harmonic, product, flight), lambda: heat.series(prepared, harmonic, product, c)
         )
@@ -186,15 +165,14 @@ class Tracks:
             low, high = (float(x) for x in name.split(":")[1:])
         except ValueError:
             raise UserError("a band is needed", found=repr(name[:40]), expected="band:0.2:0.3") from None
-        r = self.fitted.prepared[flight].observation.record
+        r = self.compared.fitted.prepared[flight].observation.record
         return reported.within_band(self.volts("residual", flight), r.rate, low, high)
 
     def heat(self, effects: tuple[str, ...], flight: int) -> heat.Heat:
         """Harmonic x motion term of what is left once these effects are in."""
         d = self.found
-        f = self.fitted if d is None else d.fitted
-        known = field_of(f, [r.effect for r in d.ranking] if d else [])
-        given = foresee.columns_of(known, effects)
+        f = self.compared.fitted if d is None else d.fitted
+        given = [] if d is None else foresee.columns_of(foresee.field(d), effects)
         if not 0 <= flight < len(f.prepared):
             raise UserError("there is no such flight", found=flight + 1)
 
@@ -215,7 +193,7 @@ class Tracks:
 
         ``effect`` is what ``effects`` would take out of the residual, ``left`` what they would leave.
         """
-        f = self.fitted
+        f = self.compared.fitted
         r = f.prepared[flight if 0 <= flight < len(f.prepared) else 0].observation.record
         if name in ("effect", "left"):
             e = self.effect(effects, flight, window)
@@ -245,9 +223,10 @@ class Tracks:
         """The part of a long flight for which an effect's signature is known."""
         if unit in DEMODULATED:
             raise UserError("the signature of an effect is drawn in V or Eo alone in so long a flight")
-        r = self.fitted.prepared[flight].observation.record
+        f = self.compared.fitted
+        r = f.prepared[flight].observation.record
         x = e.volts if name == "effect" else self.volts("residual", flight)[e.rows] - e.volts
-        y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / self.fitted.scales[flight]), np.nan)
+        y = np.where(r.valid[e.rows], x * (1.0 if unit == "V" else 1.0 / f.scales[flight]), np.nan)
         return pyramid(float(r.time[e.rows.start]), 1.0 / r.rate, len(y), lambda s: y[s])
 
     def series(self, name: str, flight: int, effects: tuple[str, ...] = ()) -> Array:
@@ -265,7 +244,7 @@ class Tracks:
 
     def channel(self, name: str, flight: int) -> Pyramid:
         """A recorded channel in its own unit."""
-        r = self.fitted.prepared[flight].observation.record
+        r = self.compared.fitted.prepared[flight].observation.record
         if name not in r.wide:
             raise UserError("the flight has no such channel", found=repr(name[:40]))
         y = np.where(r.valid, r.wide[name], np.nan)

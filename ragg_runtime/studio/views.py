@@ -9,19 +9,17 @@ from typing import Any
 
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.score import Error, finite
 from ragg_runtime.flight.record import left_out
-from ragg_runtime.model.model import Effect
-from ragg_runtime.model_dir.history import Step
 from ragg_runtime.report import diagnose_page, panels, parameters, quality_page
 from ragg_runtime.report.parameters import Piece, Row, Symbol
-from ragg_runtime.studio import apply, flights, maths, sheet
-from ragg_runtime.studio.branches import branches, tree
+from ragg_runtime.studio import apply, flights, maths
 from ragg_runtime.studio.session import State
 from ragg_runtime.studio.surveys import shown_survey
 from ragg_runtime.survey.task import divided
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow.loop import errors_of
+from ragg_runtime.workflow import sheet
+from ragg_runtime.workflow.branches import branches, tree
+from ragg_runtime.workflow.loop import Loaded, errors_of
 
 Json = dict[str, Any]
 
@@ -40,7 +38,7 @@ def overview(s: State, version: str) -> Json:
         "next_motion": [] if s.diagnosed is None else [_motion(p) for p in s.diagnosed.next_motion],
         "parameters": None if s.compared is None else _parameters(s.compared),
         "sheet": None if s.loaded is None else sheet.shown(s.loaded.instrument),
-        "history": None if s.loaded is None else _history(s.loaded.directory.history),
+        "history": None if s.loaded is None else _history(s.loaded),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
         "quality": None if s.quality is None else quality_page.shown(s.quality),
         "survey": None if s.survey is None or s.loaded is None else shown_survey(s.survey, s.loaded),
@@ -57,34 +55,41 @@ def _model(s: State) -> Json:
         "path": str(m.directory.path),
         "notes": list(m.notes),
         "calibrated": apply.kept(m),
-        "effects": [_about(e) for e in m.model.effects],
+        "effects": [_about(m, e.id) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
     }
 
 
-def _about(e: Effect) -> Json:
-    return {
-        "id": e.id,
-        "title": numbers.clean(e.title),
-        "physics": numbers.clean(e.physics),
-        "source": numbers.clean(e.source),
-        "limits": numbers.clean(e.limits),
-        "equation": maths.mathml(e.equation, block=True),
-        "channels": list(e.channels),
-        "parameters": [
-            {
-                "symbol": maths.mathml(q.latex),
-                "unit": numbers.unit(q.unit),
-                "meaning": numbers.clean(q.meaning),
-            }
-            for q in e.parameters
-        ],
-    }
+def _about(known: Loaded | Diagnosis, effect: str) -> Json:
+    """What an effect of a model is; nothing if the model does not know it."""
+    model = known.model if isinstance(known, Loaded) else known.fitted.model
+    e = model.effect(effect)
+    return (
+        {}
+        if e is None
+        else {
+            "id": e.id,
+            "title": numbers.clean(e.title),
+            "physics": numbers.clean(e.physics),
+            "source": numbers.clean(e.source),
+            "limits": numbers.clean(e.limits),
+            "equation": maths.mathml(e.equation, block=True),
+            "channels": list(e.channels),
+            "parameters": [
+                {
+                    "symbol": maths.mathml(q.latex),
+                    "unit": numbers.unit(q.unit),
+                    "meaning": numbers.clean(q.meaning),
+                }
+                for q in e.parameters
+            ],
+        }
+    )
 
 
-def error(e: Error) -> Json:
+def error(rms: float, told: Mapping[str, object]) -> Json:
     """The error object, as numbers and as text."""
-    return {"json": e.as_json(), "rms_Eo": finite(e.rms_Eo), "text": numbers.number(e.rms_Eo)}
+    return {"json": told, "rms_Eo": rms, "text": numbers.number(rms)}
 
 
 def _banner(s: State) -> Json | None:
@@ -99,11 +104,19 @@ def _banner(s: State) -> Json | None:
         "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
         "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
         "errors": [
-            {"label": "nominal", **error(c.nominal), "about": "with the values of the test sheet"},
-            {"label": "calibrated", **error(c.calibrated), "about": "parameters fitted to these flights"},
+            {
+                "label": "nominal",
+                **error(c.nominal.rms_Eo, c.nominal.as_json()),
+                "about": "with the values of the test sheet",
+            },
+            {
+                "label": "calibrated",
+                **error(c.calibrated.rms_Eo, c.calibrated.as_json()),
+                "about": "parameters fitted to these flights",
+            },
             {
                 "label": "held out",
-                **error(c.holdout),
+                **error(c.holdout.rms_Eo, c.holdout.as_json()),
                 "about": "fitted on half of the blocks of time, scored on the rest",
             },
         ],
@@ -126,21 +139,20 @@ def effects(d: Diagnosis) -> list[Json]:
     """The ranking, best first, each with what the catalogue says of it."""
     found, sizes = [], dict(diagnose_page.sizes(d))
     for row, r in zip(diagnose_page.ranking(d), d.ranking, strict=True):
-        e = d.fitted.model.effect(r.effect)
         values = row["fitted"]
         probability = r.as_json().get("probability")
         found.append(
             {
-                **({} if e is None else _about(e)),
+                **_about(d, r.effect),
                 "id": r.effect,
                 "found": row["found"],
                 "significant": row["significant"],
                 "p": row["p"],
-                "evidence": finite(-r.log_p / math.log(10.0)),
+                "evidence": -r.log_p / math.log(10.0),
                 "probability": probability if isinstance(probability, float) else None,
                 "delta_bic": row["delta_bic"],
-                "after_Eo": finite(r.after.rms_Eo),
-                "holdout_Eo": finite(r.after_holdout.rms_Eo),
+                "after_Eo": r.after.rms_Eo,
+                "holdout_Eo": r.after_holdout.rms_Eo,
                 "testable": r.rank > 0 and r.effect in _linear(d),
                 "seen_from": sizes.get(r.effect, []),
                 "values": []
@@ -160,8 +172,7 @@ def _linear(d: Diagnosis) -> set[str]:
 def _silent(d: Diagnosis) -> list[Json]:
     found = []
     for n in d.not_testable:
-        e = d.fitted.model.effect(n.effect)
-        found.append({**({} if e is None else _about(e)), "id": n.effect, "why": numbers.clean(n.why)})
+        found.append({**_about(d, n.effect), "id": n.effect, "why": numbers.clean(n.why)})
     return found
 
 
@@ -236,7 +247,8 @@ CORRELATED = 16
 """Pairs of correlated parameters that are shown."""
 
 
-def _history(history: Sequence[Step]) -> Json:
+def _history(m: Loaded) -> Json:
+    history = m.directory.history
     past, future = branches(history)
     made = tree(history)
     return {

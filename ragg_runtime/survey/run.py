@@ -117,9 +117,9 @@ def distinct_names(files: Sequence[str]) -> dict[str, str]:
 
 
 def ordered(flights: Sequence[Path | str]) -> list[str]:
-    """Absolute paths, each once, sorted by file name (then by folder)."""
-    paths = {str(Path(f).resolve()) for f in flights}
-    return sorted(paths, key=lambda f: (Path(f).name, f))
+    """Absolute paths, each once, in the order of the names that the flights will have: what drifts is read in it."""
+    names = distinct_names([str(Path(f).resolve()) for f in flights])
+    return sorted(names, key=lambda f: (names[f], f))
 
 
 def _examined(

@@ -21,7 +21,12 @@ LARGEST = 1e60
 
 def misshapen(record: Mapping[str, Any]) -> str | None:
     """Where the record of a flight that was diagnosed is none; ``None`` if it is one."""
-    return _RECORD(record) or (None if record["flight"] == Path(record["file"]).name else ".flight")
+    return _RECORD(record) or (None if _named_after(record["flight"], Path(record["file"])) else ".flight")
+
+
+def _named_after(flight: str, file: Path) -> bool:
+    """Whether a flight has the name of its file, with folders before it where others have that name too."""
+    return bool(flight) and f"/{file.as_posix()}".endswith(f"/{flight.lstrip('/')}")
 
 
 def _is(kind: Callable[[Any], bool]) -> Check:

@@ -32,6 +32,7 @@ from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.compensation.output import format_for, writing
 from ragg_runtime.compensation.saved import Saved, with_another
+from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
@@ -133,6 +134,16 @@ class Compensation:
 
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)
+
+    def write(self, path: Path) -> None:
+        """The series of all flights, one after the other, into a file of the format that its ending names."""
+        with writing(path, sum(len(x["time"]) for x in self.series), self.units) as write:
+            for rows in self.series:
+                write(rows)
+
+
+QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
+"""What the marks of samples mean, by the name under which a compensation counts them."""
 
 
 def compensate(

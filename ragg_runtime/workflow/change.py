@@ -54,7 +54,7 @@ class Added:
 
     def _repr_html_(self) -> str:
         noise, adequate = (
-            (None, False) if self.after is None else (self.after.noise_floor, self.after.adequate)
+            (None, False) if self.after is None else (self.after.noise_floor, bool(self.after.adequate))
         )
         return notebook.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
 
@@ -100,7 +100,7 @@ def add(
     distinct(flights)
     setting = _setting(m, effect, flights)
     others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
-    before = _compare.compare(derive.model_of(others), others, flights) if flights else None
+    before = _compare.compare(derive.model_of(others), others, flights, judged=False) if flights else None
     extended = replace(others, effects=(*others.effects, setting))
     model = derive.model_of(extended)
     after: Comparison | None = None

@@ -9,8 +9,8 @@ from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 
-from ragg_runtime.base.errors import one_line
-from ragg_runtime.base.files import read_text
+from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight import read_flights as _read_flights
 from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
@@ -20,7 +20,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir
+from ragg_runtime.model_dir.directory import MAPPING, ModelDir, create_model_dir, load_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.plausibility import check_settings, examined
 from ragg_runtime.wording import notebook
@@ -116,8 +116,13 @@ def read_flights(
             path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how, leave=leave
         )
         for x in read:
-            found.append(settled(examined(m.model, m.instrument, x)))
+            found.append(as_read(m.model, m.instrument, x))
     return found
+
+
+def as_read(model: Model, instrument: Instrument, x: Flight) -> Flight:
+    """What is done to every flight that is read: examined, and the memory that reading it took given back."""
+    return settled(examined(model, instrument, x))
 
 
 def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
@@ -126,6 +131,17 @@ def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
         return read_mapping(Path(given))
     own = m.directory.mapping
     return None if own is None else replace(read_mapping(own), kept=True)
+
+
+def keep_mapping(m: Loaded, text: str, *, replace: bool) -> None:
+    """Lay a mapping down in the model directory, where every command finds it; never over another unasked."""
+    place = m.directory.path / MAPPING
+    if place.exists() and not replace and read_text(place) != text:
+        raise UserError(
+            "the model has a mapping already", where=place, remedy="say that it shall be replaced"
+        )
+    with replacing(place) as temporary:
+        temporary.write_text(text, "utf-8")
 
 
 def mapping_text(path: Path) -> str:

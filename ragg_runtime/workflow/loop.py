@@ -15,6 +15,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,10 +31,6 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.landmarks import distinct
 from ragg_runtime.instrument.units import read_quantity
 from ragg_runtime.model_dir import derive
-from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.run import Progress
-from ragg_runtime.survey.run import survey as _survey
-from ragg_runtime.survey.tls import Tls
 from ragg_runtime.workflow.change import Added as Added
 from ragg_runtime.workflow.change import add as add
 from ragg_runtime.workflow.change import errors_of as errors_of
@@ -45,6 +42,11 @@ from ragg_runtime.workflow.loaded import load as load
 from ragg_runtime.workflow.loaded import mapping_of as mapping_of
 from ragg_runtime.workflow.loaded import new as new
 from ragg_runtime.workflow.loaded import read_flights as read_flights
+
+if TYPE_CHECKING:
+    from ragg_runtime.survey.result import Survey
+    from ragg_runtime.survey.run import Progress
+    from ragg_runtime.survey.tls import Tls
 
 
 def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
@@ -118,7 +120,9 @@ def survey(
     """
     place = m.directory.path / "model.toml"
     how = mapping_of(m, mapping)
-    return _survey(
+    from ragg_runtime.survey.run import survey as of_many  # slow to import, and only surveys need it
+
+    return of_many(
         m.directory.text,
         place,
         flights,

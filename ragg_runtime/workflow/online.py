@@ -3,32 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation.compensate import seeing, without_gradients
-from ragg_runtime.compensation.frozen import information
 from ragg_runtime.compensation.output import writing
-from ragg_runtime.compensation.recursive import Followed, Online, Tuning, following
+from ragg_runtime.compensation.recursive import Tuning, following
+from ragg_runtime.compensation.sample_by_sample import followed
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.fit.observation import Observation, observations_of
-from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
-from ragg_runtime.instrument.layout import column_endings
-from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.workflow.after import saved_calibration
 from ragg_runtime.workflow.loaded import Loaded
 
 Array = NDArray[np.float64]
-
-CHANNELS = ("inline", "cross", "inline_std", "cross_std")
 
 
 @dataclass(frozen=True)
@@ -74,10 +66,8 @@ def online(
     saved = None if m.directory.calibration is None else saved_calibration(m)
     density = _density(m, saved) if noise is None else noise
     walk = following(density) if walk is None else walk
-    found = [
-        _flight(m, saved, without_gradients(x), Tuning(noise=density, walk=walk, forget=forget))
-        for x in flights
-    ]
+    asked = Tuning(noise=density, walk=walk, forget=forget)
+    found = [followed(m.model, m.instrument, x, saved, asked) for x in flights]
     series = [s for s, _ in found]
     _written(output, series)
     result = {
@@ -105,60 +95,6 @@ def _density(m: Loaded, saved: Saved | None) -> float:
             remedy="say it: --noise 2 (Eo/sqrt(Hz) of the cross channel), or calibrate first: ragg calibrate ... --save",
         )
     return left
-
-
-def _flight(
-    m: Loaded, saved: Saved | None, x: Flight, asked: Tuning
-) -> tuple[dict[str, Array], list[dict[str, Any]]]:
-    """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density."""
-    endings = column_endings(m.instrument.layout.output_names)
-    root = None if saved is None else information(saved, m.model, m.instrument)
-    columns: dict[str, Array] = {}
-    told = []
-    observed = observations_of([x], m.instrument)
-    for o in (observed[k] for k in seeing(m.instrument, observed)):
-        if o.recorded.demodulated:
-            raise UserError(
-                "the filter works on the output before demodulation",
-                where=x.path or x.name,
-                found="inline and cross",
-                expected=o.output.name,
-            )
-        p = vector(m.model, m.instrument) if saved is None else saved.p
-        volts = asked.noise / np.sqrt(2.0) * scale_factor(m.model, p, o.place) * np.sqrt(o.record.rate / 2)
-        f = Online(m.model, m.instrument, replace(asked, noise=float(volts)), p, root, o.place)
-        got = _fed(f, o)
-        columns["time"] = got.time + float(x.time[0])
-        end = endings[o.place]
-        columns |= {f"inline{end}": got.inline, f"cross{end}": got.cross}
-        columns |= {f"inline{end}_std": got.inline_std, f"cross{end}_std": got.cross_std}
-        told.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters(f)})
-    return columns, told
-
-
-def _fed(f: Online, o: Observation) -> Followed:
-    """A whole flight through the filter, in parts that fit into memory."""
-    n, parts = len(o.record.time), []
-    for first in range(0, n, ROWS):
-        some = slice(first, min(first + ROWS, n))
-        parts.append(f.feed(o.part(some)))
-        progress.step(float(some.stop - some.start))
-    return Followed(*(np.concatenate([getattr(x, n) for x in parts]) for n in ("time", *CHANNELS)))
-
-
-def _parameters(f: Online) -> list[dict[str, Any]]:
-    p, root = f.parameters()
-    std = np.linalg.norm(np.linalg.inv(root), axis=1) * f.scale
-    return [
-        {
-            "name": c.name,
-            "accelerometer": c.accelerometer,
-            "value": float(p[k] / c.unit_factor),
-            "std": float(s / c.unit_factor),
-            "unit": c.unit,
-        }
-        for c, k, s in zip(f.columns, f.index, std, strict=True)
-    ]
 
 
 def _written(output: Path | None, series: Sequence[Mapping[str, Array]]) -> None:

@@ -18,10 +18,10 @@ from ragg_runtime.model_dir.trust import OwnEffects, read_effects
 from ragg_runtime.model_dir.trust import forget as forget
 from ragg_runtime.model_dir.trust import is_trusted as is_trusted
 from ragg_runtime.model_dir.trust import trust as trust
-from ragg_runtime.workflow.loaded import Loaded
 
 if TYPE_CHECKING:
     from ragg_runtime.model_dir.publish import Checked
+    from ragg_runtime.workflow.loaded import Loaded
 
 
 def own_effects(model: Path) -> OwnEffects:

@@ -8,12 +8,13 @@ from datetime import UTC, datetime
 from types import MappingProxyType
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.edit_toml import add_effect
+from ragg_runtime.instrument.edit_toml import add_effect, set_parameters
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.settings import check_settings
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import replace_model_dir
+from ragg_runtime.model_dir.directory import load_model_dir, replace_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.workflow.loop import Loaded, load
 
@@ -24,6 +25,18 @@ def change(m: Loaded, text: str, action: str, effect: str = "") -> Loaded:
     step = Step(action, datetime.now(UTC).isoformat(timespec="seconds"), effect, text=text)
     directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
     return load(directory.path)
+
+
+def edited(
+    m: Loaded, values: Mapping[str, RawQuantity], sigmas: Mapping[str, tuple[float, ...] | None]
+) -> Loaded:
+    """Change values of the test sheet, and how sure it is of them (``None``: it does not say)."""
+    return change(m, set_parameters(m.directory.text, values, sigmas), "edit", ", ".join(values))
+
+
+def changed_by_others(m: Loaded) -> bool:
+    """Whether the directory holds another state than the one that was loaded."""
+    return load_model_dir(m.directory.path).digest != m.directory.digest
 
 
 def as_of(m: Loaded, text: str) -> Loaded:

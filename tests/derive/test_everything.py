@@ -25,7 +25,7 @@ def project(root: Path, version: str, code: str) -> Path:
 def derived(monkeypatch: pytest.MonkeyPatch) -> None:
     manifest = pipeline.manifest_text({"sympy": sympy.__version__, "digest": "1"})
     files = {"chain.py": "a + b\n", "manifest.json": manifest}
-    monkeypatch.setattr(everything, "folders", lambda: {"generated": files})
+    monkeypatch.setattr(everything, "folders", lambda **_: {"generated": files})
 
 
 def test_the_same_code_of_another_sympy_is_the_same(

@@ -28,6 +28,7 @@ from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.run import ordered
 from ragg_runtime.survey.table import check_place, parquet
 from ragg_runtime.survey.task import Job, Record, examine, job
 from ragg_runtime.workflow import loop
@@ -298,7 +299,9 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     flights: Flights, tmp_path: Path
 ) -> None:
     m = loop.load(flights[0])
-    kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a.parquet", "b.parquet"))
+    kept, one, two = (tmp_path / n for n in ("kept.jsonl", "a/line.parquet", "b/line.parquet"))
+    one.parent.mkdir()
+    two.parent.mkdir()
     one.write_bytes(flights[1][1].read_bytes())
     two.write_bytes(flights[1][2].read_bytes())
     first = loop.survey(m, [one, two], jobs=1, resume=kept)
@@ -309,7 +312,7 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
         seen.append(f"{done}/{total}" if record is None else record["flight"])
 
     second = loop.survey(m, [two, one, one], jobs=1, resume=kept, progress=note)
-    assert seen == ["1/2", "b.parquet"]
+    assert seen == ["1/2", "b/line.parquet"]
     assert second.records[0] == first.records[0]
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
@@ -387,6 +390,13 @@ def test_the_table_has_a_row_a_flight_and_the_figures_of_the_json(whole: Survey)
         assert row["found"] == r["found"]
         assert row["parameters"] == [{k: p[k] for k in row["parameters"][0]} for p in r["parameters"]]
         assert row["ranking"] == r["ranking"]
+
+
+def test_flights_come_in_the_order_of_the_names_that_they_are_given() -> None:
+    """Days in folders, each with the same lines: the days follow one another, and so does what drifts."""
+    days = [f"/s/day-{d}/line-{n}.csv" for d in (1, 0) for n in (1, 0)]
+    assert ordered([*days, days[0]]) == sorted(days)
+    assert ordered(["/s/b/1.csv", "/s/a/2.csv"]) == ["/s/b/1.csv", "/s/a/2.csv"]
 
 
 def test_few_flights_are_chance_many_are_not() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -86,8 +87,9 @@ def served(*arguments: object) -> Iterator[Served]:
         assert re.fullmatch(r"http://127\.0\.0\.1:\d+/\?token=[\w-]{40,}\n", line), process.stderr.read()
         yield Served(line.strip(), process)
     finally:
-        process.terminate()
-        process.wait(10)
+        if process.poll() is None:  # else a test has killed it
+            process.send_signal(signal.SIGINT)  # as a user ends it: no failure
+            assert process.wait(20) == 0, process.stderr.read()
         process.stdout.close()
         process.stderr.close()
 

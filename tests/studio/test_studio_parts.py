@@ -18,16 +18,15 @@ import pytest
 from serving import brief, foreign, new
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.diagnosis import foresee, heat
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import foresee
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import write_flight
+from ragg_runtime.flight.timeline import missing
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.lack_of_fit import heat
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import drawing, mapping, session, views
-from ragg_runtime.studio.branches import branches, tree
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
@@ -35,8 +34,8 @@ from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.session import Session
 from ragg_runtime.studio.surveys import flights_below
-from ragg_runtime.studio.timeline import missing
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.branches import branches, tree
 from ragg_runtime.workflow.simulate import simulated
 from tests.layouts import sheets
 

@@ -14,7 +14,8 @@ export function surveyView(main) {
   const begin = h("section.card"), said = h("section.card", { hidden: true });
   const errors = h("section.card.channels", { hidden: true }), drift = h("section.card.channels", { hidden: true }), list = h("section.card", { hidden: true });
   fill(main, begin, said, errors, drift, list);
-  let place = "", near = [], plots = [], shown = null, chosen = 0;
+  const nearby = h("p.path", { hidden: true });
+  let place = "", plots = [], shown = null, chosen = 0;
 
   const open = async (file) => {
     if (await doing("open", { model: null, flights: [file] })) look({ view: "loop", from: null, to: null, ticked: [], term: "", flight: 0 });
@@ -23,8 +24,10 @@ export function surveyView(main) {
     try {
       const found = await ask("folder", { place: folder });
       place = found.folder;
-      near = found.entries.filter((e) => e.kind === "folder").map((e) => e.path);
-      asking(server.state);
+      const field = begin.querySelector(".place"), near = found.entries.filter((e) => e.kind === "folder").map((e) => e.path);
+      if (field) field.value = place;
+      nearby.hidden = !near.length; // alone: a button that is being pressed stays where it is
+      fill(nearby, "or in ", near.map((p) => h("button.quiet", { type: "button", onclick: () => folders(p) }, p.split("/").at(-1))));
     } catch (error) {
       if (error instanceof Refused) trouble(error.facts);
     }
@@ -34,9 +37,9 @@ export function surveyView(main) {
     fill(begin, h("h2", {}, "Survey of flights"),
       h("p.note", {}, "Every flight of a folder, and of the folders in it, is calibrated and diagnosed by itself; then it is said what they tell together. What is done is kept: begun again it goes on where it was."),
       h("div.row.choices", {}, h("label", { for: "folder" }, "flights in"),
-        h("input.place", { id: "folder", type: "text", value: place, spellcheck: "false", onchange: (e) => (place = e.target.value) }),
+        h("input.place", { id: "folder", type: "text", value: place, spellcheck: "false", onchange: (e) => ((place = e.target.value.trim()), folders(place)) }),
         h("button.main", { type: "button", disabled: busy || !place, onclick: () => doing("survey", { folder: place }) }, "Survey")),
-      near.length ? h("p.path", {}, "or in ", near.map((p) => h("button.quiet", { type: "button", onclick: () => folders(p) }, p.split("/").at(-1)))) : null);
+      nearby);
   };
 
   const results = (x) => {

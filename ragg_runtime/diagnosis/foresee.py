@@ -13,16 +13,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.evidence.selection import Field
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.fitted import FITTED_BLOCKS, Fitted
 from ragg_runtime.fit.observation import as_output
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.segments import BLOCKS
+from ragg_runtime.fit.segments import BLOCKS, ROWS
 from ragg_runtime.fit.square_root import join, triangle
 
 Array = NDArray[np.float64]
+
+WIDEST = 8 * ROWS
+"""Most samples of a long flight for which the signature of an effect is computed while one waits."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +105,11 @@ class Foreseen:
         }
 
 
+def field(d: Diagnosis) -> Field:
+    """The testable effects, steps included, on the triangles of everything."""
+    return field_of(d.fitted, [r.effect for r in d.ranking])
+
+
 def columns_of(field: Field, effects: Sequence[str]) -> list[int]:
     """The testable candidate columns of some effects."""
     return [n for e in effects if e in field.candidates for n in field.testable(e)]
@@ -124,6 +134,21 @@ def foreseen(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str])
         chi2=chi2,
         rank=rank,
     )
+
+
+def rows_within(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
+    """Samples of which a signature is computed: of a long flight only segments that meet ``window`` (s); UserError if it is wide."""
+    r = f.prepared[flight].observation.record
+    n = len(r.time)
+    if n <= ROWS:
+        return slice(0, n)
+    a, b = (int(np.clip((t - r.time[0]) * r.rate, 0, n)) for t in window)
+    if b - a > WIDEST or b <= a:
+        raise UserError(
+            "the signature of an effect is drawn of a part of so long a flight",
+            remedy=f"zoom in to less than {WIDEST / r.rate:.0f} s",
+        )
+    return slice(ROWS * (a // ROWS), min(n, ROWS * -(-b // ROWS)))
 
 
 def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:

@@ -1,4 +1,4 @@
-"""The test sheet as the page shows and changes it: values of every accelerometer, and how sure the sheet is of them."""
+"""The test sheet as a table to look at and to change: values of every accelerometer, and how sure the sheet is of them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def shown(i: Instrument) -> Json:
 
 
 def asked(values: object) -> dict[str, Edit]:
-    """What the page sends: name -> value (as many numbers as accelerometers), unit, sigma."""
+    """What a page sends of it: name -> value (as many numbers as accelerometers), unit, sigma."""
     found: dict[str, Edit] = {}
     for name, given in values.items() if isinstance(values, dict) else ():
         own = given if isinstance(given, dict) else {}
