@@ -7,7 +7,6 @@ from the address that the command prints to what is drawn, the browser's new tab
 
 from __future__ import annotations
 
-import os
 import shutil
 import statistics
 import subprocess
@@ -121,38 +120,22 @@ def _row(name: str, values: list[float], unit: str, most: float, note: str = "")
     )
 
 
-def _processes() -> dict[int, tuple[int, str]]:
-    """Process -> (its parent, its command line), where the system shows them."""
-    found = {}
-    for place in Path("/proc").glob("[0-9]*"):
-        try:
-            parent = int(place.joinpath("stat").read_text().rpartition(")")[2].split()[1])
-            found[int(place.name)] = (parent, place.joinpath("cmdline").read_text().replace("\0", " "))
-        except OSError:
-            continue  # it has ended meanwhile
-    return found
-
-
 def _memory() -> tuple[float, float]:
     """MB that the largest page's process and all processes of the browser hold, what they share counted once."""
-    known = _processes()
+    import psutil
 
-    def below(process: int) -> bool:
-        while process in known and process != os.getpid():
-            process = known[process][0]
-        return process == os.getpid()
-
-    own = [(p, line) for p, (_, line) in known.items() if "chrom" in line and " -m " not in line and below(p)]
-    sizes = {}
-    for process, line in own:
+    pages, every = [], 0.0
+    for process in psutil.Process().children(recursive=True):
         try:
-            text = Path(f"/proc/{process}/smaps_rollup").read_text()
-        except OSError:
-            continue
-        share = next(int(row.split()[1]) for row in text.splitlines() if row.startswith("Pss:"))
-        sizes[process] = (share * 1024 / 1e6, "--type=renderer" in line)
-    pages = [mb for mb, renders in sizes.values() if renders]
-    return max(pages, default=float("nan")), sum(mb for mb, _ in sizes.values())
+            if "chrom" not in process.name():
+                continue
+            size = process.memory_full_info().pss / 1e6
+            if "--type=renderer" in process.cmdline():
+                pages.append(size)
+        except psutil.Error:
+            continue  # it has ended meanwhile
+        every += size
+    return max(pages, default=float("nan")), every
 
 
 def _frames(name: str, move: list[float], note: str) -> Row:

@@ -43,8 +43,9 @@ def calibrate(
     model_dir: Path, flights: Sequence[Path], save: bool, mapping: Path | None, json_file: str | None
 ) -> None:
     """Fit the model's parameters: values, how sure they are, what the record sees of them."""
-    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import after, loop
+    from ragg_runtime.workflow import origin as made_from
 
     m = load(model_dir)
     under_way(f"reading {len(flights)} flight(s)")
@@ -52,8 +53,8 @@ def calibrate(
     under_way("calibrating")
     with progress.shown("compare", sum(map(len, read))):
         kept = after.calibrate(m, read, save, mapping)
-    origin = terminal.origin(kept.loaded, read, command_line())
-    emit(kept.as_json() | origin, json_file, terminal_after.calibrated(kept, read))
+    origin = made_from.origin(kept.loaded, read, command_line())
+    emit(kept.as_json() | origin, json_file, terminal.calibrated(kept, read))
 
 
 @click.command(cls=Command)
@@ -86,8 +87,9 @@ def compensate(
     json_file: str | None,
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
-    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import after
+    from ragg_runtime.workflow import origin as made_from
 
     out = Path(output)
     after.check_output(out)
@@ -99,9 +101,9 @@ def compensate(
     with progress.shown("compare", sum(map(len, read))):
         c = after.compensate(m, read, calibration, demodulator, out)
     result = c.as_json()
-    notes = [*result.get("notes", ()), *odd, *terminal.notes(m, read)]
-    origin = terminal.origin(m, read, command_line()) | {"notes": notes}
-    emit(result | {"output": str(out)} | origin, json_file, terminal_after.compensated(c, out, read))
+    notes = [*result.get("notes", ()), *odd, *made_from.notes(m, read)]
+    origin = made_from.origin(m, read, command_line()) | {"notes": notes}
+    emit(result | {"output": str(out)} | origin, json_file, terminal.compensated(c, out, read))
 
 
 @click.command(cls=Command)
@@ -139,9 +141,10 @@ def online(
 
     Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
     """
-    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import after
     from ragg_runtime.workflow import online as _online
+    from ragg_runtime.workflow import origin as made_from
 
     out = Path(output)
     after.check_output(out)
@@ -152,8 +155,8 @@ def online(
     under_way("following")
     with progress.shown("compare", sum(map(len, read))):
         w = _online.online(m, read, noise, walk, forget or float("inf"), out)
-    origin = terminal.origin(m, read, command_line()) | {"notes": [*odd, *terminal.notes(m, read)]}
-    emit(w.as_json() | {"output": str(out)} | origin, json_file, terminal_after.watched(w, out, read))
+    origin = made_from.origin(m, read, command_line()) | {"notes": [*odd, *made_from.notes(m, read)]}
+    emit(w.as_json() | {"output": str(out)} | origin, json_file, terminal.watched(w, out, read))
 
 
 @click.command(cls=Command)
@@ -196,8 +199,10 @@ def compare_frozen(
     report_file: str | None,
 ) -> None:
     """``ragg compare --frozen``."""
-    from ragg_runtime.cli import terminal, terminal_after
+    from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import after, loop
+    from ragg_runtime.workflow import origin as made_from
 
     odd = _calibration_notes(m)
     under_way(f"reading {len(flights)} flight(s)")
@@ -213,11 +218,12 @@ def compare_frozen(
         return compare_html(h.comparison, **own | {"notes": [h.in_words(), *odd, *own["notes"]], "frozen": h})
 
     write_report(report_file, page)
-    origin = terminal.origin(m, read, command_line())
+    origin = made_from.origin(m, read, command_line())
+    then = [terminal.command(verb, m.directory.path, read, mapping) for verb in ("diagnose", "calibrate")]
     emit(
-        h.as_json() | origin | {"notes": [*odd, *terminal.notes(m, read)]},
+        h.as_json() | origin | {"notes": [*odd, *made_from.notes(m, read)]},
         json_file,
-        terminal_after.held(h, read, m.directory.path, mapping),
+        terminal.with_notes(in_words.held(h, [x.name for x in read], *then), read),
     )
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli import terminal
 from ragg_runtime.flight import write_flight
-from ragg_runtime.report import add_html, diagnose_html
+from ragg_runtime.report import add_html, diagnose_html, in_words
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
@@ -21,6 +21,10 @@ HIDDEN = "thermal-scale:dK1_dT=0/0/6e-8/0"
 def make_flight(path: Path) -> None:
     """Write the flight: twelve minutes with a temperature-dependent scale factor in A3."""
     write_flight(simulated(loop.example(), [HIDDEN], seed=2026, duration=720.0, rate=16.0), path)
+
+
+def _say(command: str) -> None:
+    print(f"\n\033[1m$ {command}\033[0m", flush=True)
 
 
 def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -> Path:
@@ -35,21 +39,20 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
         flight = output / "flight.parquet"
         make_flight(flight)
 
-    def say(text: str) -> None:
-        print(f"\n\033[1m$ {text}\033[0m", flush=True)
-
     model = output / "model"
-    say(f"ragg new {model}")
+    _say(f"ragg new {model}")
     m = loop.new(model)
     flights = loop.read_flights(m, [flight])
 
-    say(terminal.command("compare", model, flights))
+    check = terminal.command("diagnose", model, flights)
+    _say(terminal.command("compare", model, flights))
     before = loop.compare(m, flights)
-    print(terminal.compared(before, flights, model))
+    print(terminal.with_notes(in_words.compared(before, [x.name for x in flights], check), flights))
 
-    say(terminal.command("diagnose", model, flights))
+    _say(check)
     diagnosis = loop.diagnose(m, flights)
-    print(terminal.diagnosed(diagnosis, model, flights))
+    said = in_words.diagnosed(diagnosis, terminal.next_add(model, flights, None, diagnosis.found))
+    print(terminal.with_notes(said, flights))
     origin = loop.sources(m, flights)
     page = diagnose_html(diagnosis, title="Demonstration: diagnosis", command=command, sources=origin)
     (output / "diagnosis.html").write_text(page, "utf-8")
@@ -57,14 +60,14 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
         raise UserError("the demonstration did not find the hidden effect", found=diagnosis.verdict)
 
     for effect in diagnosis.found:
-        say(terminal.command("add", model, flights, effect=effect))
+        _say(terminal.command("add", model, flights, effect=effect))
         result = loop.add(m, effect, flights)
         print(terminal.added(result, flights))
         m = result.loaded
     assert result.before is not None
     assert result.after is not None
 
-    say(f"ragg history {model}")
+    _say(f"ragg history {model}")
     steps = [s.as_json() for s in m.directory.history]
     print(terminal.history(steps))
     page = add_html(

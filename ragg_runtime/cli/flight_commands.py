@@ -54,7 +54,9 @@ def compare(
 ) -> None:
     """How far is the model from the flight, and where does it fail?"""
     from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import origin as made_from
 
     m = load(model_dir)
     if frozen or calibration == "frozen":
@@ -75,9 +77,14 @@ def compare(
 
     write_report(report_file, page)
     emit(
-        c.as_json() | terminal.origin(m, read, command_line()),
+        c.as_json() | made_from.origin(m, read, command_line()),
         json_file,
-        terminal.compared(c, read, model_dir, mapping),
+        terminal.with_notes(
+            in_words.compared(
+                c, [x.name for x in read], terminal.command("diagnose", model_dir, read, mapping)
+            ),
+            read,
+        ),
     )
 
 
@@ -104,7 +111,9 @@ def diagnose(
 ) -> None:
     """Which physical effect is missing?"""
     from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import origin as made_from
 
     m = load(model_dir)
     under_way(f"reading {len(flights)} flight(s)")
@@ -121,9 +130,11 @@ def diagnose(
 
     write_report(report_file, page)
     emit(
-        d.as_json() | terminal.origin(m, read, command_line()),
+        d.as_json() | made_from.origin(m, read, command_line()),
         json_file,
-        terminal.diagnosed(d, model_dir, read, mapping),
+        terminal.with_notes(
+            in_words.diagnosed(d, terminal.next_add(model_dir, read, mapping, d.found)), read
+        ),
     )
 
 
@@ -221,6 +232,7 @@ def add(
     """Put an effect into the model, derive again, calibrate, show the error fall."""
     from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import origin as made_from
 
     m = load(model_dir)
     if report_file is not None and not flights:
@@ -244,7 +256,7 @@ def add(
 
         with telling():
             write_report(report_file, page)
-            origin = terminal.origin(result.loaded, read, command_line(), before=m)
+            origin = made_from.origin(result.loaded, read, command_line(), before=m)
             emit(result.as_json() | origin, json_file, terminal.added(result, read, mapping))
 
     with progress.shown("add", sum(map(len, read))):

@@ -97,8 +97,8 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 @json_option
 def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     """Take an effect out of the model."""
-    from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import origin as made_from
 
     before = load(model_dir)
 
@@ -106,7 +106,7 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
         left = [e.id for e in m.model.effects]
         with telling():
             emit(
-                {"effect": effect, "effects": left} | terminal.origin(m, (), command_line(), before=before),
+                {"effect": effect, "effects": left} | made_from.origin(m, (), command_line(), before=before),
                 json_file,
                 f"removed {effect}; effects left: {', '.join(left) or 'none'}",
             )

@@ -68,14 +68,14 @@ def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
 
 def about(m: Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
     """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
-    from ragg_runtime.cli import terminal
     from ragg_runtime.workflow import loop
+    from ragg_runtime.workflow import origin as made_from
 
     return {
         "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
         "command": command_line(),
         "sources": loop.sources(m, read),
-        "notes": terminal.notes(m, read),
+        "notes": made_from.notes(m, read),
     }
 
 

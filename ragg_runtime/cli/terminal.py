@@ -1,27 +1,19 @@
-"""Results in words, for the terminal."""
+"""Results in words, for the terminal, with the command that comes next."""
 
 from __future__ import annotations
 
-import math
 import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ragg_runtime.base.errors import one_line
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.parameters import ParameterValue
-from ragg_runtime.diagnosis.ranking import Ranked
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.score import Error, least
 from ragg_runtime.flight import Flight
+from ragg_runtime.report import in_words
 from ragg_runtime.wording import notebook
+from ragg_runtime.workflow.after import Compensation, Kept
 from ragg_runtime.workflow.loop import Added
-from ragg_runtime.workflow.origin import notes as notes
-from ragg_runtime.workflow.origin import origin as origin
+from ragg_runtime.workflow.online import Watched
 
 
 def command(
@@ -34,186 +26,14 @@ def command(
     return one_line(f"ragg {shlex.join(words)}{'' if files else ' FLIGHT'}")
 
 
-def _error(e: Error) -> str:
-    values = (
-        (e.rms_Eo, 12, 5),
-        (e.inline_Eo, 10, 4),
-        (e.cross_Eo, 10, 4),
-        (e.inline_Eo_per_rtHz, 12, 4),
-        (e.cross_Eo_per_rtHz, 12, 4),
-    )
-    return " ".join(f"{x:{w}.{d}g}" if np.isfinite(x) else f"{'-':>{w}}" for x, w, d in values)
+def next_add(model_dir: Path, flights: Sequence[Flight], mapping: Path | None, found: Sequence[str]) -> str:
+    """The command that adds the first effect that a diagnosis has found; nothing if it has found none."""
+    return command("add", model_dir, flights, mapping, found[0]) if found else ""
 
 
-def _missing(errors: Sequence[Error], flights: Sequence[Flight], f: Fitted) -> list[str]:
-    """Why some demodulated channels have no value, if any lack one."""
-    if all(np.isfinite((e.inline_Eo, e.cross_Eo)).all() for e in errors) or not flights:
-        return []
-    if not any(o.record.turning for o in f.observations):
-        return ["-: of a disc that stands still nothing is demodulated"]
-    longest = max(least(x.rate) for x in flights)
-    return [
-        f"-: the demodulator's low-pass needs {longest:.3g} s without a gap or a sample left out; "
-        "there is no such stretch"
-    ]
-
-
-def _not_converged(complaint: str | None) -> list[str]:
-    return [] if complaint is None else [f"NOT CONVERGED: {complaint}"]
-
-
-_SAID = 3
-"""Most parameters beyond their sheet that are named."""
-
-
-def _off_sheet(result: Comparison | Diagnosis) -> list[str]:
-    found = result.off_sheet
-    more = [f"and {len(found) - _SAID} more"] if len(found) > _SAID else []
-    said = [*(x.in_words() for x in found[:_SAID]), *more]
-    return [f"note: {'; '.join(said)}"] if said else []
-
-
-_HEAD = f"{'':12} {'rms Eo':>12} {'inline Eo':>10} {'cross Eo':>10} {'in Eo/rtHz':>12} {'cr Eo/rtHz':>12}"
-
-
-def errors_table(
-    rows: Sequence[tuple[str, Error]], noise: float, flights: Sequence[Flight], f: Fitted
-) -> list[str]:
-    """Errors, the first before anything was done, above the noise floor; why some have no value."""
-    return [
-        _HEAD,
-        *(f"{label:12} {_error(e)}" for label, e in rows),
-        f"{'noise floor':12} {noise:12.5g}",
-        *_missing([e for _, e in rows[1:]], flights, f),
-    ]
-
-
-def ladder(c: Comparison) -> list[str]:
-    """What each simplification of the model is worth, one line per form, if that was asked for."""
-    if not c.ladder:
-        return []
-    names = [r.form.in_short() for r in c.ladder]
-    width = max(map(len, names))
-    lines = [
-        "",
-        "what simplifications cost, Eo (step: what a form changes in the prediction of the one before it):",
-        f"{'':{width}} {'nominal':>10} {'calibrated':>10} {'step':>10} {'inline':>10} {'cross':>10}",
-    ]
-    for name, r in zip(names, c.ladder, strict=True):
-        step = "" if r.step is None else _columns((r.step.rms_Eo, r.step.inline_Eo, r.step.cross_Eo))
-        here = "  <- model.toml" if r.form == c.fitted.instrument.form else ""
-        lines.append(f"{name:{width}} {_columns((r.nominal.rms_Eo, r.calibrated.rms_Eo))} {step}{here}")
-    return lines
-
-
-def _columns(values: Sequence[float]) -> str:
-    return " ".join(f"{x:10.4g}" if np.isfinite(x) else f"{'-':>10}" for x in values)
-
-
-def compared(
-    c: Comparison,
-    flights: Sequence[Flight],
-    model_dir: Path,
-    mapping: Path | None = None,
-    rows: Sequence[tuple[str, Error]] = (),
-    *,
-    judged: bool = True,
-) -> str:
-    """The result of ``compare``; other ``rows`` of errors than the usual where nothing was fitted.
-
-    Not ``judged``: that there is an error says nothing of the model, since its parameters are others now.
-    """
-    f = c.fitted
-    lines = [
-        f"{', '.join(x.name for x in flights)}: {f.calibration.rows} samples, effects in the model: "
-        f"{', '.join(e.id for e in f.model.effects) or 'none'}",
-        *errors_table(
-            rows or (("nominal", c.nominal), ("calibrated", c.calibrated), ("held out", c.holdout)),
-            c.noise_floor,
-            flights,
-            f,
-        ),
-        "",
-        *_not_converged(c.complaint),
-        *([] if c.remark is None else [f"note: {c.remark}"]),
-        *([notebook.ADEQUATE if c.adequate else notebook.NOT_ADEQUATE] if judged else []),
-        *ladder(c),
-        *_off_sheet(c),
-    ]
-    where: Any = c.as_json()["where"]
-    if where["motion"]:
-        lines.append("\nwhere it fails (harmonic x motion term, share of the residual's power):")
-        lines += [
-            f"  {t['harmonic']:6} {t['term']:28} {100 * t['share']:6.1f} %   {t['z']:+8.1f} sigma"
-            for t in where["motion"]
-        ]
-    if judged and not c.adequate:
-        lines += ["", f"next: {command('diagnose', model_dir, flights, mapping)}"]
-    lines += [f"note: {note}" for x in flights for note in x.notes]
-    return "\n".join(lines)
-
-
-def _ranked(r: Ranked) -> str:
-    p = notebook.p_value(r.log_p / math.log(10.0), r.p_value)
-    errors = " ".join(f"{e.rms_Eo:10.4g}" for e in (r.before, r.after, r.after_holdout))
-    return f"  {r.effect:28} {p:>8} {r.delta_bic:12.1f} {errors}"
-
-
-def _parameters(parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]) -> list[str]:
-    lines = [f"  {notebook.parameter(q.as_json())}" for q in parameters]
-    if combinations:
-        lines.append("  of which the record knows best:")
-        lines += [f"  {notebook.parameter(q.as_json())}" for q in combinations]
-    return lines
-
-
-def diagnosed(
-    d: Diagnosis, model_dir: Path, flights: Sequence[Flight] = (), mapping: Path | None = None
-) -> str:
-    """The result of ``diagnose``."""
-    lines = [
-        notebook.verdict(d.verdict, d.found, [g.as_json() for g in d.groups]),
-        *_not_converged(d.complaint),
-        *([] if d.remark is None else [f"note: {d.remark}"]),
-        f"error {d.before.rms_Eo:.4g} Eo -> {d.after.rms_Eo:.4g} Eo rms, noise floor {d.noise_floor:.4g} Eo",
-        "",
-        f"  {'effect':28} {'p-value':>8} {'delta BIC':>12} {'before':>10} {'after':>10} {'held out':>10} Eo",
-    ]
-    lines += [_ranked(r) for r in d.ranking[:8]]
-    for r in d.ranking:
-        if r.effect in d.found:
-            lines.append("")
-            lines += _parameters(r.parameters, r.combinations)
-            if r.indistinguishable_from:
-                lines.append(f"  this record cannot tell it from: {', '.join(r.indistinguishable_from)}")
-    if d.verdict == "unexplained":
-        terms: Any = d.as_json()["unexplained"]
-        lines.append("\n  what is left (harmonic x motion term):")
-        for t in terms["terms"]:
-            lines.append(
-                f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
-                f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
-            )
-        if d.expression():
-            lines += [
-                "\n  to keep it as an effect of your own, put this into `effects` of model.toml:",
-                f"  {d.expression()}",
-            ]
-        if d.needs():
-            lines.append(f"  and this into the flight: {'; '.join(d.needs())}")
-    if d.change is not None:
-        lines.append(f"\n  the model holds until {d.change.until:.6g} s of {d.change.flight}, not beyond")
-    if d.next_motion:
-        lines.append("\n  next motion:")
-        lines += [f"  {p.in_words()}" for p in d.next_motion]
-    if d.not_testable:
-        lines.append("\n  not testable on this record:")
-        lines += [f"  {n.effect:28} {n.why}" for n in d.not_testable]
-    if d.found and d.verdict == "missing-effect":
-        lines += ["", f"next: {command('add', model_dir, flights, mapping, d.found[0])}"]
-    lines += _off_sheet(d)
-    lines += [f"note: {note}" for x in flights for note in x.notes]
-    return "\n".join(lines)
+def with_notes(text: str, flights: Sequence[Flight]) -> str:
+    """A result, and below it what the reader did to the flights."""
+    return "\n".join([text, *(f"note: {note}" for x in flights for note in x.notes)])
 
 
 def added(a: Added, flights: Sequence[Flight] = (), mapping: Path | None = None) -> str:
@@ -223,17 +43,16 @@ def added(a: Added, flights: Sequence[Flight] = (), mapping: Path | None = None)
     if a.before is not None and a.after is not None:
         rows = (("before", a.before.calibrated), ("after", a.after.calibrated), ("held out", a.after.holdout))
         lines += [
-            *errors_table(rows, a.after.noise_floor, flights, a.after.fitted),
+            *in_words.errors_table(rows, a.after.noise_floor, a.after.fitted),
             "",
-            *_not_converged(a.after.complaint),
+            *in_words.not_converged(a.after.complaint),
             notebook.NOW_ADEQUATE if a.after.adequate else notebook.STILL_MISSING,
-            *_off_sheet(a.after),
+            *in_words.off_sheet(a.after),
         ]
-        lines += _parameters(a.parameters, a.combinations)
+        lines += in_words.parameters(a.parameters, a.combinations)
         if a.converged and not a.after.adequate:
             lines += ["", f"next: {command('diagnose', a.loaded.directory.path, flights, mapping)}"]
-    lines += [f"note: {note}" for x in flights for note in x.notes]
-    return "\n".join(lines)
+    return with_notes("\n".join(lines), flights)
 
 
 def history(steps: Sequence[Mapping[str, Any]]) -> str:
@@ -246,3 +65,85 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
             values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
         lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
     return "\n".join(lines)
+
+
+def calibrated(k: Kept, flights: Sequence[Flight]) -> str:
+    """The result of ``calibrate``."""
+    c = k.calibrated
+    seen, of = c.directions
+    found: dict[str, Any] = k.as_json()
+    floor = found["noise_floor"]["rms_Eo"]
+    rows = (("nominal", c.nominal), ("calibrated", c.error), ("held out", c.holdout))
+    lines = [
+        f"{', '.join(x.name for x in flights)}: {c.fitted.calibration.rows} samples, effects in the model: "
+        f"{', '.join(found['effects']) or 'none'}",
+        *in_words.errors_table(rows, floor, c.fitted),
+        "" if c.converged else "\nThe fit has NOT converged: do not rely on these values.",
+        f"the record determines {seen} of {of} directions of the parameters; the sheet alone says the others:",
+        *(f"  {notebook.parameter({'accelerometer': None, **q})}" for q in found["combinations"]),
+    ]
+    if found["drift"]:
+        lines.append("\neach flight alone:")
+        lines += [
+            f"  {q['flight']:28} {q['name']} = {q['value']:.4g} +- {q['std']:.2g} {q['unit']}"
+            for q in found["drift"]
+        ]
+    if k.saved:
+        d = k.loaded.directory.path
+        use = f"{command('compensate', d, flights)} -o compensated.csv --calibration frozen"
+        lines += ["", f"kept in {d}; use it with: {use}"]
+    return with_notes("\n".join(lines), flights)
+
+
+def watched(w: Watched, output: Path, flights: Sequence[Flight]) -> str:
+    """The result of ``online``."""
+    r = w.as_json()
+    within = r["follows_within_s"]
+    lines = [
+        f"{output}: sample by sample from the {r['started']}, noise {r['noise_Eo_per_rtHz']:.3g} Eo/sqrt(Hz)",
+        f"the gradient wanders by {r['walk_Eo_per_rts']:.3g} Eo/sqrt(s)"
+        + ("" if within is None else f" and is followed within {within:.3g} s")
+        + "; the parameters "
+        + ("forget nothing" if r["forget_s"] is None else f"forget within {r['forget_s']:.3g} s"),
+    ]
+    lines += [f"{x['flight']}: {x['samples']} samples" for x in r["flights"]]
+    return with_notes("\n".join(lines), flights)
+
+
+CONTRIBUTIONS = 8
+"""Contributions that are listed, the largest."""
+
+
+def compensated(c: Compensation, output: Path, flights: Sequence[Flight]) -> str:
+    """The result of ``compensate``."""
+    r = c.as_json()
+    d = r["demodulator"]
+    lag = f", {d['latency_s']:.3g} s late" if d["latency_s"] else ""
+    lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
+    if not r["converged"]:
+        lines.append("The calibration has NOT converged: do not rely on these values.")
+    lines += [f"note: {text}" for text in r.get("notes", ())]
+    for x in r["flights"]:
+        lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
+        lines.append(
+            f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
+        )
+        for channel in ("inline", "cross"):
+            numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
+            sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+            a, b, n, s, p = (notebook.number(v) for v in (*numbers, *sizes))
+            lines.append(f"  {channel:8} {a:>12} {b:>10} {n:>10} {'':9} {s:>10} {p:>10}")
+        lines.append("  removed (rms inline, cross, Eo):")
+        lines += [
+            f"    {q['of']:28} {q['inline_Eo']:10.4g} {q['cross_Eo']:10.4g}"
+            for q in x["contributions"][:CONTRIBUTIONS]
+        ]
+        counts = [f"{name} {n}" for name, n in x["quality"].items() if n]
+        if counts:
+            lines.append(f"  quality: {', '.join(counts)} samples")
+    return with_notes("\n".join(lines), flights)
+
+
+def _output(x: Mapping[str, Any], r: Mapping[str, Any]) -> str:
+    """Which output it is, if there are several."""
+    return f": {x['output']}" if len({y["output"] for y in r["flights"]}) > 1 else ""

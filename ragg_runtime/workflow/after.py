@@ -19,7 +19,6 @@ from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
 from ragg_runtime.compensation.compensate import (
-    KINDS,
     Compensated,
     Kind,
     meaning,
@@ -166,8 +165,6 @@ def compensate(
     output
         A file for the series; without one they are in the result.
     """
-    if calibration not in KINDS:
-        raise UserError("there is no such calibration", found=repr(calibration), expected=", ".join(KINDS))
     saved = saved_calibration(m) if calibration == "frozen" else None
     if saved is None:
         distinct(flights)

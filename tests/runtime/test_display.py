@@ -18,6 +18,7 @@ import pytest
 
 from examples import first_notebook
 from ragg_runtime.cli import terminal
+from ragg_runtime.report import in_words
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow import loop
@@ -72,8 +73,8 @@ def shown(x: Any) -> str:
 
 def test_a_notebook_shows_what_the_terminal_says(result: Result) -> None:
     for x, said in (
-        (result.before, terminal.compared(result.before, result.flights, Path("m"))),
-        (result.diagnosis, terminal.diagnosed(result.diagnosis, Path("m"))),
+        (result.before, in_words.compared(result.before, ["m"], "next")),
+        (result.diagnosis, in_words.diagnosed(result.diagnosis, "next")),
         (result.step, terminal.added(result.step)),
     ):
         text = shown(x)
