@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate
 
-from ragg_runtime.base.threads import stretches
+from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import orthonormal
 from ragg_runtime.model.record import GRADIENTS, quantities_of
@@ -128,13 +128,14 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
     valid = np.array(r.valid[rows])
     rank = np.concatenate([[0], np.cumsum(valid)])
     count = max(1, round((rows.stop - rows.start) / (WINDOW_SECONDS * r.rate)))
-    edges = np.linspace(rows.start, rows.stop, count + 1).astype(np.intp)
-    found = []
-    for a, b in pairwise(edges):
+    edges = [int(k) for k in np.linspace(rows.start, rows.stop, count + 1)]
+
+    def window(ends: tuple[int, int]) -> Window | None:
+        a, b = ends
         lead = int(min(a, LEAD_SECONDS * r.rate, max(len(t) for t in filters) - 1))
         here = np.array(r.valid[a - lead : b])
         if np.sum(here[lead:]) < 2:
-            continue
+            return None
         X = splines(*r.carried(slice(a - lead, b))) * here
         inside = here[lead:]
         shares = _shares(o, X)
@@ -147,9 +148,10 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         ]
         first, last = int(rank[a - rows.start]), int(rank[b - rows.start])
         places = np.concatenate([np.arange(first, last) + m * int(rank[-1]) for m in range(len(filters))])
-        samples = slice(int(a) - rows.start, int(b) - rows.start)
-        found.append(Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1))))
-    return found
+        samples = slice(a - rows.start, b - rows.start)
+        return Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1)))
+
+    return [w for w in mapped(window, list(pairwise(edges))) if w is not None]
 
 
 def _shares(o: Observation, X: Array) -> list[Array]:
@@ -172,13 +174,17 @@ def _shares(o: Observation, X: Array) -> list[Array]:
 
 def project(columns: Floats, found: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
-    for w in found:
+
+    def project_out(w: Window) -> None:
         Q = w.white.astype(columns.dtype, copy=False)
         for some in stretches(len(columns), TOGETHER):
             part = columns[some, w.rows]
             part -= np.matmul(np.matmul(part, Q), Q.T)
             if not isinstance(w.rows, slice):  # then ``part`` is a copy
                 columns[some, w.rows] = part
+
+    for _ in mapped(project_out, found) if found else ():
+        pass
 
 
 def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:

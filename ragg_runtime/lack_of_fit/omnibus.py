@@ -178,8 +178,9 @@ class Scores:
     ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
         """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
         terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
+        singles = right.astype(np.float32)
         for at, x, X in d.whitened(terms[:slow]):
-            yield at, x, products(X, right), squares(X), X
+            yield at, x, products(X, singles), squares(X), X
         if slow is not None:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
                 yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
