@@ -1025,6 +1025,12 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[161][i] = bar_i_vibration_rectification*(x254 + x256 + x257 + x259 + x260 + x262 + x263 + x264 + x265); /* vibration-rectification.P_yz */
         rows[162][i] = bar_i_vibration_rectification*(x266 + x267 + x268 + x269 + x270 + x271); /* vibration-rectification.P_zz */
     }
+    if (n == 1) { /* the copy of a row would be a call */
+        for (size_t k = 0; k < ROWS; ++k) {
+            out_D[k * stride] = rows[k][0];
+        }
+        return;
+    }
     for (size_t k = 0; k < ROWS; ++k) {
         for (size_t i = 0; i < n; ++i) {
             out_D[k * stride + i] = rows[k][i];

@@ -1,4 +1,4 @@
 """The command line, ``ragg``: commands, terminal texts, the demonstration.
 
-Imports ``base``, ``flight``, ``report``, ``survey``, ``wording`` and ``workflow``.
+Imports ``base``, ``flight``, ``report``, ``survey`` and ``workflow``.
 """

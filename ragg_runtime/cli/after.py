@@ -88,6 +88,7 @@ def compensate(
 ) -> None:
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import after
     from ragg_runtime.workflow import origin as made_from
 
@@ -103,7 +104,11 @@ def compensate(
     result = c.as_json()
     notes = [*result.get("notes", ()), *odd, *made_from.notes(m, read)]
     origin = made_from.origin(m, read, command_line()) | {"notes": notes}
-    emit(result | {"output": str(out)} | origin, json_file, terminal.compensated(c, out, read))
+    emit(
+        result | {"output": str(out)} | origin,
+        json_file,
+        terminal.with_notes(in_words.compensated(result, out), read),
+    )
 
 
 @click.command(cls=Command)
@@ -142,6 +147,7 @@ def online(
     Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
     """
     from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import after
     from ragg_runtime.workflow import online as _online
     from ragg_runtime.workflow import origin as made_from
@@ -156,7 +162,11 @@ def online(
     with progress.shown("compare", sum(map(len, read))):
         w = _online.online(m, read, noise, walk, forget or float("inf"), out)
     origin = made_from.origin(m, read, command_line()) | {"notes": [*odd, *made_from.notes(m, read)]}
-    emit(w.as_json() | {"output": str(out)} | origin, json_file, terminal.watched(w, out, read))
+    emit(
+        w.as_json() | {"output": str(out)} | origin,
+        json_file,
+        terminal.with_notes(in_words.watched(w.as_json(), out), read),
+    )
 
 
 @click.command(cls=Command)

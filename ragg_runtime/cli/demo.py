@@ -69,7 +69,7 @@ def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -
 
     _say(f"ragg history {model}")
     steps = [s.as_json() for s in m.directory.history]
-    print(terminal.history(steps))
+    print(in_words.history(steps))
     page = add_html(
         steps,
         result.before,

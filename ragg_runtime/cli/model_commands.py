@@ -168,12 +168,12 @@ def build(model_dir: Path | None) -> None:
 @json_option
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
-    from ragg_runtime.cli import terminal
+    from ragg_runtime.report import in_words
     from ragg_runtime.workflow import upkeep
 
     h = upkeep.history(model_dir, command_line())
     say_notes(model_dir, h.notes)
-    emit({"steps": h.steps, "provenance": h.provenance}, json_file, terminal.history(h.steps))
+    emit({"steps": h.steps, "provenance": h.provenance}, json_file, in_words.history(h.steps))
 
 
 @click.command(cls=Command)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.explained import Explained
+from ragg_runtime.diagnosis.vertical_force import misrecorded
 from ragg_runtime.fit.fitted import Fitted, estimated
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.prepared_flight import PreparedFlight
@@ -39,7 +40,7 @@ SIDELOBES = ("kaiser", 30.0)
 
 def spoiled(f: Fitted, e: Explained) -> str | None:
     """Why a fit confirms neither the model nor an effect, in words; ``None`` if nothing speaks against it."""
-    return e.complaint or thinned(f)
+    return e.complaint or misrecorded(f) or thinned(f)
 
 
 def too_loud(f: Fitted) -> str | None:

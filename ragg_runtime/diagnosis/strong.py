@@ -82,10 +82,10 @@ class Stage:
     choice: Choice
 
     @staticmethod
-    def of(f: Fitted, beside: Sequence[Taken] = ()) -> Stage:
-        """``beside``: effects that were taken into the model before."""
+    def of(f: Fitted, least: Mapping[str, float] | None = None) -> Stage:
+        """``least``, once effects were taken into the model: chi-square that these may leave of others like them."""
         field, fitted, instants = with_steps(f)
-        choice = selection.choose(field, beside=bool(beside), least=_may_be_left(beside))
+        choice = selection.choose(field, beside=least is not None, least=least or {})
         return Stage(field, fitted, instants, choice)
 
     @property
@@ -153,7 +153,7 @@ def _followed(
         found.append(_in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend))
         begin = ()
         found = _needed(found, first.fitted, extend)
-        stage = Stage.of(found[-1].after, found)
+        stage = Stage.of(found[-1].after, _may_be_left(found, first))
     return found, stage
 
 
@@ -206,13 +206,15 @@ def _others(field: Field, effect: str, which: Sequence[int]) -> list[str]:
     return [c.label for n, c in field.candidates[effect] if n not in which]
 
 
-def _may_be_left(strong: Sequence[Taken]) -> dict[str, float]:
+def _may_be_left(strong: Sequence[Taken], first: Stage) -> dict[str, float]:
     """Chi-square of effects that are like strong ones that may be what is left of these."""
     least: dict[str, float] = {}
     for t in strong:
-        for e, own in t.stage.choice.tests.items():
-            if own.chi2 > LIKE * t.test.chi2:
-                least[e] = max(least.get(e, 0.0), TRUNCATED**2 * t.test.chi2)
+        for alone in (first.choice.tests, t.stage.choice.tests):
+            whole = alone[t.effect].chi2
+            for e, own in alone.items():
+                if own.chi2 > LIKE * whole:
+                    least[e] = max(least.get(e, 0.0), TRUNCATED**2 * whole)
     return least
 
 

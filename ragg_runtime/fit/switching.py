@@ -44,7 +44,7 @@ def _certain(model: Model, instrument: Instrument, o: Observation) -> Observatio
         valid[s.rows] &= ~_open(model, instrument, o.part(s.rows))
     if np.sum(valid) < (1.0 - MOST) * np.sum(o.record.valid):
         return o
-    return replace(o, record=replace(o.record, valid=valid))
+    return replace(o, record=replace(o.record, valid=valid), memo=[])
 
 
 def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import glob
 import os
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -313,18 +314,32 @@ def flight_name(path: Path) -> str:
 
 
 def _parts(names: Sequence[str], batches: Iterable[Batch], rows: int) -> Iterator[Batch]:
-    waiting: list[Batch] = []
+    waiting: deque[Batch] = deque()
     count = 0
     for batch in batches:
         waiting.append(batch)
         count += len(batch["time"])
         # The last part must not be too short to stand alone: one more than a full part stays in hand.
         while count >= 2 * rows:
-            joined = {n: np.concatenate([b[n] for b in waiting]) for n in names}
-            yield {n: v[:rows] for n, v in joined.items()}
-            waiting = [{n: v[rows:] for n, v in joined.items()}]
+            yield _taken(names, waiting, rows)
             count -= rows
     yield {n: np.concatenate([np.empty(0), *(b[n] for b in waiting)]) for n in names}
+
+
+def _taken(names: Sequence[str], waiting: deque[Batch], rows: int) -> Batch:
+    """The first rows of those that wait, out of them; copied only where they are of several batches."""
+    found: list[Batch] = []
+    while rows:
+        first = waiting.popleft()
+        size = len(first["time"])
+        if size > rows:
+            waiting.appendleft({n: v[rows:] for n, v in first.items()})
+            first, size = {n: v[:rows] for n, v in first.items()}, rows
+        found.append(first)
+        rows -= size
+    if len(found) == 1:
+        return found[0]
+    return {n: np.concatenate([b[n] for b in found]) for n in names}
 
 
 def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[tuple[Column, Array]]:

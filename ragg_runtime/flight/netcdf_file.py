@@ -34,9 +34,10 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
                 "the column 'time' is missing", where=path, found=", ".join(map(str, data.variables))
             )
         dimensions = data.variables["time" if "time" in data.variables else next(iter(data.variables))].dims
-        for number, (name, variable) in enumerate(data.variables.items(), 1):
+        for number, name in enumerate(_in_the_files_order(path, data), 1):
             if not look.wants(str(name)):
                 continue
+            variable = data.variables[name]
             _check(path, str(name), variable, dimensions)
             unit = variable.attrs.get("units")
             if name == "time" and isinstance(unit, str):
@@ -91,6 +92,15 @@ def _check(path: Path, name: str, variable: Any, dimensions: Any) -> None:
         )
     if variable.dtype.kind not in "fiu":
         raise UserError("the variable does not hold numbers", where=place, found=variable.dtype)
+
+
+def _in_the_files_order(path: Path, data: Any) -> list[Any]:
+    """Names of the variables as they stand in the file; xarray puts the one of the dimension last."""
+    import h5netcdf  # slow to import, and only this format needs it
+
+    with h5netcdf.File(path, "r") as file:
+        places = {str(name): k for k, name in enumerate(file.variables)}
+    return sorted(data.variables, key=lambda name: places.get(str(name), len(places)))
 
 
 def _lines(data: Any) -> list[str]:

@@ -1,7 +1,7 @@
 """How inline and cross were made of an output before they were recorded: ``[demodulator]`` of model.toml or of a mapping.
 
 [demodulator]
-kind = "butterworth"   # fir: ours; butterworth: forward and backward; causal: forward alone; average: a moving average
+kind = "butterworth"   # fir: ours; butterworth: forward and backward; causal: forward alone; average: a moving average; none
 cutoff = "0.18 Hz"     # fir: half amplitude; butterworth, causal: half power of one pass
 order = 6              # of butterworth, in each direction, and of causal
 length = "4 s"         # of average, about the sample
@@ -24,6 +24,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "causal": ("cutoff", "order"),
     "average": ("length",),
     "causal average": ("length",),
+    "none": (),
 }
 """Each kind of low-pass, and the keys that it needs (``cutoff`` of fir may be left out)."""
 
@@ -59,6 +60,7 @@ class Demodulation:
         """In half a sentence."""
         size = f"{self.length:.3g} s" if self.length is not None else ""
         text = {
+            "none": "no low-pass at all (the output times its carriers)",
             "fir": "the linear-phase low-pass of this program",
             "butterworth": f"a Butterworth low-pass, forward and backward, of order {self.order}",
             "causal": f"a causal Butterworth low-pass of order {self.order}",

@@ -36,6 +36,8 @@ def built(d: Demodulation, rate: float) -> Demodulator:
 
 
 def _at(d: Demodulation, rate: float) -> Demodulator:
+    if d.kind == "none":
+        return demodulators.none(rate)
     if d.kind == "fir" or (d.cutoff is None and d.length is None):
         return demodulators.fir(rate, CUTOFF if d.cutoff is None else d.cutoff)
     if d.length is not None:

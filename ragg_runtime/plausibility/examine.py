@@ -19,6 +19,7 @@ from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
+from ragg_runtime.plausibility.filled_in import without_filling
 from ragg_runtime.plausibility.identify import LikelyMistake, derived_rates, likely_mistake
 from ragg_runtime.plausibility.quick_fit import explain
 from ragg_runtime.plausibility.spikes import glitches, note_of, spikes
@@ -41,9 +42,10 @@ def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
         If the flight cannot be held against the model: it is too short, too slow, lacks a channel, or holds
         a mistake of units, signs, axes, order or spin rate, which the message names.
     """
+    flight, notes = without_filling(flight)
     checks.require(model, instrument, flight)
     flight = _without_motion_spikes(flight)
-    notes = checks.remarks(instrument, flight)
+    notes += checks.remarks(instrument, flight)
     places = [k for k in range(len(instrument.layout.outputs)) if recorded(flight, instrument.layout, k)]
     p = picker(flight, instrument, tuple(model.chain.INPUTS), places[0])
     if not p.usable.any():

@@ -116,12 +116,14 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
     if not p.recorded.demodulated or (found is not None and found.factor > BETTER):
         return found
     made = other_demodulator.best(model, instrument, p)  # takes a while: if nothing else would do
-    return found if made is None else _chosen(before, [*tried, _otherwise(made)])
+    return _chosen(before, [*tried, _otherwise(made)])
 
 
 def _otherwise(made: other_demodulator.Made) -> _Tried:
     return _Tried(
-        what=f"inline and cross were made by another demodulator, such as {made.how.words()}",
+        what=f"inline and cross were made by another demodulator, such as {made.how.words()}"
+        if made.how.kind != "none"
+        else f"inline and cross have passed {made.how.words()}",
         remedy=(
             f"if that is so, say it in model.toml or in a mapping: [demodulator] {made.how.toml()};"
             " else record G_out itself"

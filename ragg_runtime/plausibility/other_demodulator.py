@@ -13,8 +13,8 @@ from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.model import Model
-from ragg_runtime.plausibility.quick_fit import Explained, explain
-from ragg_runtime.plausibility.subsample import Picker, Rows
+from ragg_runtime.plausibility.quick_fit import Explained, low_passes
+from ragg_runtime.plausibility.subsample import Picker
 
 Array = NDArray[np.float64]
 Family = Callable[[float], Demodulation]
@@ -26,7 +26,7 @@ CORNERS = (0.02, 0.04, 0.07, 0.12, 0.2, 0.35)
 ORDERS = (1, 2, 3, 4, 6, 8)
 """Of causal Butterworth filters."""
 
-BOTH_WAYS = (1, 2, 4)
+BOTH_WAYS = (1, 2, 3, 4, 6, 8)
 """Of those that go forward and backward, in each direction."""
 
 THINNED = (2, 4, 8, 16)
@@ -35,8 +35,10 @@ THINNED = (2, 4, 8, 16)
 FLAT = 0.443
 """Half-power frequency of a moving average times its length."""
 
-FINE = 1e-4
-"""Relative precision of a corner that is searched for."""
+ROUGH, FINE = 1e-2, 1e-4
+"""Relative precision of a corner that is searched for: of each kind of low-pass, and of the best ``PROMISING`` of them."""
+
+PROMISING = 6
 
 
 @dataclass(frozen=True)
@@ -62,20 +64,28 @@ def _families() -> Iterator[Family]:
 FAMILIES: tuple[Family, ...] = tuple(_families())
 
 
-def best(model: Model, instrument: Instrument, p: Picker) -> Made | None:
+def best(model: Model, instrument: Instrument, p: Picker) -> Made:
     """The low-pass, of those that people use, with which the model leaves least of inline and cross."""
-    rate, rows = p.flight.rate, p.pick(p.rows())
+    rate = p.flight.rate
+    explained = low_passes(model, instrument, p.pick(p.rows()))
     corners = np.array([f for f in CORNERS if f < rate / 4])
 
     def left(how: Demodulation) -> Explained:
-        return explain(model, instrument, _through(rows, how, rate, len(p.taps) // 2))
+        if how.cutoff is not None and how.cutoff > HIGHEST * (how.rate or rate):
+            how = replace(how, cutoff=HIGHEST * (how.rate or rate))
+        return explained(_taps(how, rate, len(p.taps) // 2))
 
+    unfiltered = Made(NO_LOW_PASS, left(NO_LOW_PASS))
     found = []
     for family in FAMILIES:
         k = int(np.argmin([left(family(float(f))).share for f in corners]))
-        found.append(_refined(family, left, corners[[max(k - 1, 0), min(k + 1, len(corners) - 1)]]))
+        between = corners[[max(k - 1, 0), min(k + 1, len(corners) - 1)]]
+        found.append(_refined(family, left, between, ROUGH))
     if not found:
-        return None
+        return unfiltered
+    found.sort(key=lambda m: m[1].left.share)
+    about = np.array([1 / NEAR, NEAR])
+    found = [_refined(family, left, _corner(made.how) * about, FINE) for family, made in found[:PROMISING]]
     found.sort(key=lambda m: m[1].left.share)
     family, made = found[0]
     for near, there in found[:LATE_TRIED]:
@@ -85,11 +95,16 @@ def best(model: Model, instrument: Instrument, p: Picker) -> Made | None:
     # where they were thinned out the corner is another one by a little: a digital low-pass bends its frequencies
     for every in THINNED:
         faster = _faster(family, every * rate)
-        other = _refined(faster, left, _corner(made.how) * np.array([1 / NEAR, NEAR]))[1]
+        other = _refined(faster, left, _corner(made.how) * about, FINE)[1]
         if other.left.share * CLEARLY < made.left.share:
             made = other
-    return made
+    return made if made.left.share * CLEARLY < unfiltered.left.share else unfiltered
 
+
+NO_LOW_PASS = Demodulation(kind="none")
+
+HIGHEST = 0.45
+"""Times the sampling rate: no low-pass is sought beyond, for half the rate is what a digital one can have at most."""
 
 NEAR = 1.05
 """Factor about a corner within which it is searched for once more."""
@@ -139,22 +154,23 @@ def _faster(family: Family, rate: float) -> Family:
     return lambda f: replace(family(f), rate=rate)
 
 
-def _refined(family: Family, left: Callable[[Demodulation], Explained], near: Array) -> tuple[Family, Made]:
+def _refined(
+    family: Family, left: Callable[[Demodulation], Explained], near: Array, precision: float
+) -> tuple[Family, Made]:
     """The corner between two, Hz, at which least is left."""
     low, high = np.log(near)
     x = optimize.minimize_scalar(
         lambda x: np.log(max(left(family(float(np.exp(x)))).share, 1e-300)),
         bounds=(low, high),
         method="bounded",
-        options={"xatol": FINE},
+        options={"xatol": precision},
     ).x
     how = family(float(np.exp(x)))
     return family, Made(how, left(how))
 
 
-def _through(rows: Rows, how: Demodulation, rate: float, half: int) -> Rows:
-    """Rows that have passed a low-pass, of which at most so many samples on either side count."""
+def _taps(how: Demodulation, rate: float, half: int) -> Array:
+    """A low-pass, of which at most so many samples on either side count."""
     taps = built(how, rate).centred
     spare = len(taps) // 2 - half
-    taps = taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)
-    return replace(rows, taps=taps)
+    return taps[spare:-spare] if spare > 0 else np.pad(taps, -spare)

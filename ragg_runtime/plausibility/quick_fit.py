@@ -6,11 +6,12 @@ residual being the only thing unknown. It costs milliseconds; it is no calibrati
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import fft
 
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.square_root import triangle
@@ -87,14 +88,34 @@ def explain_all(model: Model, instrument: Instrument, many: Iterable[Rows]) -> l
     return found + about.explained(waiting)
 
 
+def low_passes(model: Model, instrument: Instrument, rows: Rows) -> Callable[[Array], Explained]:
+    """The same of channels as a function of the low-pass that made them, an odd number of taps no longer than that of the rows:
+    the model is evaluated, and its spectrum taken, once.
+    """
+    about = _About.of(model, instrument)
+    own, columns, nominal, eotvos = about.columns([rows])
+    raw = np.stack([*columns, *_gradient(rows), nominal])
+    carriers = 2 * np.stack([np.sin(2 * rows.phi), np.cos(2 * rows.phi)])
+    n = len(rows.time)
+    size = fft.next_fast_len(n + len(rows.taps), real=True)
+    spectrum = fft.rfft(raw * carriers, size)
+
+    def explained(taps: Array) -> Explained:
+        half = len(taps) // 2
+        seen = fft.irfft(spectrum * fft.rfft(taps, size), size)[:, :, half : half + n]
+        return about.fitted(own, rows, seen[:-1], seen[-1], eotvos)
+
+    return explained
+
+
 @dataclass(frozen=True)
 class _About:
-    """A model at an instrument's values ``p``, and its fitted parameters with their places in ``p``."""
+    """A model at an instrument's values ``p``, and the parameters that are fitted with their places in ``p``."""
 
     model: Model
     layout: Layout
     p: Array
-    fitted: Sequence[tuple[design.Column, int]]
+    parameters: Sequence[tuple[design.Column, int]]
 
     @staticmethod
     def of(model: Model, instrument: Instrument) -> _About:
@@ -102,34 +123,55 @@ class _About:
             model=model,
             layout=instrument.layout,
             p=vector(model, instrument),
-            fitted=design.base_columns(model, instrument),
+            parameters=design.base_columns(model, instrument),
         )
 
     def explained(self, many: Sequence[Rows]) -> list[Explained]:
         """Of rows of one output that are evaluated together."""
         if not many:
             return []
+        own, columns, nominal, eotvos = self.columns(many)
+        edges = np.cumsum([0, *(len(r.time) for r in many)])
+        found = []
+        for rows, start, stop in zip(many, edges, edges[1:], strict=False):
+            some = slice(start, stop)
+            stacked = np.stack([*columns[:, :, some], *_gradient(rows)])
+            found.append(self.fitted(own, rows, rows.seen(stacked), rows.seen(nominal[:, some]), eotvos))
+        return found
+
+    def columns(
+        self, many: Sequence[Rows]
+    ) -> tuple[Sequence[tuple[design.Column, int]], Array, Array, float]:
+        """Of rows of one output, all together, N: its parameters; columns (n, m, N), Eo, and output (m, N), V, at the sheet's
+        values, before demodulation; scale factor, V/Eo.
+        """
         first = many[0]
         o = first.output
         eotvos = scale_factor(self.model, self.p, self.layout.outputs.index(o))
-        own = [(c, i) for c, i in self.fitted if c.accelerometer is None or c.accelerometer - 1 in o.members]
+        own = [
+            (c, i) for c, i in self.parameters if c.accelerometer is None or c.accelerometer - 1 in o.members
+        ]
         volts, by = self._evaluated(many)
         nominal = first.before_demodulation(volts, None)
         columns = np.empty((len(own), *nominal.shape))
         for column, (c, _) in zip(columns, own, strict=True):
             column[:] = first.before_demodulation(by[c.name, c.accelerometer], c.accelerometer)
             column *= c.scale / eotvos
-        edges = np.cumsum([0, *(len(r.time) for r in many)])
-        scale = np.array([c.scale for c, _ in own])
-        places = [i for _, i in own]
-        found = []
-        for rows, start, stop in zip(many, edges, edges[1:], strict=False):
-            some = slice(start, stop)
-            theta, e = _fitted(rows, columns[:, :, some], nominal[:, some], eotvos)
-            moved = self.p.copy()
-            moved[places] += theta[: len(own)] * scale
-            found.append(replace(e, p=moved, surprise=float(np.sum(theta[: len(own)] ** 2))))
-        return found
+        return own, columns, nominal, eotvos
+
+    def fitted(
+        self,
+        own: Sequence[tuple[design.Column, int]],
+        rows: Rows,
+        seen: Array,
+        nominal: Array,
+        eotvos: float,
+    ) -> Explained:
+        """Rows fitted by what their output sees of the columns, (n, m, N), and of the model at the sheet's values, (m, N)."""
+        theta, e = _fitted(rows, seen, nominal, eotvos)
+        moved = self.p.copy()
+        moved[[i for _, i in own]] += theta[: len(own)] * np.array([c.scale for c, _ in own])
+        return replace(e, p=moved, surprise=float(np.sum(theta[: len(own)] ** 2)))
 
     def _evaluated(self, many: Sequence[Rows]) -> tuple[Array, dict[tuple[str, int | None], Array]]:
         """Voltages (members, n) at the rows of all, and their derivatives by every parameter: of one accelerometer (n,), of
@@ -154,11 +196,10 @@ class _About:
 
 
 def _fitted(rows: Rows, columns: Array, nominal: Array, eotvos: float) -> tuple[Array, Explained]:
-    """Coefficients of columns (n, m, N), Eo, and of a gradient that was not recorded; and what they leave, still without ``p``."""
-    columns = np.stack([*columns, *_gradient(rows)])
+    """Coefficients of what is seen of columns (n, m, N), Eo, and what they leave, still without ``p``."""
     inner = rows.inner
-    X = rows.seen(columns)[:, :, inner].reshape(len(columns), -1)
-    y = ((rows.data - rows.seen(nominal)) / eotvos)[:, inner].reshape(-1)
+    X = columns[:, :, inner].reshape(len(columns), -1)
+    y = ((rows.data[:, inner] - nominal[:, inner]) / eotvos).reshape(-1)
     theta, kept = robust(X, y)
     left = (y - theta @ X)[kept]
     size = rows.data[:, inner] / eotvos

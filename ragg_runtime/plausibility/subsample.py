@@ -29,9 +29,11 @@ Mask = NDArray[np.bool_]
 MOST = 1500
 """Rows that a fit takes: many times the number of parameters."""
 
+WANTED = 128
+"""Samples of demodulated channels that a stretch holds at least, where they were recorded more seldom than the motion."""
 
-SPARSE = 8.0
-"""Most times longer a stretch of demodulated channels is taken where they were recorded more seldom than the motion."""
+TELLING = 512
+"""Samples of demodulated channels that are looked at of a stretch: neighbours are much alike."""
 
 
 @dataclass(frozen=True)
@@ -84,13 +86,14 @@ class Rows:
         return convolved(raw * carriers, self.taps, "same")
 
     @property
-    def inner(self) -> Mask:
-        """(n,) where the output is there, and a demodulator has seen enough of the record on either side."""
+    def inner(self) -> Index:
+        """Rows that are fitted: where the output is there, and a demodulator has seen enough of the record on either side."""
         inside = np.ones(len(self.time), dtype=np.bool_)
         edge = len(self.taps) // 2
         inside[:edge] = False
         inside[len(inside) - edge :] = False
-        return inside if self.usable is None else inside & self.usable
+        found = np.flatnonzero(inside if self.usable is None else inside & self.usable)
+        return found[:: max(1, len(found) // TELLING)] if self.recorded.demodulated else found
 
     @property
     def gradient_recorded(self) -> bool:
@@ -129,8 +132,8 @@ class Picker:
         )
         if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
-            sparse = min(SPARSE, len(self.usable) / max(float(np.sum(self.usable)), 1.0))
-            return whole[: max(most, round(3 * sparse * len(self.taps)))]
+            every = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
+            return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * every)))]
         return np.asarray(there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)])
 
     def pick(

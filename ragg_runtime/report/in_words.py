@@ -1,9 +1,10 @@
-"""A comparison and a diagnosis in words, as a terminal shows them."""
+"""Results in words, as a terminal shows them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -147,6 +148,16 @@ def parameters(parameters: Sequence[ParameterValue], combinations: Sequence[Para
     return lines
 
 
+def combinations(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Combinations of parameters, by their JSON, a line each."""
+    return [f"  {notebook.parameter({'accelerometer': None, **q})}" for q in found]
+
+
+def now(after: Comparison) -> str:
+    """Whether anything is left once an effect was added."""
+    return notebook.NOW_ADEQUATE if after.adequate else notebook.STILL_MISSING
+
+
 def diagnosed(d: Diagnosis, then: str) -> str:
     """The result of ``diagnose``; ``then`` is the command that adds what was found."""
     lines = [
@@ -222,3 +233,67 @@ def held(h: Held, names: Sequence[str], then: str, again: str) -> str:
     if not h.holds:
         lines += ["", f"next, if the instrument may have changed so: {again} --save"]
     return "\n".join(lines)
+
+
+def history(steps: Sequence[Mapping[str, Any]]) -> str:
+    """The steps of a model directory."""
+    lines = [f"{'when':26} {'step':8} {'effect':28} {'before Eo':>10} {'after Eo':>10}"]
+    for s in steps:
+        values = []
+        for key in ("before", "after"):
+            rms = notebook.rms_of(s[key])
+            values.append(f"{'-':>10}" if rms is None else f"{rms:10.4g}")
+        lines.append(f"{s['time']:26} {s['action']:8} {s['effect'] or '-':28} {' '.join(values)}")
+    return "\n".join(lines)
+
+
+def watched(r: Mapping[str, Any], output: Path) -> str:
+    """The result of ``online`` (its JSON), written to a file."""
+    within = r["follows_within_s"]
+    lines = [
+        f"{output}: sample by sample from the {r['started']}, noise {r['noise_Eo_per_rtHz']:.3g} Eo/sqrt(Hz)",
+        f"the gradient wanders by {r['walk_Eo_per_rts']:.3g} Eo/sqrt(s)"
+        + ("" if within is None else f" and is followed within {within:.3g} s")
+        + "; the parameters "
+        + ("forget nothing" if r["forget_s"] is None else f"forget within {r['forget_s']:.3g} s"),
+    ]
+    lines += [f"{x['flight']}: {x['samples']} samples" for x in r["flights"]]
+    return "\n".join(lines)
+
+
+CONTRIBUTIONS = 8
+"""Contributions that are listed, the largest."""
+
+
+def compensated(r: Mapping[str, Any], output: Path) -> str:
+    """The result of ``compensate`` (its JSON), written to a file."""
+    d = r["demodulator"]
+    lag = f", {d['latency_s']:.3g} s late" if d["latency_s"] else ""
+    lines = [f"{output}: calibration {r['calibration']}, {d['what']}{lag}"]
+    if not r["converged"]:
+        lines.append("The calibration has NOT converged: do not rely on these values.")
+    lines += [f"note: {text}" for text in r.get("notes", ())]
+    for x in r["flights"]:
+        lines += ["", f"{x['flight']}{_output(x, r)}: {x['good']} of {x['samples']} samples good"]
+        lines.append(
+            f"  {'':8} {'before':>12} {'after':>10} {'noise':>10} Eo/rtHz   std by noise, parameters, Eo"
+        )
+        for channel in ("inline", "cross"):
+            numbers = [x["density"][k][f"{channel}_Eo_per_rtHz"] for k in ("before", "after", "noise")]
+            sizes = [x["std"][k][f"{channel}_Eo"] for k in ("noise", "parameters")]
+            a, b, n, s, p = (notebook.number(v) for v in (*numbers, *sizes))
+            lines.append(f"  {channel:8} {a:>12} {b:>10} {n:>10} {'':9} {s:>10} {p:>10}")
+        lines.append("  removed (rms inline, cross, Eo):")
+        lines += [
+            f"    {q['of']:28} {q['inline_Eo']:10.4g} {q['cross_Eo']:10.4g}"
+            for q in x["contributions"][:CONTRIBUTIONS]
+        ]
+        counts = [f"{name} {n}" for name, n in x["quality"].items() if n]
+        if counts:
+            lines.append(f"  quality: {', '.join(counts)} samples")
+    return "\n".join(lines)
+
+
+def _output(x: Mapping[str, Any], r: Mapping[str, Any]) -> str:
+    """Which output it is, if there are several."""
+    return f": {x['output']}" if len({y["output"] for y in r["flights"]}) > 1 else ""

@@ -174,6 +174,13 @@ def causal(rate: float, order: int = ORDER, cutoff: float = CUTOFF) -> Demodulat
     )
 
 
+def none(rate: float) -> Demodulator:
+    """Mixed alone: every value is of its own instant."""
+    return Demodulator(
+        name="none", description="no low-pass", rate=rate, taps=np.ones(1), ahead=0, latency=0.0
+    )
+
+
 def average(rate: float, seconds: float, *, centred: bool = True) -> Demodulator:
     """A moving average; samples at its ends count in part, so that its length may be any."""
     samples = max(seconds * rate, 1.0)

@@ -142,9 +142,9 @@ def _noise(density: float, radius: float) -> Noise | None:
 
 
 def _recorded(x: Flight) -> tuple[reference.Motion, float, float]:
-    """The motion of a flight, its length, s, and its rate, Hz."""
+    """The motion of a flight, the time, s, in which it was sampled, and its rate, Hz: flown, it has as many samples."""
     a, omega = (np.stack([x.channels[f"{n}_{k}"] for k in "xyz"]) for n in ("a", "omega"))
-    return reference.recorded_motion(x.time - x.time[0], a, omega), float(x.time[-1] - x.time[0]), x.rate
+    return reference.recorded_motion(x.time - x.time[0], a, omega), len(x) / x.rate, x.rate
 
 
 def _drawn(seed: int, duration: float, rate: float, shape: str | None) -> reference.Motion:

@@ -9,12 +9,11 @@ from pathlib import Path
 
 from ragg_runtime.base import transaction
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli import terminal
 from ragg_runtime.compensation import saved
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.model_dir.directory import MODEL, NAMES
 from ragg_runtime.model_dir.history import history_text, read_history
-from ragg_runtime.report import survey_text
+from ragg_runtime.report import in_words, survey_text
 from ragg_runtime.survey import journal, task
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import once
@@ -34,7 +33,7 @@ def history(data: bytes) -> Outcome:
         steps = read_history(path)
     except UserError as error:
         return shown(error)
-    told = terminal.history([s.as_json() for s in steps])
+    told = in_words.history([s.as_json() for s in steps])
     assert len(told.splitlines()) == len(steps) + 1
     path.write_text(history_text(steps), "utf-8")
     assert read_history(path) == steps

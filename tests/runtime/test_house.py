@@ -31,7 +31,7 @@ def test_no_function_is_too_long() -> None:
 
 
 RUNTIME = ROOT / "ragg_runtime"
-MOST_ROOMS, MOST_ARROWS = 20, 96
+MOST_ROOMS, MOST_ARROWS = 20, 95
 """Packages of the runtime, and imports from one to another, ``derive`` and ``generated`` among these."""
 
 

@@ -21,7 +21,9 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.diagnosis.strong import Stage, _charge
 from ragg_runtime.evidence.random_effects import Variance
+from ragg_runtime.evidence.selection import Field, choose
 from ragg_runtime.fit import calibrate
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import Flight
@@ -74,13 +76,35 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
     assert d.noise_floor == pytest.approx(truth, rel=0.03)
 
 
+def test_a_twin_that_takes_some_of_another_effect_does_not_displace_the_right_one() -> None:
+    # a run-out of the bearing leaves less than the gradient does, as long as the scale error is not in the model
+    s = scenario(57, trim="table-v", duration=300.0)
+    run = s.simulate({"imu-acceleration-scale": {"s_y": -2e-5}, "gradient-offset": {"G_xx": -1e-6}})
+    d = diagnosed(s, run.flight())
+    assert d.verdict == "missing-effect"
+    first, second = d.ranking[:2]
+    assert {first.effect, *first.indistinguishable_from} == {"gradient-offset", "vibration-rectification"}
+    assert d.found == (first.effect, "imu-acceleration-scale") == (first.effect, second.effect)
+
+
+def test_what_a_strong_effect_leaves_names_none_that_is_like_it() -> None:
+    T = np.diag([100.0, 100.0, 100.0, 20.0])  # base, lag, arm-stretch, residual
+    T[1:3, 3] = 30.0, 1.0
+    column = Column(name="lag.tau", accelerometer=1, scale=1.0, unit="s", unit_factor=1.0, effect="lag")
+    f = Field(T, 1, {"lag": ((0, column),), "arm-stretch": ((1, column),)}, rows=400)
+    chi2 = f.tests()["lag"].chi2
+    assert choose(f, beside=True).chosen == ("lag",)
+    assert choose(f, beside=True, least={"lag": 1.1 * chi2}).chosen == ()
+    assert choose(f, beside=True, least={"arm-stretch": 1.1 * chi2}).chosen == ("lag",)
+
+
 def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
     columns = np.linalg.qr(np.random.default_rng(3).standard_normal((50, 3)))[0] * [1e6, 7.0, 0.1]
     charge = _charge(columns, 10_000)
     assert charge == pytest.approx(2 * np.log(10_000) + np.log(1.01))  # of those that are seen BIC's
 
 
-@pytest.mark.parametrize("name", sorted(STRONG))
+@pytest.mark.parametrize("name", sorted(set(STRONG) - {"a converter's step"}))
 def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str) -> None:
     s = scenario(57, duration=400.0)
     c = compare(load.packaged(), s.sheet, [s.simulate(STRONG[name][0]).flight()])

@@ -9,11 +9,13 @@ import pytest
 
 from ragg_runtime.fit.observation import observe
 from ragg_runtime.fit.switching import certain
+from ragg_runtime.fit.unknown_gradient import windows
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model_dir import derive
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.signals.noise_spectrum import white_noise
 
 
 @pytest.fixture(scope="module")
@@ -44,6 +46,17 @@ def test_what_is_kept_is_on_the_same_side_for_every_instrument_that_the_sheet_al
         changed |= (np.sign(voltages(model.chain, o.record, vector(model, other))) != side).any(axis=0)
     assert changed.any()
     assert not np.any(changed & kept.record.valid)
+
+
+def test_what_was_found_for_all_samples_does_not_serve_those_that_are_kept(
+    world: tuple[Scenario, load.Model],
+) -> None:
+    s, model = world
+    o = observe(s.simulate(record_gradient=False).flight(), s.sheet)
+    noise, every = white_noise(o.record.rate, 1), slice(0, len(o.record.time))
+    assert len(windows(o, every, noise)[0].places) == np.sum(o.record.valid)
+    (kept,) = certain(model, s.sheet, [o])
+    assert len(windows(kept, every, noise)[0].places) == np.sum(kept.record.valid)
 
 
 def test_a_model_that_does_not_switch_keeps_every_sample(world: tuple[Scenario, load.Model]) -> None:

@@ -362,6 +362,12 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[13][i] = -bar_i_sensed*q_f_yj*q_f_z; /* K8 */
         rows[14][i] = K1*i_sensed; /* k_VI */
     }
+    if (n == 1) { /* the copy of a row would be a call */
+        for (size_t k = 0; k < ROWS; ++k) {
+            out_D[k * stride] = rows[k][0];
+        }
+        return;
+    }
     for (size_t k = 0; k < ROWS; ++k) {
         for (size_t i = 0; i < n; ++i) {
             out_D[k * stride + i] = rows[k][i];

@@ -1066,6 +1066,12 @@ static void slopes(size_t j, size_t n, size_t at, size_t stride, const double *r
         rows[160][i] = bar_i_vibration_rectification*(x290 + x292 + x293 + x295 + x296 + x298 + x299 + x300 + x301); /* vibration-rectification.P_yz */
         rows[161][i] = bar_i_vibration_rectification*(x302 + x303 + x304 + x305 + x306 + x307); /* vibration-rectification.P_zz */
     }
+    if (n == 1) { /* the copy of a row would be a call */
+        for (size_t k = 0; k < ROWS; ++k) {
+            out_D[k * stride] = rows[k][0];
+        }
+        return;
+    }
     for (size_t k = 0; k < ROWS; ++k) {
         for (size_t i = 0; i < n; ++i) {
             out_D[k * stride + i] = rows[k][i];

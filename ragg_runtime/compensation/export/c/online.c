@@ -19,7 +19,7 @@ static void turn(double *restrict into, double *restrict row, int first) {
         return;
     }
     const double length = sqrt(into[first] * into[first] + row[first] * row[first]);
-    const double c = into[first] / length, s = row[first] / length;
+    const double once = 1.0 / length, c = into[first] * once, s = row[first] * once;
     for (int k = first; k < WIDTH; ++k) {
         const double x = into[k], y = row[k];
         into[k] = c * x + s * y;
@@ -105,19 +105,21 @@ void ragg_online_start(ragg_online *o, int output, double noise, double walk_, d
 static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G, double row[WIDTH]) {
     const double *series[ONLINE_INPUTS], *encoder = isnan(angle) ? NULL : &angle;
     const int output = o->output;
-    double predicted, D[RAGG_CHAIN_ROWS];
+    enum { MEMBERS = sizeof MEMBER[0] / sizeof MEMBER[0][0] };
+    double predicted, D[MEMBERS][RAGG_CHAIN_ROWS];
     for (int k = 0; k < ONLINE_INPUTS; ++k) {
         series[k] = in + k;
     }
     PREDICT((size_t)ONLINE_OUTPUT[output].which, &t, series, POINT, encoder, &predicted);
-    memset(row, 0, WIDTH * sizeof *row);
     for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
-        const int j = MEMBER[output][m].j;
-        const double sign = MEMBER[output][m].sign;
-        ragg_chain_derivatives((size_t)j, 1, &t, series, POINT, encoder, D);
-        for (int n = 0; n < FITTED_N; ++n) {
-            if (FITTED[output][n].accelerometer == -1 || FITTED[output][n].accelerometer == j) {
-                row[n] += sign * FITTED[output][n].scale * D[FITTED[output][n].row];
+        ragg_chain_derivatives((size_t)MEMBER[output][m].j, 1, &t, series, POINT, encoder, D[m]);
+    }
+    for (int n = 0; n < FITTED_N; ++n) {
+        const int own = FITTED[output][n].accelerometer, k = FITTED[output][n].row;
+        row[n] = 0.0;
+        for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
+            if (own == -1 || own == MEMBER[output][m].j) {
+                row[n] += MEMBER[output][m].sign * FITTED[output][n].scale * D[m][k];
             }
         }
     }
