@@ -131,6 +131,9 @@ static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS]
     row[FITTED_N] = 0.5 * ONLINE_OUTPUT[output].scale_factor * sin(carrier);
     row[FITTED_N + 1] = -ONLINE_OUTPUT[output].scale_factor * cos(carrier);
     row[STATES] = G - predicted;
+    for (int k = STATES + 1; k < WIDTH; ++k) {
+        row[k] = 0.0;
+    }
     int whole = 1;
     for (int k = 0; k < WIDTH; ++k) {
         row[k] /= o->noise;
@@ -155,7 +158,7 @@ int ragg_online_step(ragg_online *o, double t, const double in[ONLINE_INPUTS], d
         fade(o, o->faded);
         o->faded = 0.0;
     }
-    double row[WIDTH] = {0.0};
+    double row[WIDTH];
     if (row_of(o, t, in, angle, G, row)) {
         fold(o, row, 0);
     }
