@@ -6,24 +6,26 @@
 #include <math.h>
 #include <string.h>
 
-enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = STATES + 1 };
+enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = (STATES + 4) / 4 * 4 };
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */
 static const double STEEPER = 2.0;     /* walk of inline over that of cross */
 static const double UNKNOWN_EO = 1e4;  /* of the gradient before anything is known */
 
-/* Turn row and into, both zero before column first, so that row vanishes there. */
+/* Turn row and into, both zero before column first, so that row vanishes there; four columns at a time, for vectors. */
 static void turn(double *restrict into, double *restrict row, int first) {
     if (row[first] == 0.0) {
         return;
     }
     const double length = sqrt(into[first] * into[first] + row[first] * row[first]);
     const double once = 1.0 / length, c = into[first] * once, s = row[first] * once;
-    for (int k = first; k < WIDTH; ++k) {
-        const double x = into[k], y = row[k];
-        into[k] = c * x + s * y;
-        row[k] = c * y - s * x;
+    for (int k = first / 4 * 4; k < WIDTH; k += 4) {
+        for (int m = k; m < k + 4; ++m) {
+            const double x = into[m], y = row[m];
+            into[m] = c * x + s * y;
+            row[m] = c * y - s * x;
+        }
     }
     row[first] = 0.0;
 }
@@ -129,6 +131,9 @@ static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS]
     row[FITTED_N] = 0.5 * ONLINE_OUTPUT[output].scale_factor * sin(carrier);
     row[FITTED_N + 1] = -ONLINE_OUTPUT[output].scale_factor * cos(carrier);
     row[STATES] = G - predicted;
+    for (int k = STATES + 1; k < WIDTH; ++k) {
+        row[k] = 0.0;
+    }
     int whole = 1;
     for (int k = 0; k < WIDTH; ++k) {
         row[k] /= o->noise;

@@ -10,7 +10,7 @@
 enum { RAGG_ONLINE_STATES = FITTED_PARAMETERS + 2 };
 
 typedef struct {
-    double R[RAGG_ONLINE_STATES][RAGG_ONLINE_STATES + 1]; /* upper triangle, and the right-hand side */
+    double R[RAGG_ONLINE_STATES][(RAGG_ONLINE_STATES + 4) / 4 * 4]; /* upper triangle, the right-hand side, zeros up to a multiple of four */
     double noise, walk, forget;
     double before, waited, faded;
     int begun, output;
