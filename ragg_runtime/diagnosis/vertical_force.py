@@ -19,7 +19,6 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.off_sheet import WIDE
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
@@ -38,6 +37,11 @@ AS_NOISE = 1.1
 MUCH_BETTER = 25.0
 """Factor by which chi-square must fall where more is left than noise: no missing effect looks like that (a factor of five in
 what is left, as for all other mistakes: ``plausibility/identify.py``)."""
+
+BY_CHANCE = 3.0
+"""Standard deviations of a chi-square, the squared distances from the sheet in its sigmas, within which the sheet is as right as it
+says once the mistake is undone. A sheet that stays wrong (of a real sensor, angles by seven of its sigmas) was wrong before, and
+gravity taken out of a record that needs it may then bring it nearer: that says nothing of a_z."""
 
 LOUDEST = 1e5
 """Chi-square of the record over its number beyond which nothing is fitted once more: three hundred times the noise. A reversed
@@ -123,7 +127,8 @@ def _convincing(given: Calibration, other: Calibration, sheet: Instrument, f: Fi
     if other.chi2 * MUCH_BETTER < given.chi2:
         return True
     moves = (other.p - vector(f.model, sheet))[other.index] / np.array([c.scale for c in other.columns])
-    return other.excess < AS_NOISE and float(np.sqrt(np.mean(moves**2))) < WIDE
+    by_chance = len(moves) + BY_CHANCE * np.sqrt(2.0 * len(moves))
+    return other.excess < AS_NOISE and float(moves @ moves) < by_chance
 
 
 def _as_sure_as_said(f: Fitted) -> Instrument:
