@@ -37,14 +37,23 @@ class Workers:
     scheduler: str | None = None
     tls: Tls | None = None
 
+    @property
+    def options(self) -> list[str]:
+        """The same as words of a command."""
+        cluster = [] if self.scheduler is None else ["--scheduler", self.scheduler]
+        t = self.tls
+        files = [] if t is None else ["--tls-ca", t.ca, "--tls-cert", t.cert, "--tls-key", t.key]
+        return [*cluster, *map(str, files)]
+
 
 @dataclass(frozen=True)
 class Surveyed:
-    """A survey, the folder of its flights, and the model that it was made with."""
+    """A survey, the folder of its flights, the model that it was made with, and who examined them."""
 
     folder: Path
     model: Loaded
     survey: Survey
+    workers: Workers
 
 
 def surveyed(
@@ -69,7 +78,7 @@ def surveyed(
     found = loop.survey(
         m, files, scheduler=workers.scheduler, tls=workers.tls, resume=_results(m, folder), progress=show
     )
-    return Surveyed(folder=folder, model=m, survey=found)
+    return Surveyed(folder=folder, model=m, survey=found, workers=workers)
 
 
 def flights_below(folder: Path, places: Places) -> list[Path]:

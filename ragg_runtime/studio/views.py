@@ -351,6 +351,6 @@ def commands(s: State) -> list[str]:
         found.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
     if s.survey is not None:
         every = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
-        found.append(f"ragg survey {model} {' '.join(map(shlex.quote, every))}")
+        found.append(f"ragg survey {model} {shlex.join([*every, *s.survey.workers.options])}")
     cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*_done(s, model, files), *cut, *found]

@@ -6,6 +6,7 @@ import errno
 import math
 import os
 import re
+import shlex
 import struct
 import time
 import tomllib
@@ -33,7 +34,7 @@ from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.session import Session
-from ragg_runtime.studio.surveys import flights_below
+from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.branches import branches, tree
 from ragg_runtime.workflow.simulate import simulated
@@ -226,6 +227,20 @@ def test_a_survey_takes_the_flights_of_a_folder_and_nothing_beside(tmp_path: Pat
     assert flights_below(root, places) == [root / "a" / "b" / "flight.csv"]
     with pytest.raises(UserError, match="a survey needs flights"):
         flights_below(root / "link", places)
+
+
+def test_the_shell_is_told_who_examined_the_flights_of_a_survey(tmp_path: Path) -> None:
+    m = loop.new(tmp_path / "model")
+    (tmp_path / "a day").mkdir()
+    path = tmp_path / "a day" / "y.csv"
+    path.write_text("x\n1\n")
+    s = Session(Places((tmp_path,)))
+    found = loop.survey(m, [path], jobs=1)
+    workers = Workers("tcp://10.0.0.1:8786")
+    s._put(loaded=m, survey=Surveyed(folder=path.parent, model=m, survey=found, workers=workers))
+    said = shlex.split(views.commands(s.state)[-1])
+    assert said[:2] == ["ragg", "survey"]
+    assert said[2:] == [str(tmp_path / "model"), str(path), "--scheduler", "tcp://10.0.0.1:8786"]
 
 
 def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
