@@ -77,14 +77,13 @@ def _terms(e: sp.Expr) -> tuple[tuple[Monomial, Fraction], ...]:
     if e.is_Number:
         return (((), Fraction(int(e.p), int(e.q))),) if e else ()
     gens = variables(e)
+    whole = PolyRing(gens, QQ, lex).from_expr(e)  # multiplied out in the ring: much faster
     return tuple(
         (
             tuple((s, k) for s, k in zip(gens, powers, strict=True) if k),
             Fraction(int(c.numerator), int(c.denominator)),
         )
-        for powers, c in PolyRing(gens, QQ, lex)
-        .from_expr(e)
-        .terms()  # multiplied out in the ring: much faster
+        for powers, c in whole.terms()
     )
 
 

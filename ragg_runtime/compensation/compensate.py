@@ -83,8 +83,6 @@ def prepared(
     """Calibrate on the flights (``self``, ``crossed``), or take what was saved (``frozen``)."""
     if kind not in KINDS:
         raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
-    if kind not in KINDS:
-        raise UserError("there is no such calibration", found=repr(kind), expected=", ".join(KINDS))
     flights = tuple(without_gradients(x) for x in flights)
     observations = tuple(observations_of(flights, instrument))
     sighted = seeing(instrument, observations)

@@ -244,7 +244,7 @@ def concluded(
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    doubt = spoiled(f, output_explained) or too_loud(f)
+    doubt = (spoiled(f, output_explained) or too_loud(f)) if judged else None
     quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
     adequate = None if rem is None else quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(

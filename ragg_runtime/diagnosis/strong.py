@@ -29,11 +29,11 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
 from ragg_runtime.fit.off_sheet import with_room
+from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
@@ -141,7 +141,7 @@ def taken(first: Stage, extend: Extend | None) -> End:
             other = _followed(first, end[0][:n], t.stage, extend, (*t.open, t.effect))
             end = other if _better(other, end, first, extend) else end
             break
-    return [_with_rivals(end, n, first, extend) for n in range(len(end[0]))], end[1]
+    return _with_rivals(end, first, extend)
 
 
 def _followed(
@@ -170,18 +170,25 @@ def _better(a: End, b: End, first: Stage, extend: Extend) -> bool:
     return left[0] < left[1] + room
 
 
-def _with_rivals(end: End, n: int, first: Stage, extend: Extend) -> Taken:
-    """A strong effect with those of its open contenders that do as well once all others are in the model."""
-    t, blocks, noise = end[0][n], _blocks(end), end[1].fitted.calibration.noise
-    contenders = [e for e in t.open if e not in {name for _, name, _ in blocks}]
-    if not contenders or len(blocks) < 2:
-        return t
+def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
+    """An end whose strong effects have those of their open contenders that do as well once all others are in the model."""
+    found, last = end
+    blocks, noise = _blocks(end), last.fitted.calibration.noise
+    inside = {e for _, e, _ in blocks}
+    contenders = [[e for e in t.open if e not in inside] for t in found]
+    if not any(contenders) or len(blocks) < 2:
+        return end
     most = _left(end, blocks, noise, first, extend) + INDISTINGUISHABLE
-    swapped = {
-        e: [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]] for e in contenders
-    }
-    equal = [e for e in contenders if _left(end, swapped[e], noise, first, extend) < most]
-    return replace(t, rivals=tuple(sorted({*t.rivals, *equal})))
+
+    def equal(n: int, e: str) -> bool:
+        t = found[n]
+        swapped = [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]]
+        return _left(end, swapped, noise, first, extend) < most
+
+    rivals = [{e for e in some if equal(n, e)} for n, some in enumerate(contenders)]
+    return [
+        replace(t, rivals=tuple(sorted({*t.rivals, *own}))) for t, own in zip(found, rivals, strict=True)
+    ], last
 
 
 def _blocks(end: End) -> list[Block]:
@@ -249,8 +256,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     # what nothing explains, and a degree of freedom for each column that could
     noise = float(stage.field.P[-1, -1] ** 2) + stage.field.P.shape[1]
     far = {e: left[e] - left[effect] for e in tried if e not in (effect, *rivals)}
-    undecided = [e for e in far if far[e] < OPEN * (left[effect] - noise)]
-    undecided = sorted(undecided, key=lambda e: (far[e], e))
+    undecided = sorted((e for e in far if far[e] < OPEN * (left[effect] - noise)), key=lambda e: (far[e], e))
     found = _in_model(stage, effect, tuple(undecided), extend)
     if len(tests) > 1 and impossible(found.after, (effect,)):
         return _strongest(stage, extend, (*without, effect))
@@ -326,7 +332,7 @@ def _score(
         instrument = wider
         c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
-    x = (c.p - vector(model, instrument))[c.index] / np.array([q.scale for q in c.columns])
+    x = -to_nominal(model, instrument, c)
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
     if others:
         # of a Gaussian: the variances once some of its variables are given

@@ -19,11 +19,11 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.parameters import PARAMETERS
-from ragg_runtime.model.evaluate import vector
 
 Array = NDArray[np.float64]
 
@@ -126,7 +126,7 @@ def _convincing(given: Calibration, other: Calibration, sheet: Instrument, f: Fi
         return False
     if other.chi2 * MUCH_BETTER < given.chi2:
         return True
-    moves = (other.p - vector(f.model, sheet))[other.index] / np.array([c.scale for c in other.columns])
+    moves = to_nominal(f.model, sheet, other)
     by_chance = len(moves) + BY_CHANCE * np.sqrt(2.0 * len(moves))
     return other.excess < AS_NOISE and float(moves @ moves) < by_chance
 

@@ -33,9 +33,8 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
     """The observations, where an effect in the model switches without the samples whose side is open."""
     if not any(e.switches for e in model.effects):
         return list(observations)
-    return [
-        o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations
-    ]  # a sample of channels is made of many
+    # a sample of channels is made of many: of those none is left out
+    return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:

@@ -1,4 +1,4 @@
-"""Reports: one self-contained HTML document each, without scripts, links or files beside it.
+"""Reports: one self-contained HTML document each, without links or files beside it; results in words.
 
 ``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
 bytes. Numbers come from the results, words from ``wording``, series for figures from ``series``.

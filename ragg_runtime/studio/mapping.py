@@ -32,6 +32,9 @@ OUTPUTS = ("G_out", "V_1", "inline")
 POINTS = 160
 """Samples of a column that are drawn."""
 
+UNWRITTEN = Path("mapping.toml")
+"""Where a mapping says that it is while it stands in the page alone."""
+
 
 def begun(m: Loaded, path: Path) -> Json:
     """The model's own mapping if the file has its columns, else a first one by looking; and what the file holds."""
@@ -109,7 +112,7 @@ def tried(m: Loaded, path: Path, given: Mapping[str, Any]) -> Json:
     text = ""
     try:
         text = written(given)
-        how = parse_mapping(text, Path("mapping.toml"))
+        how = parse_mapping(text, UNWRITTEN)
         return {"text": text, "error": None, "preview": _preview(m, path, how)}
     except UserError as e:
         facts = {k: getattr(e, k) for k in ("what", "where", "found", "expected", "remedy")}
@@ -141,5 +144,5 @@ def _preview(m: Loaded, path: Path, how: Mapped) -> list[Json]:
 def keep(m: Loaded, path: Path, given: Mapping[str, Any], *, replace: bool) -> None:
     """Lay the mapping down in the model directory, where every command finds it; never over another unasked."""
     text = written(given)
-    _preview(m, path, parse_mapping(text, Path("mapping.toml")))
+    _preview(m, path, parse_mapping(text, UNWRITTEN))
     keep_mapping(m, text, replace=replace)

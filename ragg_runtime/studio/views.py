@@ -55,36 +55,32 @@ def _model(s: State) -> Json:
         "path": str(m.directory.path),
         "notes": list(m.notes),
         "calibrated": apply.kept(m),
-        "effects": [_about(m, e.id) for e in m.model.effects],
+        "effects": [_about(e) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
     }
 
 
-def _about(known: Loaded | Diagnosis, effect: str) -> Json:
-    """What an effect of a model is; nothing if the model does not know it."""
-    model = known.model if isinstance(known, Loaded) else known.fitted.model
-    e = model.effect(effect)
-    return (
-        {}
-        if e is None
-        else {
-            "id": e.id,
-            "title": numbers.clean(e.title),
-            "physics": numbers.clean(e.physics),
-            "source": numbers.clean(e.source),
-            "limits": numbers.clean(e.limits),
-            "equation": maths.mathml(e.equation, block=True),
-            "channels": list(e.channels),
-            "parameters": [
-                {
-                    "symbol": maths.mathml(q.latex),
-                    "unit": numbers.unit(q.unit),
-                    "meaning": numbers.clean(q.meaning),
-                }
-                for q in e.parameters
-            ],
-        }
-    )
+def _about(e: Any) -> Json:
+    """What an effect of a model (``Model.effect``) is; nothing of one that the model does not know."""
+    if e is None:
+        return {}
+    return {
+        "id": e.id,
+        "title": numbers.clean(e.title),
+        "physics": numbers.clean(e.physics),
+        "source": numbers.clean(e.source),
+        "limits": numbers.clean(e.limits),
+        "equation": maths.mathml(e.equation, block=True),
+        "channels": list(e.channels),
+        "parameters": [
+            {
+                "symbol": maths.mathml(q.latex),
+                "unit": numbers.unit(q.unit),
+                "meaning": numbers.clean(q.meaning),
+            }
+            for q in e.parameters
+        ],
+    }
 
 
 def error(rms: float, told: Mapping[str, object]) -> Json:
@@ -104,21 +100,12 @@ def _banner(s: State) -> Json | None:
         "headline": "Testing every effect of the catalogue …" if d is None else diagnose_page.headline(d),
         "lead": [] if d is None else diagnose_page.lead(d, "said with each effect"),
         "errors": [
-            {
-                "label": "nominal",
-                **error(c.nominal.rms_Eo, c.nominal.as_json()),
-                "about": "with the values of the test sheet",
-            },
-            {
-                "label": "calibrated",
-                **error(c.calibrated.rms_Eo, c.calibrated.as_json()),
-                "about": "parameters fitted to these flights",
-            },
-            {
-                "label": "held out",
-                **error(c.holdout.rms_Eo, c.holdout.as_json()),
-                "about": "fitted on half of the blocks of time, scored on the rest",
-            },
+            {"label": label, **error(e.rms_Eo, e.as_json()), "about": about}
+            for label, e, about in (
+                ("nominal", c.nominal, "with the values of the test sheet"),
+                ("calibrated", c.calibrated, "parameters fitted to these flights"),
+                ("held out", c.holdout, "fitted on half of the blocks of time, scored on the rest"),
+            )
         ],
         "noise": {"rms_Eo": c.noise_floor, "text": numbers.number(c.noise_floor)},
         "converged": converged if isinstance(converged, bool) else None,
@@ -143,7 +130,7 @@ def effects(d: Diagnosis) -> list[Json]:
         probability = r.as_json().get("probability")
         found.append(
             {
-                **_about(d, r.effect),
+                **_about(d.fitted.model.effect(r.effect)),
                 "id": r.effect,
                 "found": row["found"],
                 "significant": row["significant"],
@@ -172,7 +159,7 @@ def _linear(d: Diagnosis) -> set[str]:
 def _silent(d: Diagnosis) -> list[Json]:
     found = []
     for n in d.not_testable:
-        found.append({**_about(d, n.effect), "id": n.effect, "why": numbers.clean(n.why)})
+        found.append({**_about(d.fitted.model.effect(n.effect)), "id": n.effect, "why": numbers.clean(n.why)})
     return found
 
 

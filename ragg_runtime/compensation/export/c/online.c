@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = (STATES + 4) / 4 * 4 };
+enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = RAGG_ONLINE_WIDTH };
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */

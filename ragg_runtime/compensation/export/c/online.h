@@ -7,10 +7,13 @@
 
 #include "online_values.h"
 
-enum { RAGG_ONLINE_STATES = FITTED_PARAMETERS + 2 };
+enum {
+    RAGG_ONLINE_STATES = FITTED_PARAMETERS + 2,
+    RAGG_ONLINE_WIDTH = (RAGG_ONLINE_STATES + 4) / 4 * 4 /* and the right-hand side; zeros up to a multiple of four */
+};
 
 typedef struct {
-    double R[RAGG_ONLINE_STATES][(RAGG_ONLINE_STATES + 4) / 4 * 4]; /* upper triangle, the right-hand side, zeros up to a multiple of four */
+    double R[RAGG_ONLINE_STATES][RAGG_ONLINE_WIDTH]; /* upper triangle, and the right-hand side */
     double noise, walk, forget;
     double before, waited, faded;
     int begun, output;
