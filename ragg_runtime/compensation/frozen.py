@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -64,15 +64,18 @@ def in_force(kept: str | None, where: Path, model: Model, instrument: Instrument
             expected=f"{here[1]}, effects {', '.join(here[0]) or 'none'}",
             remedy=again,
         )
-    current = {(c.name, c.accelerometer): k for c, k in base_columns(model, instrument)}
+    current = {(c.name, c.accelerometer): (c, k) for c, k in base_columns(model, instrument)}
+    columns = []
     for c, k in zip(saved.columns, saved.index, strict=True):
-        if current.get((c.name, c.accelerometer)) != k:
+        own, place = current.get((c.name, c.accelerometer), (c, None))
+        if place != k:
             raise UserError(
                 "the saved calibration names a parameter that the model does not fit",
                 where=where,
                 found=c.label,
                 remedy=did_you_mean(c.name, [name for name, _ in current]) or again,
             )
+        columns.append(replace(own, scale=c.scale, unit=c.unit, unit_factor=c.unit_factor))
     given = np.setdiff1d(np.arange(len(nominal)), saved.index)
     if not np.array_equal(saved.p[given], nominal[given]):
         raise UserError(
@@ -83,7 +86,7 @@ def in_force(kept: str | None, where: Path, model: Model, instrument: Instrument
         )
     if not scale_factor(model, saved.p) > 0.0:
         raise UserError("the saved calibration has no positive scale factor", where=where, remedy=again)
-    return saved
+    return replace(saved, columns=tuple(columns))
 
 
 def notes(saved: Saved, model: Model, instrument: Instrument) -> list[str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.columns import Column, spelt
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.evaluate import named
@@ -41,7 +41,7 @@ class ParameterValue:
     """A fitted parameter, or a combination of accelerometers', in its display unit.
 
     ``weights`` (n,) say what a combination is: the sum of weight times value over the accelerometers; empty for a
-    parameter by itself.
+    parameter by itself. ``accelerometer_name`` is the accelerometer's name on the sheet.
     """
 
     name: str
@@ -50,6 +50,7 @@ class ParameterValue:
     std: float
     unit: str
     weights: tuple[float, ...] = ()
+    accelerometer_name: str = ""
 
     def as_json(self) -> dict[str, object]:
         own: dict[str, object] = {
@@ -58,6 +59,7 @@ class ParameterValue:
             "value": self.value,
             "std": self.std,
             "unit": self.unit,
+            **spelt(self.accelerometer, self.accelerometer_name),
         }
         return own | ({"weights": list(self.weights)} if self.weights else {})
 
@@ -86,6 +88,7 @@ def parameter_values(columns: Sequence[Column], values: Array, covariance: Array
                 value=float(values[k]) * factor,
                 std=float(np.sqrt(covariance[k, k])) * factor,
                 unit=c.unit,
+                accelerometer_name=c.accelerometer_name,
             )
         )
     return found

@@ -46,7 +46,9 @@ class Column:
     effect
         Id of the effect that brings it; ``None`` for the paper's instrument.
     symbol, meaning
-        LaTeX, and in words; empty of a calibration that was read from a file.
+        LaTeX, and in words; empty of a calibration as it was read from a file.
+    accelerometer_name
+        Its name on the sheet; empty if shared, and as read from a file.
     """
 
     name: str
@@ -57,10 +59,16 @@ class Column:
     effect: str | None
     symbol: str = ""
     meaning: str = ""
+    accelerometer_name: str = ""
 
     @property
     def label(self) -> str:
         return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
+
+
+def spelt(accelerometer: int | None, name: str) -> dict[str, str]:
+    """What JSON says beside an accelerometer's number: its name on the sheet, where that is not A and the number."""
+    return {} if name in ("", f"A{accelerometer}") else {"accelerometer_name": name}
 
 
 def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int]]:
@@ -87,6 +95,7 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
                 effect=None,
                 symbol=q.symbol,
                 meaning=q.description,
+                accelerometer_name=instrument.layout.names[j],
             )
             found.append((column, start[q.name] + j))
     for e in model.effects:
@@ -126,6 +135,7 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
                 effect=e.id,
                 symbol=q.latex,
                 meaning=q.meaning,
+                accelerometer_name="" if j is None else instrument.layout.names[j - 1],
             )
             columns.append((column, q.symbol))
     return columns

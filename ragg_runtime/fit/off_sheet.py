@@ -8,7 +8,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.columns import Column, spelt
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
@@ -27,10 +27,11 @@ class OffSheet:
     value: float
     sheet: float
     unit: str
+    accelerometer_name: str = ""
 
     def in_words(self) -> str:
         """``K1 of A2 is 40 sigma off its sheet: 10.4 where it says 10 mA/g``."""
-        of = "" if self.accelerometer is None else f" of A{self.accelerometer}"
+        of = "" if self.accelerometer is None else f" of {self.accelerometer_name}"
         return (
             f"{self.name}{of} is {abs(self.sigmas):.3g} sigma off its sheet: "
             f"{self.value:.6g} where it says {self.sheet:.6g} {self.unit}"
@@ -44,6 +45,7 @@ class OffSheet:
             "value": self.value,
             "sheet": self.sheet,
             "unit": self.unit,
+            **spelt(self.accelerometer, self.accelerometer_name),
         }
 
 
@@ -58,6 +60,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
             value=float(c.p[k] / q.unit_factor),
             sheet=float(sheet[k] / q.unit_factor),
             unit=q.unit,
+            accelerometer_name=q.accelerometer_name,
         )
         for q, k in zip(c.columns, c.index, strict=True)
         if q.effect is None

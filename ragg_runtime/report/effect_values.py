@@ -22,7 +22,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import Posterior, posterior
-from ragg_runtime.report.parameters import PATTERNS, accelerometer
+from ragg_runtime.report.parameters import PATTERNS
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -83,7 +83,7 @@ def _headline(q: ParameterValue) -> Value:
     of, _, name = q.name.rpartition(" ")
     if q.std <= 0.0:
         return _plain(name, q.value, q.unit)
-    of = of.replace("Sigma", "Σ") or (f"A{q.accelerometer}" if q.accelerometer else "")
+    of = of.replace("Sigma", "Σ") or q.accelerometer_name
     text = numbers.with_unit(numbers.plus_minus(q.value, q.std), q.unit)
     return Value(name, of, text, q.value / q.std)
 
@@ -109,7 +109,7 @@ def joint(f: Fitted, effect: str) -> list[Value]:
 
 def _single(f: Fitted, own: Sequence[tuple[int, Column]]) -> list[Value]:
     fitted = _fit(f, own)
-    return [_value(c, accelerometer(f, c), np.eye(len(own))[k], fitted) for k, (_, c) in enumerate(own)]
+    return [_value(c, c.accelerometer_name, np.eye(len(own))[k], fitted) for k, (_, c) in enumerate(own)]
 
 
 def _value(c: Column, of: str, weights: Array, fitted: Posterior) -> Value:
@@ -135,7 +135,7 @@ def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -
                 rows.append((name, w, SEEN))
         else:
             for k in positions:
-                rows.append((accelerometer(f, own[k][1]), np.eye(len(own))[k], UNSEEN))
+                rows.append((own[k][1].accelerometer_name, np.eye(len(own))[k], UNSEEN))
         for of, w, limit in rows:
             if fitted.std(w) < limit * float(np.linalg.norm(w)):
                 found.append(_value(column, of, w, fitted))

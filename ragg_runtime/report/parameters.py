@@ -96,11 +96,6 @@ def symbol_of(column: Column) -> Symbol:
     return Symbol(pieces, column.name, column.meaning)
 
 
-def accelerometer(f: Fitted, column: Column) -> str:
-    """Its name as the layout has it; nothing of a parameter that all share."""
-    return "" if column.accelerometer is None else f.instrument.layout.names[column.accelerometer - 1]
-
-
 def _names(f: Fitted) -> dict[str, list[int]]:
     """Parameter name -> positions of its columns."""
     found: dict[str, list[int]] = {}
@@ -192,7 +187,7 @@ def _basis(f: Fitted) -> tuple[list[_Direction], Array]:
                 directions.append(_Direction(name, columns[n], 1.0 / float(np.linalg.norm(u))))
             else:
                 row[n] = 1.0
-                directions.append(_Direction(accelerometer(f, columns[n]), columns[n], 1.0))
+                directions.append(_Direction(columns[n].accelerometer_name, columns[n], 1.0))
             rows.append(row)
     return directions, np.array(rows)
 
@@ -287,7 +282,7 @@ def _quotient(a: str, b: str) -> str:
 
 def _single(f: Fitted, n: int) -> Piece:
     column = f.calibration.columns[n]
-    return Piece("", "", accelerometer(f, column), symbol_of(column))
+    return Piece("", "", column.accelerometer_name, symbol_of(column))
 
 
 def pulls(f: Fitted, most: int) -> list[tuple[Piece, float]]:

@@ -295,7 +295,7 @@ def _trial(s: State) -> Json:
         "values": [
             {
                 "name": p.name,
-                "of": s.model.instrument.layout.names[p.accelerometer - 1] if p.accelerometer else "",
+                "of": p.accelerometer_name,
                 "text": numbers.with_unit(numbers.plus_minus(p.value, p.std), p.unit),
             }
             for p in (a.combinations or a.parameters)

@@ -44,7 +44,8 @@ def verdict(name: str, found: Sequence[str], groups: Sequence[Mapping[str, Any]]
 
 def parameter(p: Mapping[str, Any]) -> str:
     """A fitted parameter in one line."""
-    which = f" of A{p['accelerometer']}" if p["accelerometer"] else ""
+    j = p["accelerometer"]
+    which = "" if j is None else f" of {p.get('accelerometer_name', f'A{j}')}"
     own = p["name"].split(" ")[-1]
     sum_ = " ".join(f"{w:+.4g} {own}[{j}]" for j, w in enumerate(p.get("weights", ()), 1) if w)
     return f"{p['name']}{which} = {p['value']:.4g} +- {p['std']:.2g} {p['unit']}{sum_ and f'  ({sum_})'}"
