@@ -1,0 +1,15 @@
+from ragg_runtime.base.errors import UserError as UserError
+from ragg_runtime.workflow.after import calibrate as calibrate
+from ragg_runtime.workflow.after import compensate as compensate
+from ragg_runtime.workflow.after import export as export
+from ragg_runtime.workflow.catalogue import effects as effects
+from ragg_runtime.workflow.loop import add as add
+from ragg_runtime.workflow.loop import compare as compare
+from ragg_runtime.workflow.loop import diagnose as diagnose
+from ragg_runtime.workflow.loop import load as load
+from ragg_runtime.workflow.loop import new as new
+from ragg_runtime.workflow.loop import read_flights as read_flights
+from ragg_runtime.workflow.loop import remove as remove
+from ragg_runtime.workflow.loop import survey as survey
+from ragg_runtime.workflow.online import online as online
+from ragg_runtime.workflow.simulate import simulate as simulate
