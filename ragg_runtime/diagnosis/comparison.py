@@ -53,7 +53,6 @@ class Comparison:
     noise_floor: float
     adequate: bool | None
     remainder: Remainder | None
-    nominal_values: Array
     ladder: tuple[Rung, ...] = ()
     complaint: str | None = None
     remark: str | None = None
@@ -78,7 +77,7 @@ class Comparison:
         """The same, ``nominal`` being these values."""
         p = vector(self.fitted.model, instrument)
         (scored,) = self.fitted.score((), lambda x: nominal_residual(self.fitted, p, x)[None], 1)
-        return replace(self, nominal=scored.whole, nominal_values=p)
+        return replace(self, nominal=scored.whole)
 
     def __repr__(self) -> str:
         errors = (
@@ -255,7 +254,6 @@ def concluded(
         noise_floor=noise,
         adequate=adequate,
         remainder=rem,
-        nominal_values=f.sheet,
         complaint=complaint,
         remark=doubt or disturbed(f),
         explained=output_explained,
