@@ -37,6 +37,9 @@ PIECE_SECONDS = 100.0
 SIDELOBES = ("kaiser", 30.0)
 """Window of that spectrum: the output is ten million eotvos where the spectrum must see one."""
 
+LEAST_BINS = 8
+"""Bins of a spectrum from which its slope is fitted: with fewer the slope is the scatter's."""
+
 
 def spoiled(f: Fitted, e: Explained) -> str | None:
     """Why a fit confirms neither the model nor an effect, in words; ``None`` if nothing speaks against it."""
@@ -124,7 +127,7 @@ def _folded(G: Array, rate: float, spin: float) -> float:
     size = min(len(G), int(PIECE_SECONDS * rate))
     f, P = signal.welch(G, rate, nperseg=size, window=SIDELOBES)
     top = (f > BAND[0] * rate / 2) & (f < BAND[1] * rate / 2) & (P > 0)
-    if np.sum(top) < 8:
+    if np.sum(top) < LEAST_BINS:
         return 0.0
     slope, level = np.polyfit(np.log(f[top]), np.log(P[top]), 1)
     return float(np.exp(level + slope * np.log(rate - 2 * spin))) if slope < FALLS else 0.0

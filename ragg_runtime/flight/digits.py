@@ -23,6 +23,12 @@ MOST = 11
 SAME = 1e-13
 """Relative difference up to which a value is a rounded one: what conversion of units leaves of a double."""
 
+FEWEST = 16
+"""Values from which their digits are looked at."""
+
+ROUNDING = 1e-6
+"""Distance from a multiple of the last digit, in such digits, that double precision may make."""
+
 
 @dataclass(frozen=True)
 class Written:
@@ -71,7 +77,7 @@ def digits_of(flight: Flight, known: Units) -> Digits:
         some = np.asarray(values[at])
         let_go(values)
         some = some[np.isfinite(some) & flight.valid[at]]
-        if len(some) < 16 or np.ptp(some) == 0.0:
+        if len(some) < FEWEST or np.ptp(some) == 0.0:
             continue
         factor = _factor(name, flight, known)
         w = None if factor is None else written(some, factor)
@@ -99,7 +105,7 @@ def written(values: Array, unit_factor: float) -> Written | None:
         return None
     top = int(np.floor(np.log10(size))) + 1 - digits  # the step of the largest, if all have decimals alike
     step = 10.0**top
-    alike = bool(np.all(np.abs(x / step - np.rint(x / step)) < 1e-6))
+    alike = bool(np.all(np.abs(x / step - np.rint(x / step)) < ROUNDING))
     return Written(digits=digits, step=step if alike else 0.0, unit_factor=unit_factor)
 
 

@@ -30,6 +30,9 @@ _LOOKED_AT = 20_000  # rows whose numbers are looked at for remarks
 _DATED = (datetime(1995, 1, 1, tzinfo=UTC), datetime(2045, 1, 1, tzinfo=UTC))
 _EPOCHS = ((GPS_EPOCH, "GPS time"), (datetime(1970, 1, 1, tzinfo=UTC), "Unix time"))
 
+NEAR_G = 0.1
+"""Relative distance from gravity, on the median, within which a vertical channel's unit is guessed: less than platforms feel on average."""
+
 
 @dataclass(frozen=True)
 class Draft:
@@ -229,7 +232,7 @@ def _looks(name: str, values: NDArray[Any]) -> str:
     size = float(np.median(np.abs(v)))
     if name == "a_z":
         for unit, g in (("g", 1.0), ("m/s^2", 9.8), ("Gal", 980.0), ("mGal", 9.8e5)):
-            if 0.9 < size / g < 1.1:
+            if abs(size / g - 1.0) < NEAR_G:
                 return f"the median is {size:.4g}, as gravity in {unit}"
     if name == "time" and len(v) > 1:
         return f"steps of {float(np.median(np.diff(v))):.6g}"

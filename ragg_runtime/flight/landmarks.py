@@ -44,6 +44,9 @@ _STEPS = 200  # differences, the smallest ones, that tell the last digit
 _PRINTED = 16384  # samples whose digits are looked at
 _CHUNK = 1 << 20
 
+SAME_RATE = 1e-3
+"""Relative difference of two flights' rates up to which their samples are compared."""
+
 
 @dataclass(frozen=True)
 class Landmarks:
@@ -131,7 +134,7 @@ def overlap(one: Landmarks, other: Landmarks) -> Overlap | None:
     allowed = {n: DIGITS * (one.digit[n] + other.digit[n]) for n in names}
     worth = {n: max(one.spread[n], other.spread[n]) / (allowed[n] + 1e-300) for n in names}
     telling = sorted((n for n in names if worth[n] > TELLING), key=lambda n: -worth[n])
-    if len(telling) < 2 or not len(one.rows) or abs(one.rate / other.rate - 1) > 1e-3:
+    if len(telling) < 2 or not len(one.rows) or abs(one.rate / other.rate - 1) > SAME_RATE:
         return None
     best = telling[0]
     order = np.argsort(other.columns[best])

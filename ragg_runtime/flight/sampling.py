@@ -22,6 +22,12 @@ JITTER_TRACKED = 0.48
 
 _MOST_MISSING = 0.9  # of all samples; beyond it the gaps are not gaps but the file is a collection of pieces
 
+NO_GAPS = 0.05
+"""Relative difference of the mean from the median step below which a record has no gaps to speak of: its mean step is exact."""
+
+STEADY_FROM = 512
+"""Instants from which a line through them is a better clock than the mean step of a record without gaps."""
+
 
 @dataclass(frozen=True)
 class Grid:
@@ -128,7 +134,7 @@ def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None
     """
     size = 128
     whole = (time[-1] - time[0]) / (len(time) - 1)
-    steady = bool(abs(whole / step - 1) < 0.05)
+    steady = bool(abs(whole / step - 1) < NO_GAPS)
     if steady:  # no gaps: the mean step is exact, the median of jittering ones is not
         step = float(whole)
     phase = np.mod((time[:size] - time[0]) / step, 1.0)
@@ -140,7 +146,7 @@ def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None
         k = np.rint((t - first) / step)
         if np.any(np.diff(k) < 1):
             return None
-        if len(t) >= 512 or size >= len(time) or not steady:
+        if len(t) >= STEADY_FROM or size >= len(time) or not steady:
             step, first = (float(c) for c in np.polyfit(k, t, 1))
         if size >= len(time):
             break

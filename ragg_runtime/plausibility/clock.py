@@ -24,6 +24,9 @@ BETTER = 1.1
 CONVINCING = 5.0
 """The same for the origin of a disc angle where nothing jitters."""
 
+LEAST = 64
+"""Samples of a record from which its clock is looked at: with fewer the model fits any."""
+
 
 def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, str] | None:
     """The flight with the clock that explains it best, and a note; ``None`` if its instants are right.
@@ -33,7 +36,7 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     t = 0 of the file's time.
     """
     x = p.flight
-    if p.recorded.demodulated or len(x) < 64:
+    if p.recorded.demodulated or len(x) < LEAST:
         return None
     first, step = p.even
     worst = 0.0

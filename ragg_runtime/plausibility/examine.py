@@ -31,6 +31,9 @@ Mask = NDArray[np.bool_]
 SENSELESS = 20.0
 """Factor by which the residual falls once a mistake is undone, from which going on is senseless."""
 
+HALVED = 2.0
+"""Factor from which what the model leaves is told as smaller; below, the parameters' nearness to the sheet spoke for the mistake."""
+
 
 @one_thread
 def examined(model: Model, instrument: Instrument, flight: Flight) -> Flight:
@@ -92,7 +95,7 @@ def _remark(found: LikelyMistake) -> str:
     also = f" (or: {'; or: '.join(found.others)})" if found.others else ""
     gain = (
         f"undone, the model leaves {found.factor:.3g} times less of the output"
-        if found.factor > 2
+        if found.factor > HALVED
         else "undone, the parameters stay closer to the test sheet"
     )
     return f"likely mistake: {found.what}{also}; {gain}; {found.remedy}"

@@ -27,6 +27,9 @@ SHOWN_BARS = 12
 MOST_SAID = 3
 """Values of an effect that the lead says."""
 
+CLEAR = 3.0
+"""Standard errors from which a value is said in the report's first lines."""
+
 
 def diagnose_html(
     diagnosis: Diagnosis,
@@ -94,7 +97,7 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
     said = []
     for r in d.ranking:
         if r.effect in d.found:
-            clear = [x for x in _headlines(r) if abs(x.z) > 3.0]
+            clear = [x for x in _headlines(r) if abs(x.z) > CLEAR]
             if clear:
                 sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
                 instead = _instead(effect_values.values(d.fitted, r))

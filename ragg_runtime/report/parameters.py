@@ -32,6 +32,12 @@ SHARE = 0.03
 PATTERNS = tuple(("Σ" if name == "Sigma" else name, signs) for name, signs in combinations.PATTERNS)
 """The combinations, as a page writes them."""
 
+HALF_SEEN = 0.5
+"""Posterior over prior variance of a direction of a group below which its formula is shown."""
+
+LIKE_ONE = 0.05
+"""Relative distance of a factor from one within which it is not written."""
+
 
 @dataclass(frozen=True)
 class Symbol:
@@ -231,7 +237,7 @@ def _components(P: Array, members: Sequence[int]) -> list[list[int]]:
 
 def _group(f: Fitted, directions: Sequence[_Direction], P: Array, members: Sequence[int]) -> Group:
     values, vectors = np.linalg.eigh(P[np.ix_(members, members)])
-    seen = vectors[:, values < 0.5]
+    seen = vectors[:, values < HALF_SEEN]
     formulas = tuple(_formula(f, [directions[n] for n in members], v) for v in _simple(seen))
     pieces = tuple(Piece("", "", directions[n].pattern, symbol_of(directions[n].column)) for n in members)
     return Group(pieces, len(members) - seen.shape[1], formulas)
@@ -264,7 +270,7 @@ def _formula(f: Fitted, directions: Sequence[_Direction], v: Array) -> tuple[Pie
             first = (factor, d.column.unit)
         ratio = factor / first[0]
         text = ""
-        if abs(abs(ratio) - 1.0) > 0.05 or d.column.unit != first[1]:
+        if abs(abs(ratio) - 1.0) > LIKE_ONE or d.column.unit != first[1]:
             text = numbers.number(abs(ratio), 2)
             if d.column.unit != first[1]:
                 text += f" {_quotient(first[1], d.column.unit)}"
