@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,11 +15,11 @@ from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.parameters import (
     SEEN,
+    Combination,
     ParameterValue,
-    gains,
+    combinations_seen,
     own_name,
     parameter_values,
-    patterns,
 )
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit, noise_floor
@@ -39,47 +39,35 @@ LEARNED = 0.5
 """About a parameter whose standard deviation the record at least halves, the record says more than the sheet."""
 
 
-@dataclass(frozen=True)
-class Combination:
-    """A parameter, or a combination of four, that a record determines: ``weights`` (n,), in ``unit``, on the fitted
-    columns in scales.
-    """
-
-    name: str
-    weights: Array
-    unit: str
-
-    def of(self, values: Array, root: Array) -> tuple[float, float]:
-        """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
-        return float(self.weights @ values), float(np.linalg.norm(self.weights @ root))
-
-
 def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:
-    """What a root (n, k) of a covariance, in scales, says to be determined: single values, else combinations of four.
+    """What a root (n, k) of a covariance, in scales, says to be determined: combinations of accelerometers', and values by
+    themselves of parameters that all share, or of which the record sees every accelerometer's.
 
     ``p`` is the model's parameter vector, for the accelerometers' gains (:mod:`ragg_runtime.diagnosis.parameters`).
     """
-    found = []
 
-    def add(label: str, places: Sequence[int], weights: Array) -> None:
-        w = np.zeros(len(columns))
-        w[list(places)] = weights * np.array([columns[k].scale / columns[k].unit_factor for k in places])
-        if float(np.linalg.norm(w @ root)) < SEEN * float(np.linalg.norm(w)):
-            found.append(Combination(name=label, weights=w, unit=columns[places[0]].unit))
+    def std(w: Array) -> float:
+        return float(np.linalg.norm(w @ root))
 
+    found = combinations_seen(model, p, columns, std)
+    single = np.linalg.norm(root, axis=1) < SEEN
     for name in dict.fromkeys(c.name for c in columns):
         places = [k for k, c in enumerate(columns) if c.name == name]
-        four = [columns[k] for k in places]
-        singly = bool(np.all(np.linalg.norm(root[places], axis=1) < SEEN))
-        if singly or len(four) != model.layout.size:
-            for k in places:
-                j = columns[k].accelerometer
-                label = own_name(columns[k])
-                add(label if j is None else f"{label}[{j}]", [k], np.ones(1))
-        else:
-            for label, weights in patterns(four, gains(model, p, name), model.layout):
-                add(label, places, weights)
+        if len(places) == model.layout.size and not np.all(single[places]):
+            continue
+        for k in places:
+            c = columns[k]
+            if single[k]:
+                label = own_name(c) if c.accelerometer is None else f"{own_name(c)}[{c.accelerometer}]"
+                w = np.zeros(len(columns))
+                w[k] = c.scale / c.unit_factor
+                found.append(Combination(name=label, weights=w, unit=c.unit))
     return found
+
+
+def value_of(q: Combination, values: Array, root: Array) -> tuple[float, float]:
+    """Value and standard deviation, in its unit, of values (n,) with a root (n, k) of their covariance, in scales."""
+    return float(q.weights @ values), float(np.linalg.norm(q.weights @ root))
 
 
 def with_sheet(T: Array, to_nominal: Array) -> Linear:
@@ -93,10 +81,15 @@ def base(triangles: Sequence[Array], n: int) -> list[Array]:
     return [t[:, [*range(n), -1]] for t in triangles]
 
 
-def alone(f: Fitted, flight: int) -> tuple[Array, Array]:
-    """What one of the flights says by itself (with the sheet), in scales: step from here, and root of its covariance."""
-    normal = with_sheet(join(base(f.triangles[flight], f.n_base)), f.to_nominal)
-    return normal.step, inverse(normal.R)
+def each_flight(f: Fitted) -> Iterator[tuple[str, Array, Array]]:
+    """What every flight, of all its outputs, says by itself (with the sheet), in scales: its name, the step from here, and a
+    root of its covariance.
+    """
+    for n in dict.fromkeys(o.flight for o in f.observations):
+        own = [k for k, o in enumerate(f.observations) if o.flight == n]
+        triangles = base([t for k in own for t in f.triangles[k]], f.n_base)
+        normal = with_sheet(join(triangles), f.to_nominal)
+        yield f.observations[own[0]].flight_name, normal.step, inverse(normal.R)
 
 
 def information(f: Fitted) -> Array:
@@ -154,15 +147,12 @@ class Calibrated:
 
     def drift(self) -> list[dict[str, Any]]:
         """The visible combinations as every flight alone has them; nothing for one flight."""
-        f = self.fitted
-        if len(f.observations) < 2:
-            return []
+        flights = list(each_flight(self.fitted))
         rows = []
-        for k, o in enumerate(f.observations):
-            step, root = alone(f, k)
+        for name, step, root in flights if len(flights) > 1 else ():
             for q in self.combinations:
-                value, std = q.of(self.values + step, root)
-                rows.append({"flight": o.name, "name": q.name, "value": value, "std": std, "unit": q.unit})
+                value, std = value_of(q, self.values + step, root)
+                rows.append({"flight": name, "name": q.name, "value": value, "std": std, "unit": q.unit})
         return rows
 
     def as_json(self) -> dict[str, Any]:
@@ -185,7 +175,7 @@ class Calibrated:
             )
         combinations = []
         for x in self.combinations:
-            value, std = x.of(self.values, self.root)
+            value, std = value_of(x, self.values, self.root)
             combinations.append({"name": x.name, "value": value, "std": std, "unit": x.unit})
         return {
             "converged": self.converged,

@@ -265,14 +265,14 @@ class Held:
         c = f.calibration
         values = c.p[c.index] / np.array([q.scale for q in c.columns])
         rows = []
-        for k, o in enumerate(f.observations):
-            step, root_now = calibrated.alone(f, k)
-            for q in calibrated.visible(f.model, c.p, c.columns, self.root):
-                value, std = q.of(values, self.root)
-                now, now_std = q.of(values + step, root_now)
+        seen = calibrated.visible(f.model, c.p, c.columns, self.root)
+        for flight, step, root_now in calibrated.each_flight(f):
+            for q in seen:
+                value, std = calibrated.value_of(q, values, self.root)
+                now, now_std = calibrated.value_of(q, values + step, root_now)
                 both = float(np.hypot(std, now_std))
                 z = (now - value) / both if both else 0.0
-                row = {"flight": o.name, "name": q.name, "frozen": value, "frozen_std": std}
+                row = {"flight": flight, "name": q.name, "frozen": value, "frozen_std": std}
                 rows.append(row | {"value": now, "std": now_std, "unit": q.unit, "z": z})
         return rows
 

@@ -6,7 +6,7 @@ coefficients Sigma, D^1234, D^12 and D^34 (Eq. 18-19). Terminal, JSON, notebook 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -117,10 +117,24 @@ def _harmonics(layout: Layout) -> Iterator[tuple[str, tuple[float, ...]]]:
             yield f"{o.name} {harmonic}", tuple(float(x) for x in w)
 
 
-def visible_combinations(
-    model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
-) -> list[ParameterValue]:
-    """The combinations of accelerometers' values (in scales) that the record sees.
+@dataclass(frozen=True)
+class Combination:
+    """A parameter, or a combination of accelerometers', that a record sees.
+
+    ``weights`` (n,), in ``unit``, are those of the fitted columns in scales; ``shares`` those of the accelerometers' values
+    in ``unit``, empty of a parameter by itself.
+    """
+
+    name: str
+    weights: Array
+    unit: str
+    shares: tuple[float, ...] = ()
+
+
+def combinations_seen(
+    model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
+) -> list[Combination]:
+    """The combinations of accelerometers' values that the record sees; ``std`` is that of weights (n,) of values in scales.
 
     Where it sees each value by itself, those alone that it knows far better than it would of independent values: of a
     cubic term it knows A3 to a tenth of its prior, and A3 - A4 a hundred times better. ``p`` is the model's parameter
@@ -129,28 +143,40 @@ def visible_combinations(
     found = []
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
-        block = covariance[np.ix_(at, at)]
         if len(at) != model.layout.size:
             continue
-        single = np.diag(block)
-        known = single if np.all(single < SEEN**2) else np.ones(len(at))
         each = [columns[k] for k in at]
+        single = np.array([std(x) for x in np.eye(len(columns))[at]])
+        known = single if np.all(single < SEEN) else np.ones(len(at))
         factor = np.array([c.scale / c.unit_factor for c in each])
-        for label, weights in patterns(each, gains(model, p, name), model.layout):
-            w = weights * factor  # of values in scales
-            std = float(np.sqrt(max(0.0, float(w @ block @ w))))
-            if std < SEEN * float(np.sqrt(w**2 @ known)):
-                found.append(
-                    ParameterValue(
-                        name=label,
-                        accelerometer=None,
-                        value=float(w @ values[at]),
-                        std=std,
-                        unit=each[0].unit,
-                        weights=tuple(float(x) for x in weights),
-                    )
-                )
+        for label, shares in patterns(each, gains(model, p, name), model.layout):
+            w = np.zeros(len(columns))
+            w[at] = shares * factor
+            if std(w) < SEEN * float(np.linalg.norm(w[at] * known)):
+                values = tuple(float(x) for x in shares)
+                found.append(Combination(name=label, weights=w, unit=each[0].unit, shares=values))
     return found
+
+
+def visible_combinations(
+    model: Model, p: Array, columns: Sequence[Column], values: Array, covariance: Array
+) -> list[ParameterValue]:
+    """:func:`combinations_seen` of values (n,) in scales with their covariance."""
+
+    def std(w: Array) -> float:
+        return float(np.sqrt(max(0.0, float(w @ covariance @ w))))
+
+    return [
+        ParameterValue(
+            name=q.name,
+            accelerometer=None,
+            value=float(q.weights @ values),
+            std=std(q.weights),
+            unit=q.unit,
+            weights=q.shares,
+        )
+        for q in combinations_seen(model, p, columns, std)
+    ]
 
 
 def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tuple[ParameterValue, ...]]:

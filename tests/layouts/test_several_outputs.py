@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from derive.effects import catalogue
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.compensation.calibrated import calibrated
 from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.fit.fitted import fit
@@ -97,6 +100,22 @@ def test_complements_tell_their_noise() -> None:
             usual * 2.0 * np.sqrt(0.2), rel=0.25
         )  # 2 Eo/sqrt(Hz) of the cross channel
         assert noise == pytest.approx(float(str(told[f"expected_{channel}_Eo"])), rel=0.25)
+
+
+def test_a_calibration_drifts_from_flight_to_flight_not_from_output_to_output() -> None:
+    sheet = parse_instrument(sheets.sheet(sheets.complements(), 8, sheets.FULL))
+    model, _ = derive.derived((), (), sheet.form, sheet.layout)
+    one = flown_by(sheet, 120.0)
+    two = replace(one, name="another")
+    assert not calibrated(model, sheet, [one]).drift()
+    c = calibrated(model, sheet, [one, two])
+    rows = c.drift()
+    assert {r["flight"] for r in rows} == {one.name, "another"}
+    assert len(rows) == 2 * len(c.combinations)
+    for r in rows:  # every flight alone sees, with all its outputs, what both see
+        (joint,) = (q for q in c.as_json()["combinations"] if q["name"] == r["name"])
+        assert r["std"] < 1.6 * joint["std"]
+        assert abs(r["value"] - joint["value"]) < r["std"]
 
 
 STEPS = ("bias-step", "gain-step")
