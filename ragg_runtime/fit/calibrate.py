@@ -19,7 +19,7 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.noise import estimate_noise, spread
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.square_root import join, triangle, with_prior
+from ragg_runtime.fit.square_root import join, with_prior
 from ragg_runtime.fit.trust_region import Linear, Minimum, minimise
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -286,7 +286,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
 
 
 def _triangle(piece: Piece) -> tuple[Array, int, Array]:
-    return triangle(piece.white), piece.white.shape[1], piece.sums()
+    return piece.triangle(), piece.white.shape[1], piece.sums()
 
 
 def _linear(T: Array, to_nominal: Array) -> Linear:

@@ -77,6 +77,7 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
     found: list[tuple[Column, int]] = []
     start = {}
     position = 0
+    places = instrument.layout.names
     for name, size in model.chain.PARAMETERS:
         start[name] = position
         position += size
@@ -95,7 +96,7 @@ def base_columns(model: Model, instrument: Instrument) -> list[tuple[Column, int
                 effect=None,
                 symbol=q.symbol,
                 meaning=q.description,
-                accelerometer_name=instrument.layout.names[j],
+                accelerometer_name=places[j],
             )
             found.append((column, start[q.name] + j))
     for e in model.effects:
@@ -118,6 +119,7 @@ def candidate_columns(model: Model, instrument: Instrument) -> list[Column]:
 
 def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Column, str]]:
     columns = []
+    places = instrument.layout.names
     for q in e.parameters:
         if not q.fitted:
             continue
@@ -135,10 +137,21 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
                 effect=e.id,
                 symbol=q.latex,
                 meaning=q.meaning,
-                accelerometer_name="" if j is None else instrument.layout.names[j - 1],
+                accelerometer_name="" if j is None else places[j - 1],
             )
             columns.append((column, q.symbol))
     return columns
+
+
+def heard(model: Model, instrument: Instrument, place: int, candidates: bool) -> slice | NDArray[np.intp]:
+    """Which of the columns [base | candidates, if there are any | residual] an output can hold anything of.
+
+    The others, of other outputs' accelerometers, are zero; of several discs they are most. All of them, as a slice, of one output.
+    """
+    columns = [c for c, _ in base_columns(model, instrument)]
+    columns += candidate_columns(model, instrument) if candidates else []
+    own = own_columns(columns, instrument, place)
+    return slice(None) if len(own) == len(columns) else np.array([*own, len(columns)], dtype=np.intp)
 
 
 def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:

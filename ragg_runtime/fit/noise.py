@@ -117,14 +117,18 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
 
     def part(piece: Piece) -> _Part:
         valid = piece.observation.record.valid
-        each = np.split(piece.white, len(o.series), axis=1)
+        each = np.split(piece.white[piece.heard], len(o.series), axis=1)
         known = [partial(_through, piece, m, len(each)) for m in range(len(each))]
         return _Part(
             rows=piece.segment.rows,
             valid=valid,
             outputs=tuple(left_over(x, valid, rate, band, t) for x, t in zip(each, known, strict=True)),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
-            random={e: tuple(flat[place] ** 2 for flat in each) for place, e in shown if e is not None},
+            random={
+                e: tuple(x[0] ** 2 for x in np.split(piece.white[[place]], len(o.series), axis=1))
+                for place, e in shown
+                if e is not None
+            },
         )
 
     unwhitened = white_noise(o.record.rate, len(o.series))

@@ -17,6 +17,7 @@ from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.segments import ROWS, Segment, segments
+from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
@@ -44,6 +45,8 @@ class Piece:
         (rows,): the flight's sample that a whitened row ends at.
     windows
         What an unknown gradient spans.
+    heard
+        Which of the columns the output can hold anything of; the others are zero.
     """
 
     segment: Segment
@@ -53,6 +56,15 @@ class Piece:
     white: Array
     sample: NDArray[np.intp]
     windows: Sequence[Window]
+    heard: slice | NDArray[np.intp]
+
+    def triangle(self, rows: slice | NDArray[np.intp] = slice(None)) -> Array:
+        """Triangular factor (n + 1, n + 1) of the whitened columns, or of some of their rows."""
+        if isinstance(self.heard, slice):
+            return triangle(self.white[:, rows])
+        T = np.zeros((len(self.white), len(self.white)))  # what is zero stays so: no work is done for it
+        T[np.ix_(self.heard, self.heard)] = triangle(self.white[self.heard][:, rows])
+        return T
 
     @property
     def residual(self) -> Array:
@@ -103,6 +115,7 @@ def passed(
     ``effort`` times as long as what makes the piece.
     """
     n_base = len(design.base_columns(at.model, at.instrument))
+    heard = design.heard(at.model, at.instrument, o.place, at.with_candidates)
     found = flight_segments(o) if chosen is None else chosen
     memory = max(len(t) for t in noise.filters) - 1 if whitened and chosen is None else 0
     tails: list[Future[Array | None]] = [Future() for _ in found]
@@ -119,12 +132,24 @@ def passed(
                 tail = tails[k - 1].result()  # the segment before was begun before
                 tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
-            flat = whitened_columns(columns, noise, tail, part.record)
+            some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], part.record)
             if windows:
-                flat = flat.copy() if np.shares_memory(flat, columns) else flat
-                unknown_gradient.project(flat, windows)
+                some = some.copy() if np.shares_memory(some, columns) else some
+                unknown_gradient.project(some, windows)
+            flat = _among(some, heard, len(columns))
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
-        return work(Piece(s, part, columns, n_base, flat, sample, windows))
+        return work(
+            Piece(
+                segment=s,
+                observation=part,
+                columns=columns,
+                n_base=n_base,
+                white=flat,
+                sample=sample,
+                windows=windows,
+                heard=heard,
+            )
+        )
 
     def guarded(k: int) -> R:
         try:
@@ -138,6 +163,15 @@ def passed(
     for s, made in zip(found, mapped(guarded, range(len(found))), strict=True):
         progress.step(share * (s.rows.stop - s.rows.start))
         yield made
+
+
+def _among(some: Array, heard: slice | NDArray[np.intp], n: int) -> Array:
+    """(n, rows): those columns that are heard among zeros."""
+    if isinstance(heard, slice):
+        return some
+    flat = np.zeros((n, some.shape[1]))
+    flat[heard] = some
+    return flat
 
 
 def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: Record) -> Array:

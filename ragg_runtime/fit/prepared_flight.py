@@ -16,7 +16,7 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, passed, whitened_columns
 from ragg_runtime.fit.segments import BLOCKS, ROWS, block_edges
-from ragg_runtime.fit.square_root import join, triangle
+from ragg_runtime.fit.square_root import join
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
@@ -103,8 +103,8 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
             b, rows = block
             inside = np.flatnonzero((piece.sample >= rows.start) & (piece.sample < rows.stop))
             together = len(inside) and inside[-1] - inside[0] == len(inside) - 1  # a slice saves a copy
-            white = piece.white[:, slice(inside[0], inside[-1] + 1) if together else inside]
-            return b, triangle(white), piece.sums(slice(rows.start - first, rows.stop - first))
+            some = slice(inside[0], inside[-1] + 1) if together else inside
+            return b, piece.triangle(some), piece.sums(slice(rows.start - first, rows.stop - first))
 
         return list(mapped(of_block, piece.segment.blocks))
 
