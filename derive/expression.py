@@ -97,11 +97,11 @@ def from_expression(
         channels=channels,
         parameters=tuple(
             EffectParameter(
-                name,
-                name,
-                str(q["unit"]),
-                f"coefficient of {add}",
-                _plausible(name, q.get("plausible", 1.0)),
+                name=name,
+                latex=name,
+                unit=str(q["unit"]),
+                meaning=f"coefficient of {add}",
+                plausible=_plausible(name, q.get("plausible", 1.0)),
                 shared=_shared(name, q.get("shared", False)),
             )
             for name, q in parameters.items()

@@ -119,12 +119,12 @@ def harmonic(collected: Collected, name: str, title: str) -> Harmonic:
     used = {s.name for _, terms in amplitudes for t in terms for s in t.motion.free_symbols}
     numbers = tuple((k, v) for k, v in motion_numbers().items() if k in used)
     return Harmonic(
-        name,
-        title,
-        tuple(amplitudes),
-        numbers,
-        tuple(basis),
-        tuple((p, tuple(s)) for p, s in slopes.items()),
+        name=name,
+        title=title,
+        amplitudes=tuple(amplitudes),
+        numbers=numbers,
+        basis=tuple(basis),
+        slopes=tuple((p, tuple(s)) for p, s in slopes.items()),
     )
 
 
@@ -152,7 +152,14 @@ def _readable(p: PolyElement) -> sp.Expr:
 def effect_parameters(effects: Sequence[Effect], count: int = FOUR.size) -> tuple[Parameter, ...]:
     """The parameters that effects bring, under the names they have in a parameter vector."""
     return tuple(
-        Parameter(e.symbol(q).name, q.latex, q.unit, f"{e.title}: {q.meaning}", q.shared, count)
+        Parameter(
+            name=e.symbol(q).name,
+            latex=q.latex,
+            unit=q.unit,
+            meaning=f"{e.title}: {q.meaning}",
+            shared=q.shared,
+            count=count,
+        )
         for e in effects
         for q in e.parameters
     )
@@ -195,15 +202,15 @@ def chain(
     read = {s.name for program in (value, derivatives) for s in program.inputs()}
     extra = sorted(read - reserved)
     return Chain(
-        name,
-        title,
-        value,
-        derivatives,
-        tuple(Row(n, shared) for _, n, shared in named),
-        (*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
-        parameters,
-        tuple(candidates) or tuple(effects),
-        layout.without_common(),
+        name=name,
+        title=title,
+        value=value,
+        derivatives=derivatives,
+        rows=tuple(Row(n, shared) for _, n, shared in named),
+        inputs=(*MOTION, *(auxiliary_channel(column_of(n)) for n in extra)),
+        parameters=parameters,
+        effects=tuple(candidates) or tuple(effects),
+        layout=layout.without_common(),
     )
 
 

@@ -42,7 +42,9 @@ def contributions(f: Fitted) -> list[Contribution]:
             e = error(G - output(f.model.chain, o.record, without, o.output), o.record, k)
             squares.append([e.rms_Eo**2, e.inline_Eo**2, e.cross_Eo**2])
         rms, inline, cross = np.sqrt(np.mean(squares, axis=0))
-        found.append(Contribution(label, float(rms), float(inline), float(cross), effect))
+        found.append(
+            Contribution(label=label, rms=float(rms), inline=float(inline), cross=float(cross), strong=effect)
+        )
     return sorted((c for c in found if c.rms > 0.0), key=lambda c: (-c.rms, c.label))
 
 

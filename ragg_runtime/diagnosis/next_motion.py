@@ -142,7 +142,19 @@ def proposals(
             continue
         axis, ratio, size = motions[best]
         now = separation(f.whole, f.n_base, field, signals[e], r)
-        found.append(Proposal(e, r, axis, ratio, ratio * spin, size, DURATION, now, moving[best][n]))
+        found.append(
+            Proposal(
+                effect=e,
+                rival=r,
+                axis=axis,
+                ratio=ratio,
+                frequency=ratio * spin,
+                amplitude=size,
+                duration=DURATION,
+                now=now,
+                then=moving[best][n],
+            )
+        )
     return found
 
 

@@ -87,35 +87,63 @@ def _ranking(
         values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
         parameters = parameter_values(mine, values, spread)
         if e in instants:
-            parameters.append(ParameterValue("t_step", None, instants[e], 0.0, "s"))
+            parameters.append(
+                ParameterValue(name="t_step", accelerometer=None, value=instants[e], std=0.0, unit="s")
+            )
         indistinguishable = rivals.get(e, ())
         for main, others in rivals.items():
             if e in others:
                 indistinguishable = tuple(sorted({main, *others} - {e}))
         ranked.append(
             Ranked(
-                e,
-                t.log_p,
-                t.chi2,
-                t.rank,
-                float(t.chi2 - t.rank * np.log(f.calibration.rows)),
-                before,
-                scored[2 * n].whole,
-                scored[2 * n + 1].held_out,
-                tuple(parameters),
-                tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
-                indistinguishable,
+                effect=e,
+                log_p=t.log_p,
+                chi2=t.chi2,
+                rank=t.rank,
+                delta_bic=float(t.chi2 - t.rank * np.log(f.calibration.rows)),
+                before=before,
+                after=scored[2 * n].whole,
+                after_holdout=scored[2 * n + 1].held_out,
+                parameters=tuple(parameters),
+                combinations=tuple(visible_combinations(f.model, f.calibration.p, mine, values, spread)),
+                indistinguishable_from=indistinguishable,
             )
         )
     for e in output:
-        ranked.append(Ranked(e, -np.inf, np.inf, 1, np.inf, before, before, before, (), (), ()))
+        ranked.append(
+            Ranked(
+                effect=e,
+                log_p=-np.inf,
+                chi2=np.inf,
+                rank=1,
+                delta_bic=np.inf,
+                before=before,
+                after=before,
+                after_holdout=before,
+                parameters=(),
+                combinations=(),
+                indistinguishable_from=(),
+            )
+        )
     return ranked, before
 
 
 def _ranked_random(f: Fitted, random: Mapping[str, Test], before: Error) -> list[Ranked]:
     rows = np.log(f.calibration.rows)
     return [
-        Ranked(e, t.log_p, t.chi2, t.rank, float(t.chi2 - rows), before, before, before, (), (), ())
+        Ranked(
+            effect=e,
+            log_p=t.log_p,
+            chi2=t.chi2,
+            rank=t.rank,
+            delta_bic=float(t.chi2 - rows),
+            before=before,
+            after=before,
+            after_holdout=before,
+            parameters=(),
+            combinations=(),
+            indistinguishable_from=(),
+        )
         for e, t in random.items()
     ]
 
@@ -142,7 +170,9 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
     covariance = c.covariance[np.ix_(own, own)]
     parameters = parameter_values(columns, values, covariance)
     if t.instant is not None:
-        parameters.append(ParameterValue("t_step", None, t.instant, 0.0, "s"))
+        parameters.append(
+            ParameterValue(name="t_step", accelerometer=None, value=t.instant, std=0.0, unit="s")
+        )
     return Ranked(
         effect=t.effect,
         log_p=t.test.log_p,

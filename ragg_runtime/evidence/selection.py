@@ -195,7 +195,7 @@ def choose(f: Field, *, beside: bool = False, least: Mapping[str, float] = Mappi
         chosen, blocks = _drop(f, chosen, blocks, count)
         remaining = f.tests(chosen)
     chi2 = f.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
-    return Choice(tuple(chosen), blocks, first, remaining, chi2)
+    return Choice(chosen=tuple(chosen), blocks=blocks, tests=first, conditional=remaining, chi2=chi2)
 
 
 def _swap(

@@ -87,7 +87,9 @@ def evidence(f: Fitted) -> Evidence:
         if log_m > limit and since and (found is None or log_m > found.log_evidence):
             place = starts[since] if found is None else (found.flight, found.until)
             found = Change(flight=place[0], until=place[1], log_evidence=log_m)
-    return Evidence(tuple(names), np.array(times), np.array(path), limit, found)
+    return Evidence(
+        flight=tuple(names), time=np.array(times), log_m=np.array(path), limit=limit, change=found
+    )
 
 
 def log_e(*parts: Array) -> float:

@@ -121,10 +121,24 @@ def judge(
     """
     inside = spread is not None and spread[0] <= printed.value <= spread[1]
     if inside or printed.matches(ours):
-        return Row(quantity, printed, ours, spread, "agrees", "")
+        return Row(quantity=quantity, printed=printed, ours=ours, spread=spread, verdict="agrees", reason="")
     if reach is not None and reach[0] <= printed.value <= reach[1]:
-        return Row(quantity, printed, ours, spread, "open input", open_input)
-    return Row(quantity, printed, ours, spread, "unexplained", unexplained)
+        return Row(
+            quantity=quantity,
+            printed=printed,
+            ours=ours,
+            spread=spread,
+            verdict="open input",
+            reason=open_input,
+        )
+    return Row(
+        quantity=quantity,
+        printed=printed,
+        ours=ours,
+        spread=spread,
+        verdict="unexplained",
+        reason=unexplained,
+    )
 
 
 @dataclass(frozen=True)

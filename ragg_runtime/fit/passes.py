@@ -132,24 +132,19 @@ def passed(
                 tail = tails[k - 1].result()  # the segment before was begun before
                 tails[k - 1] = Future()  # its memory is free again
             tails[k].set_result(_carried(tail, columns, memory))
-            some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], part.record)
-            if windows:
-                some = some.copy() if np.shares_memory(some, columns) else some
-                unknown_gradient.project(some, windows)
-            flat = _among(some, heard, len(columns))
+            flat = _white(columns, heard, noise, tail, part.record, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
-        return work(
-            Piece(
-                segment=s,
-                observation=part,
-                columns=columns,
-                n_base=n_base,
-                white=flat,
-                sample=sample,
-                windows=windows,
-                heard=heard,
-            )
+        piece = Piece(
+            segment=s,
+            observation=part,
+            columns=columns,
+            n_base=n_base,
+            white=flat,
+            sample=sample,
+            windows=windows,
+            heard=heard,
         )
+        return work(piece)
 
     def guarded(k: int) -> R:
         try:
@@ -165,11 +160,22 @@ def passed(
         yield made
 
 
-def _among(some: Array, heard: slice | NDArray[np.intp], n: int) -> Array:
-    """(n, rows): those columns that are heard among zeros."""
+def _white(
+    columns: Array,
+    heard: slice | NDArray[np.intp],
+    noise: Noise,
+    tail: Array | None,
+    record: Record,
+    windows: Sequence[Window],
+) -> Array:
+    """(n + 1, rows): columns (n + 1, m, N) whitened, without what an unknown gradient spans; zero where nothing is heard."""
+    some = whitened_columns(columns[heard], noise, None if tail is None else tail[heard], record)
+    if windows:
+        some = some.copy() if np.shares_memory(some, columns) else some
+        unknown_gradient.project(some, windows)
     if isinstance(heard, slice):
         return some
-    flat = np.zeros((n, some.shape[1]))
+    flat = np.zeros((len(columns), some.shape[1]))
     flat[heard] = some
     return flat
 

@@ -101,7 +101,14 @@ def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] 
     _, inline, cross = channels(residual, r, k_ggi, chosen)
     i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
     root = float(np.sqrt(CUTOFF))
-    return Error(rms, rms / k_ggi, i, c, i / root, c / root)
+    return Error(
+        rms_V=rms,
+        rms_Eo=rms / k_ggi,
+        inline_Eo=i,
+        cross_Eo=c,
+        inline_Eo_per_rtHz=i / root,
+        cross_Eo_per_rtHz=c / root,
+    )
 
 
 def pooled(errors: list[Error], weights: list[float]) -> Error:
@@ -208,4 +215,11 @@ class Tally:
             mean, square = self._sums[:, group, :, series] / m
             i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
         root = float(np.sqrt(CUTOFF))
-        return Error(rms, rms / k_ggi, i, c, i / root, c / root)
+        return Error(
+            rms_V=rms,
+            rms_Eo=rms / k_ggi,
+            inline_Eo=i,
+            cross_Eo=c,
+            inline_Eo_per_rtHz=i / root,
+            cross_Eo_per_rtHz=c / root,
+        )

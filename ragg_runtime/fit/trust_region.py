@@ -173,11 +173,19 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     x = np.array(start, dtype=np.float64)
     at = linearise(x)
     if not np.isfinite(at.cost):
-        return Minimum(x, at, False, "the model has no finite output where the fit begins", 1)
+        return Minimum(
+            x=x,
+            at=at,
+            converged=False,
+            reason="the model has no finite output where the fit begins",
+            trials=1,
+        )
     radius, faithful, trials = np.inf, False, 1
     while trials < most:
         if settled(at):
-            return Minimum(x, at, True, "nothing is left to gain", trials, faithful)
+            return Minimum(
+                x=x, at=at, converged=True, reason="nothing is left to gain", trials=trials, faithful=faithful
+            )
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         end, ahead, tried = _followed(linearise, at, x, step)
@@ -192,12 +200,20 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             x, at = end, ahead
             faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
             if fallen < SETTLED and at.decrement < VALLEY:
-                return Minimum(x, at, True, "nothing worth having is left to gain", trials)
+                return Minimum(
+                    x=x, at=at, converged=True, reason="nothing worth having is left to gain", trials=trials
+                )
         elif radius < _smallest(x):
             if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
-                return Minimum(x, at, True, "nothing worth having is left to gain", trials)
-            return Minimum(x, at, False, "no step, however small, lowers the misfit", trials)
-    return Minimum(x, at, settled(at), f"it was stopped after {most} trials", trials)
+                return Minimum(
+                    x=x, at=at, converged=True, reason="nothing worth having is left to gain", trials=trials
+                )
+            return Minimum(
+                x=x, at=at, converged=False, reason="no step, however small, lowers the misfit", trials=trials
+            )
+    return Minimum(
+        x=x, at=at, converged=settled(at), reason=f"it was stopped after {most} trials", trials=trials
+    )
 
 
 def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:

@@ -182,7 +182,14 @@ def layout(
         where = at(path, f"column {c.name!r}")
         si_units[c.name] = fixed[c.name] if c.name in fixed else known.base_unit(c.unit, where)
         known.to_si(1.0, c.unit, si_units[c.name], where)  # a wrong dimension is told before the file is read
-    return Layout(path, tuple(columns), si_units, known, need_output, accelerometers)
+    return Layout(
+        path=path,
+        columns=tuple(columns),
+        si_units=si_units,
+        known=known,
+        need_output=need_output,
+        accelerometers=accelerometers,
+    )
 
 
 def enough(flight: Flight, rows: int) -> Flight:

@@ -126,7 +126,13 @@ def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
     headings = [
         replace(h, text=look.allows_text(h.name) and _text(h.name, n, first)) for n, h in enumerate(found)
     ]
-    return _Layout(path, compressed, delimiter, skipped + 1 + below, distinct(path, headings))
+    return _Layout(
+        path=path,
+        compressed=compressed,
+        delimiter=delimiter,
+        skip=skipped + 1 + below,
+        headings=distinct(path, headings),
+    )
 
 
 def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:

@@ -268,7 +268,7 @@ def _sheet(sheet: Any, path: Path, look: Look) -> _Sheet | None:
             found="text",
             expected="numbers",
         )
-    return _Sheet(sheet.title, sheet.title, first, names, kept)
+    return _Sheet(place=sheet.title, line=sheet.title, first_row=first, all_names=names, columns=kept)
 
 
 def _is_text(column: int, rows: Sequence[Sequence[Any]]) -> bool:

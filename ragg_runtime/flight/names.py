@@ -100,21 +100,31 @@ def _outputs() -> list[Role]:
     half = "of a disc the inline output is usually (Gamma_xx - Gamma_yy)/2, inline is twice that"
     found = [
         Role("G_out", r"g_?out|sum_?(volt(age)?)?|ggi(_?(out|sum))?"),
-        Role("inline", r"in_?line(_?raw)?", "likely", 2.0, half),
+        Role(name="inline", pattern=r"in_?line(_?raw)?", sure="likely", scale=2.0, why=half),
         Role("cross", r"cross(_?raw)?"),
     ]
     found += [Role(f"V_{k}", rf"v_?{k}|volt(age)?_?{k}|acc(el)?_?{k}_?v(olt(age)?)?") for k in range(1, 5)]
     for disc in ("1", "2", "3", "4", "a", "b", "c"):
         name = disc.upper()
         found += [
-            Role(f"inline_{name}", rf"(ggi_?)?in_?line_?{disc}(_?raw)?", "likely", 2.0, half),
+            Role(
+                name=f"inline_{name}",
+                pattern=rf"(ggi_?)?in_?line_?{disc}(_?raw)?",
+                sure="likely",
+                scale=2.0,
+                why=half,
+            ),
             Role(f"cross_{name}", rf"(ggi_?)?cross_?{disc}(_?raw)?"),
         ]
     for complement in ("a", "b"):
         name = complement.upper()
         found += [
             Role(
-                f"inline_{name}", rf"{complement}_?uv(_\w+)?", "likely", 2.0, "UV is (Gamma_xx - Gamma_yy)/2"
+                name=f"inline_{name}",
+                pattern=rf"{complement}_?uv(_\w+)?",
+                sure="likely",
+                scale=2.0,
+                why="UV is (Gamma_xx - Gamma_yy)/2",
             ),
             Role(f"cross_{name}", rf"{complement}_?ne(_\w+)?"),
         ]

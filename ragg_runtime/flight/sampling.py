@@ -100,7 +100,13 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
         )
     whole = time if count == len(time) else np.interp(np.arange(count), index, time)
     jitters = bool(np.max(deviation) > JITTER_NOTED)
-    return Grid(index, whole, step, tuple(_notes(time, steps, jumps, deviation, step)), jitters)
+    return Grid(
+        index=index,
+        time=whole,
+        step=step,
+        notes=tuple(_notes(time, steps, jumps, deviation, step)),
+        jitters=jitters,
+    )
 
 
 def _steps(time: Array, path: Path | None, where: str, first_row: int) -> Array:

@@ -113,7 +113,14 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
         notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
         batches = partial(_plain_batches, table, columns, way, origin)
         found.append(
-            Source(table.path, columns, batches, table.line, origin if way and way.dated else None, notes)
+            Source(
+                path=table.path,
+                columns=columns,
+                batches=batches,
+                line=table.line,
+                origin=origin if way and way.dated else None,
+                notes=notes,
+            )
         )
     return found
 

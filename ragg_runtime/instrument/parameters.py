@@ -41,11 +41,20 @@ class Parameter:
 
 def _second_order(index: int, product: str) -> Parameter:
     text = f"second-order coefficient of {product}"
-    return Parameter(f"K{index}", f"K_{index}", "1/(m/s^2)", "ug/g^2", text, 20.0)
+    return Parameter(
+        name=f"K{index}",
+        symbol=f"K_{index}",
+        si_unit="1/(m/s^2)",
+        display_unit="ug/g^2",
+        description=text,
+        plausible=20.0,
+    )
 
 
 def _angle(name: str, symbol: str, text: str) -> Parameter:
-    return Parameter(name, symbol, "rad", "arcsec", text, 100.0)
+    return Parameter(
+        name=name, symbol=symbol, si_unit="rad", display_unit="arcsec", description=text, plausible=100.0
+    )
 
 
 PARAMETERS: tuple[Parameter, ...] = (

@@ -135,7 +135,7 @@ class Dictionary:
             for n in wanted
         }
         nothing = np.where(r.valid, np.float32(1.0), np.float32(0.0))
-        return Chunks(chosen, most, carriers, channels, nothing)
+        return Chunks(terms=chosen, most=most, carriers=carriers, channels=channels, one=nothing)
 
     def _channel(self, name: str, r: Record) -> Array:
         x = self._slow.series(name, r) if features.is_slow(name) else features.series(name, r)

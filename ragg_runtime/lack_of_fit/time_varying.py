@@ -113,7 +113,14 @@ class BlockScores:
         found = [self._scatter(d, v, block), self._window(d, v, known), self._jump(d, v), self._swing(d, v)]
         best = min((f for f in found if f is not None), key=lambda f: f.log_p)
         log_p = min(0.0, best.log_p + float(np.log(len(terms) * QUESTIONS)))
-        return Varying(log_p, int(terms[best.place]), best.chi2, best.coefficient, best.std, best.how)
+        return Varying(
+            log_p=log_p,
+            place=int(terms[best.place]),
+            chi2=best.chi2,
+            coefficient=best.coefficient,
+            std=best.std,
+            how=best.how,
+        )
 
     def _scatter(self, d: Array, v: Array, block: NDArray[np.intp]) -> Varying:
         starts = np.flatnonzero(np.diff(block, prepend=-1))
@@ -125,7 +132,14 @@ class BlockScores:
         excess = max(0.0, float(chi2[k]) - freedom) / max(freedom, 1)
         log_p = log_sf(float(chi2[k]), max(freedom, 1))
         how = "varies from block to block of time"
-        return Varying(log_p, k, float(chi2[k]), float(np.sqrt(excess / size2)), float(size2**-0.5), how)
+        return Varying(
+            log_p=log_p,
+            place=k,
+            chi2=float(chi2[k]),
+            coefficient=float(np.sqrt(excess / size2)),
+            std=float(size2**-0.5),
+            how=how,
+        )
 
     def _window(self, d: Array, v: Array, rows: float) -> Varying:
         # the level of a block is known from its rows alone: Student's t
@@ -163,7 +177,9 @@ class BlockScores:
         tail = float(np.log(share_beyond) if share_beyond > 0.0 else special.log_ndtr(-z))
         log_p = tail + float(np.log(2 * len(chi2)))
         std = float(np.sqrt(share[n] / max(float(variance[n, k]), 1e-300)))
-        return Varying(log_p, int(k), float(chi2[n, k]), std * z, std, how[n])
+        return Varying(
+            log_p=log_p, place=int(k), chi2=float(chi2[n, k]), coefficient=std * z, std=std, how=how[n]
+        )
 
     def _swing(self, d: Array, v: Array) -> Varying:
         middle = (self.time[1:] + self.time[:-1]) / 2
@@ -178,7 +194,14 @@ class BlockScores:
         std = float(1.0 / np.sqrt(max(float(np.sum(v[:, k])), 1e-300)))
         log_p = -float(chi2[n, k]) / 2 + float(np.log(len(CYCLES)))
         how = f"with a period of {duration / CYCLES[n]:.3g} s"
-        return Varying(log_p, int(k), float(chi2[n, k]), std * float(np.sqrt(chi2[n, k])), std, how)
+        return Varying(
+            log_p=log_p,
+            place=int(k),
+            chi2=float(chi2[n, k]),
+            coefficient=std * float(np.sqrt(chi2[n, k])),
+            std=std,
+            how=how,
+        )
 
 
 def _ratio(a: Array, b: Array) -> Array:

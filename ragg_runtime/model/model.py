@@ -232,11 +232,11 @@ def _model(
     present = list(manifest["effects"])
     by_id = {e.id: e for e in effects}
     return Model(
-        tuple(by_id[i] for i in present),
-        tuple(e for e in effects if e.id not in present) if signatures is not None else (),
-        cast(Chain, chain),
-        cast(Chain, signatures or chain),
-        manifest["digest"],
+        effects=tuple(by_id[i] for i in present),
+        candidates=tuple(e for e in effects if e.id not in present) if signatures is not None else (),
+        chain=cast(Chain, chain),
+        signatures=cast(Chain, signatures or chain),
+        digest=manifest["digest"],
         fitting={n: text for n, text in c.items() if n.partition(".")[0] in ("chain", "signatures")},
     )
 

@@ -110,7 +110,10 @@ def likely_mistake(model: Model, instrument: Instrument, p: Picker) -> LikelyMis
         _Tried(m.what, m.remedy, m.plainness, left) for (m, _), left in zip(promising, again, strict=True)
     ]
     tried += [
-        _Tried(s.what, s.remedy, s.plainness, s.left, s.shift, False) for s in searches(model, instrument, p)
+        _Tried(
+            what=s.what, remedy=s.remedy, plainness=s.plainness, left=s.left, timing=s.shift, calming=False
+        )
+        for s in searches(model, instrument, p)
     ]
     found = _chosen(before, tried)
     if not p.recorded.demodulated or (found is not None and found.factor > BETTER):
@@ -146,7 +149,14 @@ def _chosen(before: Explained, tried: Sequence[_Tried]) -> LikelyMistake | None:
     )
     first = equal[0]
     others = tuple(t.what for t in equal[1:3])
-    return LikelyMistake(first.what, first.remedy, others, before, first.left, first.timing)
+    return LikelyMistake(
+        what=first.what,
+        remedy=first.remedy,
+        others=others,
+        before=before,
+        after=first.left,
+        timing=first.timing,
+    )
 
 
 def _explains(before: Explained, after: Explained, factor: float = 1.0, *, calming: bool = True) -> bool:

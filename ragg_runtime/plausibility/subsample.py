@@ -275,4 +275,12 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             derived[name] = series
     how = flight.demodulation or instrument.demodulation or OURS
     taps = kernel(how, flight.rate).centred if form.demodulated else np.zeros(0)
-    return Picker(flight, instrument, form, usable, derived, taps, place)
+    return Picker(
+        flight=flight,
+        instrument=instrument,
+        recorded=form,
+        usable=usable,
+        derived=derived,
+        taps=taps,
+        place=place,
+    )

@@ -135,18 +135,15 @@ def simulate(
 
     Parameters
     ----------
-    instrument, motion
-        True parameters, SI, and true motion of the disc centre.
-    duration, rate, start
-        s, Hz, s.
+    instrument, motion, duration, rate, start
+        True parameters, SI, and true motion of the disc centre; s, Hz, s.
     gravity, record_gradient
         Attracting masses or a gradient (``None``: none), and whether that at the centre is recorded, as Gamma_xx ... Gamma_zz.
     noise, seed
         Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
-    rotations
-        ``first-order`` is the paper (Eq. 2), ``second-order`` keeps squares of mounting angles, ``exact`` turns by the full ones.
-    misalignment
-        ``first-order`` or ``exact``; by itself exact with exact ``rotations``.
+    rotations, misalignment
+        ``first-order`` is the paper (Eq. 2), ``second-order`` keeps squares of mounting angles, ``exact`` turns by the full ones;
+        ``misalignment`` is by itself exact with exact ``rotations``.
     kinematics
         ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
     effects
@@ -161,17 +158,21 @@ def simulate(
     UserError
         On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
     """
-    time = instants(duration, rate, start)
-    counted = misalignment or _of_misalignment(rotations)
-    injected = resolve(effects, instrument.layout.size)
-    world = _world(auxiliaries, injected, seed)
+    time, injected = instants(duration, rate, start), resolve(effects, instrument.layout.size)
     given = _turning(turning or {}, instrument.layout)
-    discs = tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs)
-    share = spin_share(kinematics, injected)
-    chain = Chain(instrument, motion, gravity, rotations, injected, world, discs, share, counted)
-    clean = _clean(chain, time, rate, seed)
-    voltages = clean if noise is None else clean + chain.scale(time) * _drawn(noise, clean.shape, rate, seed)
-    return _recorded(chain, time, voltages, clean, _channels(chain, time, record_gradient, given))
+    chain = Chain(
+        instrument=instrument,
+        motion=motion,
+        gravity=gravity,
+        rotations=rotations,
+        effects=injected,
+        auxiliaries=_world(auxiliaries, injected, seed),
+        turning=tuple(given.get(d.name, Turning(d.spin_frequency)) for d in instrument.layout.discs),
+        spin=spin_share(kinematics, injected),
+        misalignment=misalignment or _of_misalignment(rotations),
+    )
+    clean, noisy = _clean(chain, time, rate, seed), _drawn(noise, chain, time, rate, seed)
+    return _recorded(chain, time, clean, noisy, _channels(chain, time, record_gradient, given))
 
 
 def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:
@@ -201,9 +202,10 @@ def _clean(chain: Chain, time: Array, rate: float, seed: int) -> Array:
 
 
 def _recorded(
-    chain: Chain, time: Array, voltages: Array, clean: Array, channels: Mapping[str, Array]
+    chain: Chain, time: Array, clean: Array, noise: Array, channels: Mapping[str, Array]
 ) -> Simulation:
-    """What the recorder makes of voltages (accelerometers, N), with noise and without."""
+    """What the recorder makes of voltages (accelerometers, N), without and with noise."""
+    voltages = clean + noise
 
     def outputs(v: Array) -> dict[str, Array]:
         layout = chain.instrument.layout
@@ -221,10 +223,12 @@ def _recorded(
     )
 
 
-def _drawn(noise: Noise, shape: tuple[int, int], rate: float, seed: int) -> Array:
-    """(accelerometers, N): the noise of each, of a stream of its own."""
-    streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(shape[0]))
-    return np.stack([noise.sample(stream, shape[1], rate) for stream in streams])
+def _drawn(noise: Noise | None, chain: Chain, time: Array, rate: float, seed: int) -> Array:
+    """(accelerometers, N), V: the noise of each, of a stream of its own."""
+    if noise is None:
+        return np.zeros((chain.size, len(time)))
+    streams = (np.random.default_rng([seed, _NOISE_STREAM, j]) for j in range(chain.size))
+    return chain.scale(time) * np.stack([noise.sample(stream, len(time), rate) for stream in streams])
 
 
 def _turning(given: Mapping[str, Turning], layout: Layout) -> Mapping[str, Turning]:

@@ -37,7 +37,15 @@ def time_panels(f: Fitted, lines: Sequence[tuple[Line, Residuals]], chosen: Sequ
             edges, rms = series.blocks(w, residuals[n], f.scales[n])
             rows.append((line, rms))
         e = series.envelope(r.time, lines[-1][1][n] / f.scales[n], r.valid)
-        found.append(TimePanel(w.observation.name, e, edges, rows, series.noise_rms(w, f.scales[n])))
+        found.append(
+            TimePanel(
+                name=w.observation.name,
+                envelope=e,
+                edges=edges,
+                blocks=rows,
+                noise=series.noise_rms(w, f.scales[n]),
+            )
+        )
     return found
 
 
@@ -182,7 +190,14 @@ def noise_row(f: Fitted, floor: float) -> dict[str, Any]:
 
 def error_of_noise(floor: float, inline: float, cross: float, k_ggi: float) -> Error:
     root = float(np.sqrt(series.BAND))
-    return Error(floor * k_ggi, floor, inline, cross, inline / root, cross / root)
+    return Error(
+        rms_V=floor * k_ggi,
+        rms_Eo=floor,
+        inline_Eo=inline,
+        cross_Eo=cross,
+        inline_Eo_per_rtHz=inline / root,
+        cross_Eo_per_rtHz=cross / root,
+    )
 
 
 def holdout_before(f: Fitted) -> Error:

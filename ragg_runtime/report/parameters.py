@@ -212,11 +212,11 @@ def visibility(f: Fitted) -> Visibility:
         unseen.setdefault(directions[n].pattern, []).append(symbol_of(directions[n].column))
     groups = [_group(f, directions, P, members) for members in _components(P, shared)]
     return Visibility(
-        len(own) - null.shape[1],
-        len(own),
-        tuple((k, tuple(v)) for k, v in unseen.items()),
-        tuple(g for g in groups if g.unseen),
-        _in_patterns(f),
+        determined=len(own) - null.shape[1],
+        total=len(own),
+        unseen=tuple((k, tuple(v)) for k, v in unseen.items()),
+        groups=tuple(g for g in groups if g.unseen),
+        patterns=_in_patterns(f),
     )
 
 

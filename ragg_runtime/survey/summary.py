@@ -151,13 +151,13 @@ def summarised(records: Sequence[Mapping[str, Any]]) -> Summary:
     counts = {v: sum(r["verdict"] == v for r in done) for v in VERDICTS}
     counts["error"] = len(records) - len(done)
     return Summary(
-        counts,
-        tuple(_effects(done)),
-        tuple(_advice(done)),
-        tuple(_terms(done)),
-        tuple(_trends(done)),
-        tuple(str(r["flight"]) for r in done),
-        {k: _median(done, k) for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+        counts=counts,
+        effects=tuple(_effects(done)),
+        advice=tuple(_advice(done)),
+        terms=tuple(_terms(done)),
+        trends=tuple(_trends(done)),
+        names=tuple(str(r["flight"]) for r in done),
+        median={k: _median(done, k) for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
         | {"noise_floor": float(np.median([r["noise_floor"]["rms_Eo"] for r in done])) if done else None},
     )
 
@@ -204,7 +204,15 @@ def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
         names = tuple(str(done[n]["flight"]) for n in flights)
         evidence = [_log10_p(done[n], best) for n in flights]
         strongest = min((p for p in evidence if p is not None), default=None)
-        found.append(Advice(best, names, chance, strongest, tuple(sorted(shared))))
+        found.append(
+            Advice(
+                effect=best,
+                flights=names,
+                log10_chance=chance,
+                strongest_log10_p=strongest,
+                alternatives=tuple(sorted(shared)),
+            )
+        )
         open_claims = [c for c in open_claims if best not in c[1]]
     return found
 

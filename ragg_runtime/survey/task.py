@@ -91,7 +91,7 @@ class Job:
 
 
 def job(text: str, path: Path, *, cluster: bool = False, mapping: tuple[str, str, bool] | None = None) -> Job:
-    return Job(text, str(path.resolve()), fingerprint(), cluster, mapping)
+    return Job(text=text, path=str(path.resolve()), program=fingerprint(), cluster=cluster, mapping=mapping)
 
 
 @cache

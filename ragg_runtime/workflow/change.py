@@ -112,17 +112,19 @@ def add(
         values = {**setting.values, **settings(parameters, m.instrument.layout.size)}
         setting = replace(setting, values=MappingProxyType(values))
         after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
-    made = Added(m, effect, before, after, parameters, combinations)
+    made = Added(
+        loaded=m, effect=effect, before=before, after=after, parameters=parameters, combinations=combinations
+    )
     if made.converged:
         text = add_effect(m.directory.text, setting)
         step = Step(
-            "add",
-            now(),
-            effect,
-            errors_of(before),
-            errors_of(after),
-            MappingProxyType({x.name: x.digest for x in flights}),
-            text,
+            action="add",
+            time=now(),
+            effect=effect,
+            before=errors_of(before),
+            after=errors_of(after),
+            flights=MappingProxyType({x.name: x.digest for x in flights}),
+            text=text,
         )
         made = replace(made, loaded=_planned(m, text, model, step))
     if tell is not None:

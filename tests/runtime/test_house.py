@@ -68,3 +68,34 @@ def test_rooms_and_arrows_are_few() -> None:
     found = arrows()
     assert len(found) <= MOST_ROOMS
     assert sum(map(len, found.values())) <= MOST_ARROWS
+
+
+BY_PLACE = 4
+"""Values of a record that may be told by their place where it is built; of more each is said by its name."""
+
+
+def test_records_are_built_by_keyword() -> None:
+    """But for tables, outside functions and in the audit of printed numbers: they are read by their columns."""
+    trees = {
+        name: ast.parse(text)
+        for name, text in sources().items()
+        if name.startswith(("ragg_runtime/", "derive/")) and not name.startswith("derive/audit/")
+    }
+    records = {
+        c.name
+        for tree in trees.values()
+        for c in ast.walk(tree)
+        if isinstance(c, ast.ClassDef) and any("dataclass" in ast.unparse(d) for d in c.decorator_list)
+    }
+    found = {
+        f"{name}:{call.lineno} {ast.unparse(call.func)}"
+        for name, tree in trees.items()
+        for f in ast.walk(tree)
+        if isinstance(f, ast.FunctionDef | ast.Lambda)
+        for call in ast.walk(f)
+        if isinstance(call, ast.Call)
+        and len(call.args) > BY_PLACE
+        and not any(isinstance(a, ast.Starred) for a in call.args)
+        and ast.unparse(call.func).split(".")[-1] in records
+    }
+    assert found == set()
