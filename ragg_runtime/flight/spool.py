@@ -17,6 +17,9 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.memory import give_back
 from ragg_runtime.flight.record import Array, Flight, Mask
 
+COPIED = 1 << 20
+"""Samples of a column that are copied at a time."""
+
 NOTES = 12
 """Most notes that are kept of the parts of a flight."""
 
@@ -83,6 +86,23 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
     )
 
 
+def room_like(x: Array, shape: tuple[int, ...]) -> Array:
+    """An array to be filled, float64: in a file without a name where ``x`` is mapped, else in memory."""
+    if not _mapping(x):
+        return np.empty(shape)
+    with tempfile.TemporaryFile(dir=tempfile.gettempdir()) as file:
+        return np.memmap(file, np.float64, mode="w+", shape=shape)
+
+
+def copied(x: Array) -> Array:
+    """A copy that can be written to, kept where :func:`room_like` says."""
+    found = room_like(x, x.shape)
+    for start in range(0, len(x), COPIED):
+        found[start : start + COPIED] = x[start : start + COPIED]
+        let_go(found, x)
+    return found
+
+
 def settled(flight: Flight) -> Flight:
     """The flight, once it has been read and examined: what that has left of the memory is given back."""
     let_go(flight.time, flight.valid, *flight.channels.values(), *flight.outputs.values())
@@ -94,12 +114,17 @@ def settled(flight: Flight) -> Flight:
 def let_go(*arrays: Array | Mask) -> None:
     """Let the pages of mapped columns out of memory; of arrays in memory nothing changes."""
     for x in arrays:
-        base: object = x
-        while isinstance(base, np.ndarray) and not isinstance(base, np.memmap):
-            base = base.base
-        held = getattr(base, "_mmap", None)
+        held = _mapping(x)
         if held is not None and hasattr(mmap, "MADV_DONTNEED"):
             held.madvise(mmap.MADV_DONTNEED)
+
+
+def _mapping(x: Array | Mask) -> mmap.mmap | None:
+    """What maps an array's file, if it lies in one."""
+    base: object = x
+    while isinstance(base, np.ndarray) and not isinstance(base, np.memmap):
+        base = base.base
+    return getattr(base, "_mmap", None)
 
 
 def _endless(path: Path, most: int, columns: int) -> UserError:

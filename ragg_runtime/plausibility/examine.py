@@ -12,7 +12,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.flight.spool import let_go
+from ragg_runtime.flight.spool import let_go, room_like
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
@@ -150,7 +150,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     eotvos = scale_factor(model, fitted, p.place)
     n = len(p.flight)
     names = p.columns
-    left = np.empty((len(names), n))
+    left = room_like(p.flight.time, (len(names), n))
     evaluator = model.compiled("auto" if n >= MANY else "numpy")
     needed = {*model.chain.INPUTS, p.disc.angle_column}
     channels = {c: x for c, x in p.flight.channels.items() if c in needed}
@@ -163,6 +163,7 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
         else:
             model_says = evaluator.output(rows.time, x, fitted, rows.phi, 1, which=p.place)[None]
         left[:, start : start + CHUNK] = (rows.data - model_says) / eotvos
+        let_go(left)
     notes = []
     for name, e in zip(names, left, strict=True):
         mask = spikes(e, p.usable)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ragg_runtime.flight.record import WIDEST_SPIKE
+from ragg_runtime.flight.spool import copied
 from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
@@ -129,7 +130,7 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
         for rows, inner in _parts(n, part):
             mask, mended = glitches(x[rows], valid[rows], n)
             if mask[inner].any():
-                whole = np.array(whole) if whole is x else whole
+                whole = copied(x) if whole is x else whole
                 whole[rows][inner] = mended[inner]
                 found[rows][inner] = mask[inner]
         return found, whole

@@ -140,14 +140,14 @@ def _has(f: LineFigures, of: object, disc: str) -> bool:
 def turbulent(q: Quality) -> str | None:
     """Noise of every line against its turbulence; ``None`` without either."""
     rough = np.array([np.nan if f.rough is None else f.rough.size for f in q.lines])
-    names = list(q.lines[0].noise)
+    names = q.names("noise")
     if not names or not np.isfinite(rough).any():
         return None
     with draw.style():
         fig = draw.figure(2.8)
         ax = fig.subplots()
         for name, colour, marker in zip(names, (draw.RESIDUAL, draw.NOISE), "oD", strict=False):
-            noise = [f.noise[name] for f in q.lines]
+            noise = [f.noise.get(name, np.nan) for f in q.lines]
             ax.plot(rough, noise, marker, color=colour, markersize=3.5, label=name, linestyle="none")
         limit = q.limits["in-line-sum" if "in-line sum" in names else "difference-noise"].value
         top = ax.get_ylim()[1]
@@ -200,7 +200,7 @@ def densities(q: Quality) -> str | None:
 
 def levels(q: Quality) -> str | None:
     """Mean of each channel on every line, in the order of flight, with the days divided; ``None`` with few lines."""
-    names = list(q.lines[0].levels)[:DRAWN]
+    names = q.names("levels")[:DRAWN]
     if len(q.lines) < 3 or not names:
         return None
     day = [d.name for d in q.days if d.channel == names[0]]

@@ -49,7 +49,7 @@ def quality_html(q: Quality, *, title: str, command: str) -> str:
 def shown(q: Quality) -> dict[str, Any]:
     """Verdict, limits and the table by line, in words and digits: of the report and of the studio."""
     return {
-        "state": "bad" if q.failed or q.read.refused else "good",
+        "state": "bad" if q.failed or q.read.refused or q.lacking else "good",
         "headline": headline(q),
         "lead": lead(q),
         "limits": [_limit(q, n) for n in range(len(q.used))],
@@ -65,16 +65,15 @@ def headline(q: Quality) -> str:
     refused = f", {len(q.read.refused)} could not be used" if q.read.refused else ""
     if not q.used:
         return f"{lines}{refused}; the record gives no figure that has a limit."
-    return (
-        f"{lines}{refused}, {wrong} beyond a limit." if wrong else f"{lines}{refused}, all within the limits."
-    )
+    lacking = f", {q.lacking} too incomplete for every figure" if q.lacking else ""
+    return f"{lines}{refused}{lacking}, {wrong or 'none'} beyond a limit."
 
 
 def lead(q: Quality) -> list[str]:
     """The survey in sentences."""
     discs = [d for d in q.discs.names if d]
     said = [(f"Discs {', '.join(discs)}: " if discs else "One disc, ") + _ARRANGED[q.discs.arrangement] + "."]
-    for name in q.lines[0].noise:
+    for name in q.names("noise"):
         noise, density = q.median("noise", name), q.median("densities", name)
         said.append(
             f"Median {name}: {numbers.number(noise)} Eo a line, {numbers.number(density)} Eo/√Hz in the band."
@@ -99,7 +98,10 @@ def quality_text(q: Quality) -> str:
     """What the terminal shows: the sentences, then a table of the lines."""
     heads = [h[0] for h in _heads(q)]
     rows = [[str(c) for c in r["cells"]] for r in (_row(q, n, f) for n, f in enumerate(q.lines))]
-    table = [["line", *heads], *[[f.line.name, *cells] for f, cells in zip(q.lines, rows, strict=True)]]
+    table = [
+        ["line", *heads],
+        *[[numbers.short(f.line.name), *cells] for f, cells in zip(q.lines, rows, strict=True)],
+    ]
     widths = [max(len(r[k]) for r in table) for k in range(len(table[0]))]
     lines = [
         "  ".join(c.rjust(w) if k else c.ljust(w) for k, (c, w) in enumerate(zip(r, widths, strict=True)))
@@ -107,8 +109,9 @@ def quality_text(q: Quality) -> str:
     ]
     marks = ["", *(f"  {', '.join(f.failed)}" if f.failed else "" for f in q.lines)]
     shown = [line + mark for line, mark in zip(lines, marks, strict=True)]
-    refused = [f"{n}: {m}" for n, m in q.read.refused]
-    text = "\n".join([headline(q), *lead(q), "", *shown, *refused])
+    refused = [f"{numbers.short(n)}: {m}" for n, m in q.read.refused]
+    notes = [f"note: {n}" for n in q.read.notes]
+    text = "\n".join([headline(q), *lead(q), "", *shown, *refused, *notes])
     return text.replace(numbers.THIN, " ")  # a terminal shows thin spaces as it likes
 
 
@@ -149,8 +152,8 @@ def _figures(q: Quality) -> list[Mapping[str, str]]:
 def _heads(q: Quality) -> list[tuple[str, str]]:
     """(head, unit) of the columns of the table by line."""
     found = [("length", "km"), ("heading", "°"), ("turbulence", "m/s²")]
-    found += [(n, "Eo") for n in q.lines[0].noise]
-    found += [(f"density {n}", "Eo/√Hz") for n in q.lines[0].densities]
+    found += [(n, "Eo") for n in q.names("noise")]
+    found += [(f"density {n}", "Eo/√Hz") for n in q.names("densities")]
     if any(f.phase for f in q.lines):
         found.append(("phase", "°"))
     named = [x.name for x in q.used if x.name.startswith("high") or x.name in ("lag", "frobenius")]
@@ -163,8 +166,8 @@ def _row(q: Quality, number: int, f: LineFigures) -> dict[str, Any]:
         None if f.track is None else float(np.degrees(f.track.direction)),
         None if f.rough is None else f.rough.size,
     ]
-    cells += [f.noise.get(n) for n in q.lines[0].noise]
-    cells += [f.densities.get(n) for n in q.lines[0].densities]
+    cells += [f.noise.get(n) for n in q.names("noise")]
+    cells += [f.densities.get(n) for n in q.names("densities")]
     if any(x.phase for x in q.lines):
         cells.append(None if f.phase is None else float(np.degrees(f.phase[0])))
     named = [x.name for x in q.used if x.name.startswith("high") or x.name in ("lag", "frobenius")]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from ragg_runtime.flight.record import Array
 from ragg_runtime.survey.quality import galileo
-from ragg_runtime.survey.quality.discs import Discs, channel, combinations, ne, uv
+from ragg_runtime.survey.quality.discs import Discs, channel, combinations, crossed, ne, uv
 from ragg_runtime.survey.quality.limits import Limit
 from ragg_runtime.survey.quality.lines import SurveyLine
 from ragg_runtime.survey.quality.spectra import BRIDGED, filled, in_band
@@ -111,6 +111,11 @@ def figures_of(
     )
 
 
+def names(found: Sequence[LineFigures], of: str) -> list[str]:
+    """Names of ``densities``, ``noise``, ``levels`` or ``figures`` that any line has."""
+    return list(dict.fromkeys(n for f in found for n in getattr(f, of)))
+
+
 def begins(line: SurveyLine) -> str | None:
     """The instant of the first sample, ISO 8601."""
     from datetime import timedelta
@@ -144,7 +149,7 @@ def _limited(
     found: dict[str, float] = {}
     if "in-line sum" in noise:
         found["in-line-sum"] = noise["in-line sum"]
-    if "difference UV" in noise:
+    if "difference NE" in noise:
         found["difference-noise"] = (noise["difference UV"] + noise["difference NE"]) / 2.0
     kind = "orthogonal" if discs.arrangement == "orthogonal" else "complements"
     low, high = HIGH[discs.arrangement]
@@ -166,7 +171,7 @@ def _limited(
 
 def _six(line: SurveyLine, discs: Discs) -> tuple[list[Array], list[Array]] | None:
     """UV and NE of three discs without gaps, if they are all there."""
-    if not all(channel("cross", d) in line.channels for d in discs.names):
+    if not crossed(line, discs):
         return None
     first, second = ([w for d in discs.names if (w := filled(of(line, d))) is not None] for of in (uv, ne))
     return (first, second) if len(first) == len(second) == 3 else None
@@ -178,11 +183,13 @@ def _phase(line: SurveyLine, discs: Discs) -> tuple[float, float] | None:
     Whether the phases agree shows in what both measure, the gradient; the uncertainty is that of eight blocks of the
     line, left out one by one.
     """
-    if discs.arrangement != "complements":
+    if discs.arrangement != "complements" or not crossed(line, discs):
         return None
     parts = []
     for d in discs.names:
         z = ne(line, d) + 1j * uv(line, d)
+        if not np.isfinite(z).any():
+            return None
         parts.append(z - np.nanmean(z))
     product = parts[0] * np.conj(parts[1])
     product = product[np.isfinite(product)]
@@ -210,7 +217,8 @@ def _as_galileo(line: SurveyLine, discs: Discs) -> dict[str, float]:
     if discs.arrangement == "complements":
         a, b = discs.names
         found["difference_noise_UV_Eo"] = galileo.difference_noise(uv(line, a), uv(line, b))
-        found["difference_noise_NE_Eo"] = galileo.difference_noise(ne(line, a), ne(line, b))
+        if crossed(line, discs):
+            found["difference_noise_NE_Eo"] = galileo.difference_noise(ne(line, a), ne(line, b))
     height = filled(line.channels["altitude"]) if "altitude" in line.channels else None
     if height is not None:
         found["turbulence_of_altitude"] = galileo.vertical_displacement_turbulence(height)

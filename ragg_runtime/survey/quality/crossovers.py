@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import lsqr
 
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.record import Array
 from ragg_runtime.survey.quality.lines import SurveyLine
 from ragg_runtime.survey.quality.track import Track
@@ -24,7 +25,11 @@ BESIDE = 100.0
 OVERLAP = 0.5
 """Share of the shorter line along which repeats go together."""
 
+MOST_CROSSINGS = 1_000_000
+"""Crossings of all lines, beyond which the positions are no tracks: the largest surveys have some hundred thousand."""
+
 _CHUNK = 64  # samples of a track that are compared as one box first
+_BOXES = 1024  # of them that are held against those of another line at once
 _POINTS = 400  # places along a pair of repeats at which they are compared
 
 
@@ -75,18 +80,26 @@ class Repeat:
 
 def crossings(tracks: Sequence[Track | None]) -> list[Crossing]:
     """Every place at which two lines that are not parallel cross."""
-    boxes = [None if t is None else _boxes(t) for t in tracks]
+    placed = [(k, t) for k, t in enumerate(tracks) if t is not None]
+    boxes = [_boxes(t) for _, t in placed]
+    low = np.array([b[0].min(axis=0) for b in boxes]).reshape(-1, 2)
+    high = np.array([b[1].max(axis=0) for b in boxes]).reshape(-1, 2)
+    steep = _angles([t for _, t in placed])
     found: list[Crossing] = []
-    for i, first in enumerate(tracks):
-        for j in range(i + 1, len(tracks)):
-            second = tracks[j]
-            if first is None or second is None or _angle(first, second) < STEEPEST:
-                continue
-            left, right = boxes[i], boxes[j]
-            assert left is not None
-            assert right is not None
-            for a, b in _meeting(left, right):
+    for k, (i, first) in enumerate(placed):
+        rest = slice(k + 1, None)
+        near = np.all((low[k] <= high[rest]) & (low[rest] <= high[k]), axis=1)
+        for m in k + 1 + np.flatnonzero(near & (steep(k)[rest] >= STEEPEST)):
+            j, second = placed[m]
+            for a, b in _meeting(boxes[k], boxes[m]):
                 found += _crossed(i, j, first, second, a * _CHUNK, b * _CHUNK)
+                if len(found) > MOST_CROSSINGS:
+                    raise UserError(
+                        "lines cross so often that their positions are no tracks",
+                        where="columns of positions (easting and northing, or latitude and longitude)",
+                        found=f"more than {MOST_CROSSINGS} crossings",
+                        remedy="check these columns, or name others in a mapping: ragg map FLIGHT -o mapping.toml",
+                    )
     return found
 
 
@@ -119,12 +132,18 @@ def repeats(
     lines: Sequence[SurveyLine], tracks: Sequence[Track | None], channels: Sequence[str]
 ) -> list[Repeat]:
     """Pairs of lines that go along one track, and how they differ there."""
+    placed = [(k, t) for k, t in enumerate(tracks) if t is not None]
+    steep = _angles([t for _, t in placed])
+    east, north, half, width = np.array([t.box for _, t in placed]).reshape(-1, 4).T
     found = []
-    for i, first in enumerate(tracks):
-        for j in range(i + 1, len(tracks)):
-            second = tracks[j]
-            if first is None or second is None:
-                continue
+    for k, (i, first) in enumerate(placed):
+        # What _shared asks for cannot be where the boxes are further from each other, along the first or across it.
+        s, c, turn = np.sin(first.direction), np.cos(first.direction), np.sin(steep(k))
+        e, n = east - east[k], north - north[k]
+        near = np.abs(e * s + n * c) <= 1.0 + half[k] + half + width * turn
+        near &= np.abs(e * c - n * s) <= 1.0 + BESIDE + width[k] + width + half * turn
+        for m in k + 1 + np.flatnonzero((near & (steep(k) <= STEEPEST))[k + 1 :]):
+            j, second = placed[m]
             shared = _shared(first, second)
             if shared is not None:
                 noise = _compared(lines[i], lines[j], first, second, shared, channels)
@@ -141,14 +160,12 @@ def _boxes(track: Track) -> tuple[Array, Array]:
     return np.array([p.min(axis=0) for p in pieces]), np.array([p.max(axis=0) for p in pieces])
 
 
-def _meeting(left: tuple[Array, Array], right: tuple[Array, Array]) -> NDArray[np.int64]:
-    """(m, 2) numbers of the stretches whose boxes overlap."""
-    if np.any(left[1].max(axis=0) < right[0].min(axis=0)) or np.any(
-        right[1].max(axis=0) < left[0].min(axis=0)
-    ):
-        return np.empty((0, 2), dtype=np.int64)
-    over = (left[0][:, None] <= right[1][None]) & (left[1][:, None] >= right[0][None])
-    return np.argwhere(over.all(axis=2))
+def _meeting(left: tuple[Array, Array], right: tuple[Array, Array]) -> Iterator[NDArray[np.int64]]:
+    """Numbers (2,) of the stretches whose boxes overlap."""
+    for start in range(0, len(left[0]), _BOXES):
+        low, high = (x[start : start + _BOXES, None] for x in left)
+        over = (low <= right[1][None]) & (high >= right[0][None])
+        yield from np.argwhere(over.all(axis=2)) + np.array([start, 0])
 
 
 def _crossed(i: int, j: int, first: Track, second: Track, a: int, b: int) -> list[Crossing]:
@@ -175,8 +192,10 @@ def _crossed(i: int, j: int, first: Track, second: Track, a: int, b: int) -> lis
     ]
 
 
-def _angle(first: Track, second: Track) -> float:
-    return float(abs(np.arcsin(np.sin(first.direction - second.direction))))
+def _angles(placed: Sequence[Track]) -> Callable[[int], Array]:
+    """Of a track's number: the angles, rad up to a right one, that it makes with each."""
+    direction = np.array([t.direction for t in placed])
+    return lambda k: np.abs(np.arcsin(np.sin(direction[k] - direction)))
 
 
 def _difference(lines: Sequence[SurveyLine], c: Crossing, name: str) -> float:
@@ -208,8 +227,6 @@ def _levelled(d: Array, found: Sequence[Crossing], count: int) -> tuple[Array, f
 
 def _shared(first: Track, second: Track) -> tuple[float, float] | None:
     """From where to where along the first line the second goes beside it, m; ``None`` if it does not."""
-    if _angle(first, second) > STEEPEST:
-        return None
     s, c = np.sin(first.direction), np.cos(first.direction)
     x1, y1 = first.along()
     e, n = second.east - first.east[0], second.north - first.north[0]
@@ -237,7 +254,8 @@ def _compared(
     for name in channels:
         if name in a.channels and name in b.channels:
             left, right = (_along(x, v.channels[name], places) for x, v in ((x1, a), (x2, b)))
-            found[name] = float(np.nanstd(left - right) / np.sqrt(2.0))
+            off = (left - right)[np.isfinite(left - right)]
+            found[name] = float(np.std(off) / np.sqrt(2.0)) if len(off) else float("nan")
     return found
 
 

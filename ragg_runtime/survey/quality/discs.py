@@ -42,7 +42,6 @@ def discs_of(lines: Sequence[SurveyLine], arrangement: str | None = None) -> Dis
     common = set.intersection(*(set(x.gradients) for x in lines))
     endings = [n.partition("_")[2] for n in lines[0].gradients if n in common and not n.startswith("Gamma")]
     names = tuple(dict.fromkeys(endings))
-    both = tuple(e for e in names if channel("inline", e) in common and channel("cross", e) in common)
     inline = tuple(e for e in names if channel("inline", e) in common)
     if arrangement is None:
         arrangement = {2: "complements", 3: "orthogonal"}.get(len(inline), "single")
@@ -53,7 +52,7 @@ def discs_of(lines: Sequence[SurveyLine], arrangement: str | None = None) -> Dis
             found=f"{len(inline)}: {', '.join(sorted(common)) or 'no gradients that all lines have'}",
             expected="channels such as inline_A, cross_A, inline_B, cross_B",
         )
-    return Discs(inline if arrangement == "orthogonal" else both or names, arrangement)
+    return Discs(names if arrangement == "single" else inline, arrangement)
 
 
 def channel(kind: str, disc: str) -> str:
@@ -77,8 +76,13 @@ def combinations(line: SurveyLine, discs: Discs) -> list[Combination]:
         return [Combination("in-line sum", total)]
     if discs.arrangement == "complements":
         a, b = discs.names
-        return [
-            Combination("difference UV", (uv(line, a) - uv(line, b)) / 2.0),
-            Combination("difference NE", (ne(line, a) - ne(line, b)) / 2.0),
-        ]
+        found = [Combination("difference UV", (uv(line, a) - uv(line, b)) / 2.0)]
+        if crossed(line, discs):
+            found.append(Combination("difference NE", (ne(line, a) - ne(line, b)) / 2.0))
+        return found
     return []
+
+
+def crossed(line: SurveyLine, discs: Discs) -> bool:
+    """Whether every disc has its cross channel."""
+    return all(channel("cross", d) in line.channels for d in discs.names)

@@ -37,7 +37,7 @@ def in_line_sum_filtered(
 def difference_noise(a: Array, b: Array) -> float:
     """Eo: the standard deviation of (A - B)/sqrt(8) (``diffNoiseVturb``); its documentation says (A - B)/2."""
     there = np.isfinite(a + b)
-    return float(np.std((a - b)[there] / np.sqrt(8.0)))
+    return float(np.std((a - b)[there] / np.sqrt(8.0))) if there.any() else float("nan")
 
 
 def vertical_displacement_turbulence(height: Array) -> float:

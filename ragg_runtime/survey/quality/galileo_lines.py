@@ -23,8 +23,6 @@ from ragg_runtime.survey.quality.track import Track
 SHORTEST = 10
 """Samples below which a line is not compared with others (``checkRepeatLines``)."""
 
-Point = tuple[float, float]
-
 
 def gaps(lines: Sequence[SurveyLine]) -> list[dict[str, Any]]:
     """Lines and channels without a value at some samples, and at how many (``checkGaps``)."""
@@ -46,14 +44,16 @@ def crossovers(
     ``largest`` the largest one (its mode value).
     """
     found = []
-    for i, (line, track) in enumerate(zip(lines, tracks, strict=True)):
+    placed = [(k, t) for k, t in enumerate(tracks) if t is not None]
+    ends = np.array([_ends(t) for _, t in placed]).reshape(-1, 4)
+    for i, track in placed:
+        line = lines[i]
+        meet = _meet(ends, _ends(track))
+        bearing = _bearing(track)
         met = [
-            (j, places)
-            for j, other in enumerate(tracks)
-            if j != i
-            and track is not None
-            and other is not None
-            and (places := intersection(track, other)) is not None
+            (placed[k][0], intersection(track, placed[k][1], bearing))
+            for k in np.flatnonzero(meet)
+            if placed[k][0] != i
         ]
         for name in channels:
             d = np.array([_difference(line, lines[j], name, places) for j, places in met])
@@ -73,18 +73,11 @@ def crossovers(
     return found
 
 
-def intersection(traverse: Track, control: Track) -> tuple[int, int] | None:
-    """Samples of both that are nearest to where they meet; ``None`` if their straight lines do not.
+def intersection(traverse: Track, control: Track, bearing: float) -> tuple[int, int]:
+    """Samples of both that are nearest to where their straight lines meet.
 
-    In the frame of the traverse's bearing: the control's sample nearest to its line, and the traverse's beside that one.
+    In the frame of the traverse's bearing, rad: the control's sample nearest to its line, and the traverse's beside that one.
     """
-    ends = [
-        ((float(t.east[0]), float(t.north[0])), (float(t.east[-1]), float(t.north[-1])))
-        for t in (control, traverse)
-    ]
-    if not _meet(*ends[0], *ends[1]):
-        return None
-    bearing = np.arctan2(_inner_mean(np.diff(traverse.east)), _inner_mean(np.diff(traverse.north)))
     s, c = np.sin(bearing), np.cos(bearing)
 
     def turned(t: Track) -> tuple[Array, Array]:
@@ -104,18 +97,28 @@ def _difference(line: SurveyLine, other: SurveyLine, name: str, places: tuple[in
     return float(line.channels[name][places[0]] - other.channels[name][places[1]])
 
 
+def _bearing(t: Track) -> float:
+    return float(np.arctan2(_inner_mean(np.diff(t.east)), _inner_mean(np.diff(t.north))))
+
+
 def _inner_mean(x: Array) -> float:
     """The mean of what lies within one standard deviation of the mean."""
     return float(np.mean(x[np.abs(x - np.mean(x)) < np.std(x)])) if np.std(x) > 0 else float(np.mean(x))
 
 
-def _meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Whether the straight line from a to b meets that from c to d."""
+def _ends(t: Track) -> Array:
+    """(4,) m: east and north of the first sample, and of the last."""
+    return np.array([t.east[0], t.north[0], t.east[-1], t.north[-1]])
 
-    def turns(p: Point, q: Point, r: Point) -> bool:
-        return (r[1] - p[1]) * (q[0] - p[0]) > (q[1] - p[1]) * (r[0] - p[0])
 
-    return turns(a, c, d) != turns(b, c, d) and turns(a, b, c) != turns(a, b, d)
+def _meet(controls: Array, traverse: Array) -> NDArray[np.bool_]:
+    """(n,): whether the straight lines between the ends (n, 4) meet the one between the ends (4,)."""
+
+    def turns(p: Array, q: Array, r: Array) -> NDArray[np.bool_]:
+        return np.asarray((r[1] - p[1]) * (q[0] - p[0]) > (q[1] - p[1]) * (r[0] - p[0]))
+
+    a, b, c, d = controls.T[:2], controls.T[2:], traverse[:2], traverse[2:]
+    return np.asarray((turns(a, c, d) != turns(b, c, d)) & (turns(a, b, c) != turns(a, b, d)))
 
 
 def groups(lines: Sequence[SurveyLine], found: Sequence[Repeat]) -> list[list[int]]:
@@ -157,7 +160,7 @@ def repeat_lines(
     base = np.linspace(low, high, min(len(x) for x, _ in series))
     try:
         values = np.stack([_along(x, v, base) for x, v in series])
-    except ValueError:  # a line that turns back
+    except ValueError:  # a line that turns back, or hardly overlaps
         return None
     off = values - values.mean(axis=0)
     names = [lines[k].name for k in members]
@@ -168,6 +171,8 @@ def repeat_lines(
 
 def _along(x: Array, values: Array, base: Array) -> Array:
     inside: NDArray[np.bool_] = (x > base[0]) & (x < base[-1])
+    if np.sum(inside) < SHORTEST:
+        raise ValueError("too few samples where the lines overlap")
     return np.asarray(splev(base - base[0], splrep(x[inside] - base[0], values[inside])))
 
 

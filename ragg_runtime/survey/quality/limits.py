@@ -19,6 +19,9 @@ class Limit:
     source: str
 
 
+GIVEN = "given with --limit"
+"""Source of a limit that is the user's own."""
+
 LIMITS = (
     Limit(
         name="in-line-sum",
@@ -83,13 +86,13 @@ def limits_with(texts: Sequence[str]) -> dict[str, Limit]:
             value = float(size)
         except ValueError:
             value = float("nan")
-        if name not in found or not value > 0:
+        if name not in found or not 0 < value < float("inf"):
             raise UserError(
                 "the limit cannot be read",
                 where="--limit",
                 found=repr(text),
-                expected="NAME=NUMBER, the name one of " + ", ".join(found),
-                remedy=did_you_mean(name, found),
+                expected="NAME=NUMBER, the number above zero, the name one of " + ", ".join(found),
+                remedy=None if name in found else did_you_mean(name, found),
             )
-        found[name] = replace(found[name], value=value, source="given with --limit")
+        found[name] = replace(found[name], value=value, source=GIVEN)
     return found

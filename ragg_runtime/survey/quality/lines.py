@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ragg_runtime.base.files import file_digest
 from ragg_runtime.flight.files import flight_name
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array, is_demodulated
-from ragg_runtime.flight.sampling import uniform
+from ragg_runtime.flight.sampling import Grid, uniform
 from ragg_runtime.flight.source import Column, Source
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.units import EOTVOS, Units, units
@@ -27,6 +28,14 @@ SHORTEST = 30
 
 LARGEST = 1e100
 """Largest value of a channel, SI: the squares of all that are larger cannot be summed up."""
+
+MOST: Mapping[str, float] = {"latitude": 1.6, "longitude": 6.3, "easting": 1e8, "northing": 1e8}
+"""Largest positions, rad and m: a right angle, a whole turn, and more than any projection has, its zone in front."""
+
+RATES = (1e-2, 1e6)
+"""Hz: slower samples stand kilometres apart, faster ones nobody records; beyond them the time's unit is wrong."""
+
+MAP = "say what the columns are: ragg map FLIGHT -o mapping.toml, then --map mapping.toml"
 
 SAME = 1e-6
 """Difference, by the largest value, up to which channels are the same: in single precision, or printed to seven digits."""
@@ -100,46 +109,64 @@ def is_gradient(name: str) -> bool:
 def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:
     """The lines of all files; a line that cannot be used does not hinder the others."""
     lines: list[SurveyLine] = []
-    refused: list[tuple[str, str]] = []
+    refused: list[tuple[str, UserError]] = []
+    before: dict[Any, list[tuple[float, SurveyLine]]] = {}
     notes: dict[str, None] = {}
     for path in paths:
         sources = open_sources(path, mapping, lenient=True)
         for s in sources:
-            notes |= dict.fromkeys(s.notes)
+            bare = [c.name for c in s.columns if not c.unit and (c.name in _OWN or c.name in SI_UNITS)]
+            notes |= dict.fromkeys([*s.notes, *(f"{n} has no unit; it is left out" for n in bare)])
             name = s.line if s.line is not None else flight_name(path)
             try:
                 line = _line(s, name, flight_name(path))
-                _check_new(line, lines)
+                _check_new(line, before)
                 lines.append(line)
             except UserError as error:
                 if len(sources) == 1 and len(paths) == 1:
                     raise
-                refused.append((name, error.message))
+                refused.append((name, error))
     if not lines:
+        name, first = refused[0]
         raise UserError(
-            "no line can be used",
-            where=paths[0],
-            found=refused[0][1].split("\n")[0] if refused else "no rows",
-            expected="a column time and gradients (inline, cross, inline_A, cross_A ...), with units",
-            remedy="say what the columns are: ragg map FLIGHT -o mapping.toml, then --map mapping.toml",
+            f"none of {len(refused)} lines can be used; the first: {first.what}",
+            where=at(paths[0], f"line {name}"),
+            found=first.found,
+            expected=first.expected,
+            remedy=first.remedy,
         )
     return Read(
         lines=tuple(sorted(lines, key=_begins)),
-        refused=tuple(refused),
+        refused=tuple((n, e.message) for n, e in refused),
         files=tuple((p.name, file_digest(p)) for p in paths),
-        notes=tuple(notes),
+        notes=(*notes, *_still(lines)),
     )
 
 
-def _check_new(line: SurveyLine, before: Sequence[SurveyLine]) -> None:
-    """UserError if the same line was read before: it would agree with itself, and count twice."""
-    for other in before:
-        if len(other) == len(line) and other.gradients == line.gradients and _same(line, other):
+def _still(lines: Sequence[SurveyLine]) -> Iterator[str]:
+    """In sentences, gradients that are missing or never change: their noise would look small."""
+    for n in dict.fromkeys(n for x in lines for n in x.gradients):
+        there = [x.channels[n] for x in lines if n in x.channels]
+        still = sum(bool(np.all(np.isnan(v) | (v == v[np.argmax(~np.isnan(v))]))) for v in there)
+        if still:
+            yield f"{n} has no values, or one value alone, on {still} of {len(lines)} lines"
+
+
+def _check_new(line: SurveyLine, before: dict[Any, list[tuple[float, SurveyLine]]]) -> None:
+    """UserError if the same line was read before: it would agree with itself, and count twice.
+
+    ``before``: (length, gradients) -> lines, each with the size of its first gradient, by which most are told apart.
+    """
+    size = _size(line.channels[line.gradients[0]])
+    alike = before.setdefault((len(line), line.gradients), [])
+    for of_other, other in alike:
+        if abs(size - of_other) <= 2.0 * SAME * size and _same(line, other):
             raise UserError(
                 f"the same record as line {other.name} of {other.flight}: it would count twice",
                 where=f"line {line.name} of {line.flight}",
                 remedy="give each line once",
             )
+    alike.append((size, line))
 
 
 def _same(line: SurveyLine, other: SurveyLine) -> bool:
@@ -173,19 +200,21 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
             remedy="of a record before demodulation, `ragg compensate` makes them; other names need a mapping: ragg map",
         )
     if "time" not in wanted:
-        raise UserError("the column 'time' is missing", where=source.path, expected="time [s]")
+        raise UserError("the column 'time' is missing", where=source.path, expected="time [s]", remedy=MAP)
     batches = list(source.batches())
     found = {}
     for c in columns:
         where = at(source.path, f"column {c.name!r}")
         raw = np.concatenate([np.empty(0), *(b[c.name] for b in batches)])
         found[c.name] = known.to_si(raw, c.unit, wanted[c.name], where)
-        if _size(found[c.name]) > LARGEST:
+        most = MOST.get(c.name, LARGEST)
+        if _size(found[c.name]) > most:
             raise UserError(
                 "a value is out of all proportion",
                 where=where,
-                found=f"{_size(found[c.name]):g}",
-                expected=f"at most {LARGEST:g}",
+                found=f"{_size(found[c.name]):g} {wanted[c.name]}",
+                expected=f"at most {most:g} {wanted[c.name]}",
+                remedy="check the column and its unit; a value that is missing is an empty cell",
             )
     time = found.pop("time")
     if len(time) < SHORTEST:
@@ -194,8 +223,10 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
             where=source.path,
             found=f"{len(time)} samples",
             expected=f"{SHORTEST} or more",
+            remedy="if what divides the file into lines is another column, name it in a mapping: [file] line = ...",
         )
     grid = uniform(time, source.path)
+    _check_clock(grid, source)
     channels = {}
     for n, values in found.items():
         whole = np.full(len(grid.time), np.nan)
@@ -211,6 +242,29 @@ def _line(source: Source, name: str, flight: str) -> SurveyLine:
     )
 
 
+def _check_clock(grid: Grid, source: Source) -> None:
+    """UserError where the rate is no rate of a survey, or the instants are no date."""
+    where = at(source.path, "column 'time'")
+    if not RATES[0] <= 1.0 / grid.step <= RATES[1]:
+        raise UserError(
+            "the rate is out of all proportion",
+            where=where,
+            found=f"a sample every {grid.step:g} s",
+            expected=f"{RATES[0]:g} to {RATES[1]:g} samples a second",
+            remedy="check the unit of the time",
+        )
+    try:
+        if source.origin is not None:
+            source.origin + timedelta(seconds=float(grid.time[0]))
+    except OverflowError:
+        raise UserError(
+            "the time is no date",
+            where=where,
+            found=f"{grid.time[0]:g} s after {source.origin}",
+            remedy="check the unit of the time, and the origin that the mapping gives",
+        ) from None
+
+
 def _unit(column: Column, known: Units) -> str:
     """The SI unit of a column that is used; ``""`` for those without a unit, which are left out."""
     si = _OWN.get(column.name) or ("s^-2" if is_gradient(column.name) else SI_UNITS.get(column.name))
@@ -220,7 +274,7 @@ def _unit(column: Column, known: Units) -> str:
                 "the column has no unit",
                 where=f"column {column.name!r}",
                 expected="Eo" if column.name != "time" else "s",
-                remedy="say it in a mapping: ragg map FLIGHT -o mapping.toml",
+                remedy=MAP,
             )
         return ""
     return si or known.base_unit(column.unit, f"column {column.name!r}")

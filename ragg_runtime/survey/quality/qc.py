@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +12,12 @@ import numpy as np
 
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import Array
-from ragg_runtime.survey.quality.by_line import LineFigures, figures_of
+from ragg_runtime.survey.quality.by_line import LineFigures, figures_of, names
 from ragg_runtime.survey.quality.crossovers import Crossing, Misfits, Repeat, crossings, misfits, repeats
 from ragg_runtime.survey.quality.discs import Discs, discs_of
 from ragg_runtime.survey.quality.galileo_lines import as_galileo
-from ragg_runtime.survey.quality.limits import Limit, limits_with
-from ragg_runtime.survey.quality.lines import Read, read_lines
+from ragg_runtime.survey.quality.limits import GIVEN, Limit, limits_with
+from ragg_runtime.survey.quality.lines import Read, is_gradient, read_lines
 from ragg_runtime.survey.quality.track import tracks
 from ragg_runtime.survey.quality.trends import Day, Dependence, days, dependences, rectification
 
@@ -58,6 +58,18 @@ class Quality:
     days: tuple[Day, ...]
     galileo: Mapping[str, Any]
 
+    def names(self, of: str) -> list[str]:
+        """Names of ``densities``, ``noise``, ``levels`` or ``figures`` that any line has."""
+        return names(self.lines, of)
+
+    @property
+    def lacking(self) -> int:
+        """Lines too much of which is missing: without a figure that another line has, or without noise."""
+        return sum(
+            any(x.name not in f.figures for x in self.used) or bool(np.isnan(list(f.noise.values())).any())
+            for f in self.lines
+        )
+
     @property
     def failed(self) -> Mapping[str, int]:
         """Name of a limit -> lines that exceed it."""
@@ -66,7 +78,7 @@ class Quality:
     @property
     def used(self) -> list[Limit]:
         """Limits of which the record gives the figure."""
-        there = {n for f in self.lines for n in f.figures}
+        there = self.names("figures")
         return [x for x in self.limits.values() if x.name in there]
 
     def median(self, of: str, name: str) -> float:
@@ -115,12 +127,15 @@ def qc(
     discs = discs_of(read.lines, arrangement)
     flown = tracks(read.lines)
     found = tuple(figures_of(x, discs, t, known) for x, t in zip(read.lines, flown, strict=True))
-    compared = [n for n in read.lines[0].channels if n in ("altitude", *read.lines[0].gradients)]
+    every = dict.fromkeys(n for x in read.lines for n in x.channels)
+    compared = [n for n in every if n == "altitude" or is_gradient(n)]
+    idle = [n for n in known if known[n].source == GIVEN and n not in names(found, "figures")]
+    notes = [f"--limit {n}: these channels give no such figure" for n in idle]
     where = crossings(flown)
     fits, differences = misfits(read.lines, where, compared)
     again = repeats(read.lines, flown, compared)
     return Quality(
-        read=read,
+        read=replace(read, notes=(*read.notes, *notes)),
         discs=discs,
         lines=found,
         limits=known,

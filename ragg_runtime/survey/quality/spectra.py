@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, detrend, lfilter, sosfiltfilt, welch
+from scipy.signal import butter, detrend, sosfilt, sosfiltfilt, welch
 
 from ragg_runtime.flight.record import Array
 
@@ -14,6 +14,8 @@ BRIDGED = 0.05
 SEGMENT = 128.0
 """Length of a segment of Welch's method, s: 8 of them fit a line of ten minutes with overlap, and a band from 0.03 Hz
 has several bins."""
+
+_AT_ONCE = 1 << 16  # windows whose samples are copied out at once
 
 
 def filled(values: Array) -> Array | None:
@@ -58,8 +60,8 @@ def causal_band(values: Array, rate: float, low: float, high: float, order: int)
     """Butterworth run forward alone from rest; ``None`` where the band does not fit the rate."""
     if not 0 < low < high < rate / 2:
         return None
-    b, a = butter(order, [low / (rate / 2), high / (rate / 2)], btype="band")
-    return np.asarray(lfilter(b, a, values))
+    # In sections: of one polynomial of twelfth order rounding makes 1e15 times the figure at 16 Hz, and at 1 Hz 1e-8 of it.
+    return np.asarray(sosfilt(butter(order, (low, high), "band", fs=rate, output="sos"), values))
 
 
 def rolling_std(values: Array, window: int) -> Array:
@@ -67,4 +69,5 @@ def rolling_std(values: Array, window: int) -> Array:
     if len(values) <= window:
         return np.empty(0)
     windows: NDArray[np.float64] = np.lib.stride_tricks.sliding_window_view(values, window)[:-1]
-    return np.asarray(np.std(windows, axis=1))
+    stretches = range(0, len(windows), _AT_ONCE)
+    return np.concatenate([np.std(windows[s : s + _AT_ONCE], axis=1) for s in stretches])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.survey.quality.by_line import LineFigures, mean
+from ragg_runtime.survey.quality.by_line import LineFigures, mean, names
 from ragg_runtime.survey.quality.discs import Discs, combinations
 from ragg_runtime.survey.quality.spectra import filled
 
@@ -56,13 +56,12 @@ def dependences(found: Sequence[LineFigures]) -> list[Dependence]:
     """
     conditions = _conditions(found)
     day = [_day(f) for f in found]
-    names = list(found[0].levels)
     result = []
-    for name in names:
+    for name in names(found, "levels"):
         y = np.array([f.levels.get(name, np.nan) for f in found])
         chosen = {n: c for n, c in conditions.items() if n[0] != "turbulence"}
         result += _fitted(f"mean of {name}", y, chosen, day)
-    for name in found[0].noise:
+    for name in names(found, "noise"):
         y = np.array([f.noise.get(name, np.nan) for f in found])
         result += _fitted(f"noise of {name}", y, conditions, day)
     return result
@@ -105,7 +104,7 @@ def days(found: Sequence[LineFigures]) -> list[Day]:
     if len(groups) < 2 and not any(f.line.origin for f in found):
         return []
     result = []
-    for name in found[0].levels:
+    for name in names(found, "levels"):
         before: tuple[float, float] | None = None
         for day, lines in groups.items():
             y = np.array([f.levels.get(name, np.nan) for f in lines])
@@ -159,6 +158,8 @@ def _fitted(
     of: str, y: Array, conditions: Mapping[tuple[str, str], Array], day: Sequence[str]
 ) -> list[Dependence]:
     there = np.isfinite(y)
+    if not there.any():
+        return []
     _, group = np.unique(np.array(day)[there], return_inverse=True)
     design, kept = _independent({n: _within(v[there], group) for n, v in conditions.items()})
     y = _within(y[there], group)
