@@ -43,7 +43,7 @@ class Point:
     instants: Mapping[str, float] = field(default_factory=dict)
 
 
-CACHED = 8192
+CACHED = 4096
 """Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
