@@ -222,7 +222,7 @@ def compare_frozen(
         h = after.compare_frozen(m, read)
 
     def page() -> str:
-        from ragg_runtime.report import compare_html
+        from ragg_runtime.report.compare_page import compare_html
 
         own = about(m, read, f"{m.name}, frozen, and {', '.join(x.name for x in read)}")
         return compare_html(h.comparison, **own | {"notes": [h.in_words(), *odd, *own["notes"]], "frozen": h})

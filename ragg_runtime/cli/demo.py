@@ -11,7 +11,9 @@ from pathlib import Path
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.cli import terminal
 from ragg_runtime.flight import write_flight
-from ragg_runtime.report import add_html, diagnose_html, in_words
+from ragg_runtime.report import in_words
+from ragg_runtime.report.add_page import add_html
+from ragg_runtime.report.diagnose_page import diagnose_html
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

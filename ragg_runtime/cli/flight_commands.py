@@ -71,7 +71,7 @@ def compare(
         c = loop.compare(m, read, ladder=ladder)
 
     def page() -> str:
-        from ragg_runtime.report import compare_html
+        from ragg_runtime.report.compare_page import compare_html
 
         return compare_html(c, **about(m, read))
 
@@ -124,7 +124,7 @@ def diagnose(
         d = loop.diagnose(m, read, allowed)
 
     def page() -> str:
-        from ragg_runtime.report import diagnose_html
+        from ragg_runtime.report.diagnose_page import diagnose_html
 
         return diagnose_html(d, **about(m, read))
 
@@ -243,7 +243,7 @@ def add(
 
     def tell(result: loop.Added) -> None:
         def page() -> str:
-            from ragg_runtime.report import add_html
+            from ragg_runtime.report.add_page import add_html
 
             assert result.before is not None
             assert result.after is not None

@@ -5,13 +5,15 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ragg_runtime.base.errors import one_line
 from ragg_runtime.flight import Flight
 from ragg_runtime.report import in_words
-from ragg_runtime.workflow.after import Kept
-from ragg_runtime.workflow.loop import Added
+
+if TYPE_CHECKING:
+    from ragg_runtime.workflow.after import Kept
+    from ragg_runtime.workflow.loop import Added
 
 
 def command(

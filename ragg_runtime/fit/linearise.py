@@ -43,8 +43,8 @@ class Point:
     instants: Mapping[str, float] = field(default_factory=dict)
 
 
-CACHED = 2048
-"""Samples at which a generated module is evaluated at a time: its intermediates then stay in the cache."""
+CACHED = 4096
+"""Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
 
 
 @dataclass(frozen=True)

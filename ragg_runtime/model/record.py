@@ -212,6 +212,20 @@ class Record:
     def _wide(self, name: str) -> Array | None:
         if name in self.wide:
             return self.wide[name]
+        found = self._made.get(name)
+        if found is None:
+            found = self._differentiated(name)
+            if found is not None and len(found) <= REMEMBERED:
+                found.flags.writeable = False
+                self._made[name] = found
+        return found
+
+    @cached_property
+    def _made(self) -> dict[str, Array]:
+        """Derivatives that were asked for: fits and the search of what is left ask for the same again and again."""
+        return {}
+
+    def _differentiated(self, name: str) -> Array | None:
         if name in SPIN:
             encoder = self.wide.get(self.angle_column)
             length = len(self.time) + sum(self.halo)
@@ -280,6 +294,9 @@ def disc_angle(time: Array, spin_frequency: float) -> Array:
     error = ((f_high * t_high - turns) + f_high * t_low + f_low * t_high) + f_low * t_low
     return np.asarray(2 * np.pi * ((turns - np.rint(turns)) + error))
 
+
+REMEMBERED = 1 << 16
+"""Samples of a record up to which its derivatives are kept: a segment's, not those of a long flight."""
 
 STANDING = 1e-3
 """Range of a recorded disc angle, rad, below which the disc stands still."""

@@ -1,15 +1,8 @@
 """Reports: one self-contained HTML document each, without links or files beside it; results in words.
 
-``compare_html``, ``diagnose_html`` and ``add_html`` turn results into pages; the same input gives the same
-bytes. Numbers come from the results, words from ``wording``, series for figures from ``series``.
+``compare_page``, ``diagnose_page`` and ``add_page`` turn results into pages; the same input gives the same bytes.
+Numbers come from the results, words from ``wording``, series for figures from ``series``. Words alone (``in_words``)
+need nothing that draws: it takes a second to import.
 
 Imports ``base``, ``diagnosis``, ``fit``, ``survey`` and ``wording``.
 """
-
-from __future__ import annotations
-
-from ragg_runtime.report.add_page import add_html
-from ragg_runtime.report.compare_page import compare_html
-from ragg_runtime.report.diagnose_page import diagnose_html
-
-__all__ = ["add_html", "compare_html", "diagnose_html"]

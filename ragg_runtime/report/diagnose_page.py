@@ -39,7 +39,7 @@ def diagnose_html(
     sources: Sequence[tuple[str, str]],
     notes: Sequence[str] = (),
 ) -> str:
-    """The report as one HTML document; parameters as of :func:`ragg_runtime.report.compare_html`."""
+    """The report as one HTML document; parameters as of :func:`~ragg_runtime.report.compare_page.compare_html`."""
     d = diagnosis
     f = d.fitted
     context: dict[str, Any] = {

@@ -6,7 +6,6 @@ from typing import Any, Protocol
 
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.fit.score import Error
-from ragg_runtime.report import panels
 from ragg_runtime.wording import numbers
 
 MOVED = 8
@@ -69,6 +68,8 @@ def lead(h: Held, said: list[str]) -> list[str]:
 
 def errors(h: Held) -> list[dict[str, Any]]:
     """Rows of the table of errors."""
+    from ragg_runtime.report import panels  # slow to import, and words need none
+
     c = h.comparison
     return [
         panels.error_row("as model.toml says", c.nominal, "nominal values, nothing fitted"),

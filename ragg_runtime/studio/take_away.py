@@ -11,7 +11,9 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.provenance import versioned
-from ragg_runtime.report import add_html, compare_html, diagnose_html
+from ragg_runtime.report.add_page import add_html
+from ragg_runtime.report.compare_page import compare_html
+from ragg_runtime.report.diagnose_page import diagnose_html
 from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State

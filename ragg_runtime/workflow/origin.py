@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.flight import Flight
 from ragg_runtime.model_dir.identity import identity
-from ragg_runtime.survey.journal import sha256
-from ragg_runtime.survey.result import Survey
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.loop import Loaded
+
+if TYPE_CHECKING:
+    from ragg_runtime.survey.result import Survey
 
 
 def origin(
@@ -38,6 +39,8 @@ def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], di
 
     Flights that could not be read are among the files, too.
     """
+    from ragg_runtime.survey.journal import sha256  # slow to import, and only surveys need it
+
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
     read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
     sources = [*loop.sources(m, []), *read]

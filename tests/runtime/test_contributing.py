@@ -30,7 +30,8 @@ from ragg_runtime.flight.convert import convert
 from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.model.model import from_files, packaged
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.report import compare_html, panel
+from ragg_runtime.report import panel
+from ragg_runtime.report.compare_page import compare_html
 from tests.generated import draws
 
 TEXT = (Path(__file__).parents[2] / "CONTRIBUTING.md").read_text("utf-8")

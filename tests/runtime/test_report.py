@@ -19,7 +19,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ragg_runtime import report
 from ragg_runtime.diagnosis import budget, diagnose, result, series
 from ragg_runtime.diagnosis import comparison as compare
 from ragg_runtime.flight import Flight
@@ -30,7 +29,10 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
-from ragg_runtime.report import barcharts, draw, effect_values, panels, parameters
+from ragg_runtime.report import barcharts, diagnose_page, draw, effect_values, panels, parameters
+from ragg_runtime.report.add_page import add_html
+from ragg_runtime.report.compare_page import compare_html
+from ragg_runtime.report.diagnose_page import diagnose_html
 from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.wording import numbers
 
@@ -182,9 +184,9 @@ def make(c: Case) -> dict[str, str]:
         {"action": "add", "effect": "cubic-input", "time": "2031-01-02T00:00:00Z", "before": e, "after": e},
     ]
     return {
-        "compare": report.compare_html(c.comparison, **ORIGIN),
-        "diagnose": report.diagnose_html(c.diagnosis, **ORIGIN),
-        "add": report.add_html(history, c.comparison, c.comparison, c.diagnosis, **ORIGIN),
+        "compare": compare_html(c.comparison, **ORIGIN),
+        "diagnose": diagnose_html(c.diagnosis, **ORIGIN),
+        "add": add_html(history, c.comparison, c.comparison, c.diagnosis, **ORIGIN),
     }
 
 
@@ -284,7 +286,7 @@ def test_users_own_matplotlib_settings_do_not_matter(clean: Case) -> None:
 
     before = pages(clean)["compare"]
     with matplotlib.rc_context({"axes.facecolor": "red", "font.size": 30.0}):
-        assert report.compare_html(clean.comparison, **ORIGIN) == before
+        assert compare_html(clean.comparison, **ORIGIN) == before
         assert matplotlib.rcParams["font.size"] == 30.0
 
 
@@ -318,7 +320,7 @@ def test_missing_effect_is_named_with_its_size_and_its_ambiguity(cubic: Case) ->
     assert re.sub(r"\s+", " ", headline.text) in said
     assert any(
         str(line).startswith("cubic-input: ") and headline.text in line
-        for line in report.diagnose_page.lead(cubic.diagnosis)
+        for line in diagnose_page.lead(cubic.diagnosis)
     )
     both = {
         v.of: float(re.match(r"[−\d.]+", v.text)[0].replace("−", "-"))
@@ -336,7 +338,7 @@ def test_unexplained_remainder_is_not_given_a_name(cubic: Case) -> None:
     d = replace(cubic.diagnosis, verdict="unexplained", found=(), remainder=cubic.comparison.remainder)
     d = replace(d, target=d.fitted, coefficients=np.zeros(d.fitted.size), scored=cubic.comparison.scored)
     assert d.remainder.significant
-    page = Page(report.diagnose_html(d, **ORIGIN))
+    page = Page(diagnose_html(d, **ORIGIN))
     assert "no known effect accounts for" in page.text
     assert "The model lacks" not in page.text
     best = d.terms()[0]
@@ -361,7 +363,7 @@ def test_add_shows_every_step_and_what_followed(cubic: Case) -> None:
             "after": after.as_json()["error"],
         }
     ]
-    said = Page(report.add_html(history, before, after, **ORIGIN)).text
+    said = Page(add_html(history, before, after, **ORIGIN)).text
     a, b = numbers.number(before.calibrated.rms_Eo), numbers.number(after.calibrated.rms_Eo)
     assert f"With cubic-input added, the error falls from {a} to {b} Eo" in said
     rows = {c.label: c for c in budget.contributions(after.fitted)}
@@ -497,7 +499,7 @@ def test_blocks_are_those_of_the_comparison(cubic: Case) -> None:
 def test_short_record_has_no_channels_but_a_report() -> None:
     made = flight(samples=320)
     c = compare.compare(load.packaged(), instrument(), [made])
-    said = Page(report.compare_html(c, **ORIGIN)).text
+    said = Page(compare_html(c, **ORIGIN)).text
     assert "too short for the demodulator" in said
     assert "nan" not in said
 
@@ -508,7 +510,7 @@ def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.Mo
     made[1] = replace(made[1], outputs={"G_out": made[1].outputs["G_out"] + ramp})
     c = compare.compare(load.packaged(), instrument(), made)
     monkeypatch.setattr(panels, "FLIGHTS", 1)
-    text = report.compare_html(c, **ORIGIN)
+    text = compare_html(c, **ORIGIN)
     assert "The 1 worst of 3 flights are drawn" in text
     assert series.worst(c.fitted, c.residual, 3) == [0, 1, 2]
 
@@ -524,7 +526,7 @@ def test_four_voltages_see_every_accelerometer() -> None:
     v = parameters.visibility(c.fitted)
     assert not v.patterns
     assert v.determined > parameters.visibility(compare.compare(model, known, [flight()]).fitted).determined
-    assert "<svg" in report.compare_html(c, **ORIGIN)
+    assert "<svg" in compare_html(c, **ORIGIN)
 
 
 # --- numbers in words ---------------------------------------------------------------------------------------
