@@ -43,7 +43,7 @@ def remark(text: str) -> None:
 
 
 @contextlib.contextmanager
-def heard(tell: Callable[[float], None]) -> Iterator[None]:
+def listening(tell: Callable[[float], None]) -> Iterator[None]:
     """Let ``tell`` hear of every step that is done meanwhile; what it raises ends the work."""
     token = _listener.set(tell)
     try:
@@ -66,7 +66,7 @@ def shown(command: str, samples: int) -> Iterator[None]:
             if time.monotonic() - start > QUIET:
                 show(min(done / total, BEYOND))
 
-        with heard(tell):
+        with listening(tell):
             yield
 
 

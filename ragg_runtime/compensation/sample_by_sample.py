@@ -14,6 +14,7 @@ from ragg_runtime.compensation.compensate import seeing, without_gradients
 from ragg_runtime.compensation.frozen import information
 from ragg_runtime.compensation.recursive import Followed, Online, Tuning
 from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.fit.columns import spelt
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
@@ -77,6 +78,7 @@ def _parameters(f: Online) -> list[dict[str, Any]]:
         {
             "name": c.name,
             "accelerometer": c.accelerometer,
+            **spelt(c.accelerometer, c.accelerometer_name),
             "value": float(p[k] / c.unit_factor),
             "std": float(s / c.unit_factor),
             "unit": c.unit,

@@ -67,20 +67,20 @@ def finite(x: float) -> float | None:
 def channels(
     residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_]
 ) -> tuple[Array, Array, Array]:
-    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass has :func:`heard` the selection."""
+    """Demodulated residual: (time, inline, cross), s and Eo, where the low-pass is :func:`supported` by the selection."""
     if not r.turning or len(residual) < shortest_demodulated(r.rate):
         return np.empty(0), np.empty(0), np.empty(0)
     e = np.where(selected & r.valid, residual, 0.0)
     d = demodulate(e, np.arctan2(r.sin_phi, r.cos_phi) + r.phase / 2, r.rate, k_ggi / EOTVOS)
-    kept = heard(selected[None], r.valid, len(low_pass(r.rate)))[0]
+    kept = supported(selected[None], r.valid, len(low_pass(r.rate)))[0]
     return r.time[d.valid][kept], d.inline[kept] / EOTVOS, d.cross[kept] / EOTVOS
 
 
 HOLES = 0.05
-"""Share of the samples under the low-pass that may be missing, as spikes are: it hears zeros in their place."""
+"""Share of the samples under the low-pass that may be missing, as spikes are: it takes zeros in their place."""
 
 
-def heard(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
+def supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
     """(groups, N - taps + 1): where a filter of so many taps has seen nothing but a selection (groups, N), and
     most of that is valid (N,).
     """
@@ -159,9 +159,9 @@ SERIES = 8
 class Tally:
     """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
 
-    ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass
-    has :func:`heard` the selection. A tally of one segment is made :meth:`of` it; tallies of successive ones are
-    joined.
+    ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass has its whole
+    support within the selection (:func:`supported`). A tally of one segment is made :meth:`of` it; tallies of successive
+    ones are joined.
     """
 
     def __init__(self, k: int, groups: int, rate: float, *, turning: bool = True) -> None:
@@ -202,7 +202,7 @@ class Tally:
         n = len(self._taps)
         if len(s.phi) < n or not self._turning:
             return
-        whole = np.where(heard(s.selected, s.valid, n), 1.0, 0.0)
+        whole = np.where(supported(s.selected, s.valid, n), 1.0, 0.0)
         self.demodulated += np.sum(whole, axis=1)
         for c, carrier in enumerate((4 * np.sin(2 * s.phi), -2 * np.cos(2 * s.phi))):
             for k in range(0, len(s.e), SERIES):

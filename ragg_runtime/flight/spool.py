@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import mmap
+import os
 import shutil
 import tempfile
 from collections.abc import Iterable
@@ -87,10 +89,23 @@ def spooled(parts: Iterable[Flight], path: Path, most: int) -> Flight:
 
 
 def room_like(x: Array, shape: tuple[int, ...]) -> Array:
-    """An array to be filled, float64: in a file without a name where ``x`` is mapped, else in memory."""
+    """An array to be filled, float64: in a file without a name where ``x`` is mapped, else in memory.
+
+    Raises
+    ------
+    UserError
+        If the disk has no room for it.
+    """
     if not _mapping(x):
         return np.empty(shape)
     with tempfile.TemporaryFile() as file:
+        if hasattr(
+            os, "posix_fallocate"
+        ):  # a full disk says so here, not by a signal where the array is filled
+            try:
+                os.posix_fallocate(file.fileno(), 0, 8 * math.prod(shape))
+            except OSError as error:
+                raise _no_room(None, Path(tempfile.gettempdir()), error.strerror) from None
         return np.memmap(file, np.float64, mode="w+", shape=shape)
 
 
@@ -137,7 +152,7 @@ def _endless(path: Path, most: int, columns: int) -> UserError:
     )
 
 
-def _no_room(path: Path, folder: Path, reason: str | None = None) -> UserError:
+def _no_room(path: Path | None, folder: Path, reason: str | None = None) -> UserError:
     return UserError(
         "the flight is too long for memory, and the disk has too little room to lay its columns down",
         where=path,

@@ -112,7 +112,7 @@ class Jobs:
 
         error: dict[str, str | None] | None = None
         try:
-            with progress.heard(step):
+            with progress.listening(step):
                 work(part)
         except Cancelled:
             error = {"what": "cancelled; nothing was changed"}

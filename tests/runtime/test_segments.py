@@ -135,6 +135,6 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
         assert b.cross_Eo == pytest.approx(a.cross_Eo, rel=0.1)
     gap = np.ones(1000, dtype=bool)
     gap[500:560] = False
-    heard = score.heard(np.ones((1, 1000), dtype=bool), gap, 101)[0]
+    heard = score.supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not heard[460:500].any()  # windows with more than half of the gap
     assert heard[:400].all() and heard[560:].all()
