@@ -24,7 +24,8 @@ from tests.generated.draws import Array
 
 USE = Path(__file__).with_name("use.c")
 MODELS = ("analytical", "chain", "folded", "signatures", "simplified")
-SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1")
+SANITIZERS = ("-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O0")
+"""Optimised, what they instrument is compiled ten times as long; warnings that need it are given of the plain program."""
 FIRST_INSTANT = 1e5
 
 

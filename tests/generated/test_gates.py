@@ -6,7 +6,6 @@ first gate (derive again) and casts no doubt on the physics.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import shutil
@@ -31,19 +30,9 @@ COMMITTED = Path(str(generated.__file__)).parent
 ROOT = COMMITTED.parent
 
 
-def ragg(*arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "ragg_runtime", *arguments]
-    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
-
-
 def copy_of_generated(folder: Path) -> Path:
     shutil.copytree(COMMITTED, folder / "generated", ignore=shutil.ignore_patterns("__pycache__"))
     return folder
-
-
-def test_committed_code_is_what_the_derivation_yields() -> None:
-    done = ragg("derive", "--check")
-    assert done.returncode == 0, done.stderr
 
 
 def test_check_shows_the_difference_and_the_command_that_mends_it(
@@ -90,26 +79,17 @@ def test_every_byte_counts(tmp_path: Path, old: str, new: str, message: str) -> 
     assert not tree.difference({"x.py": old}, tmp_path)
 
 
-def test_the_hash_seed_of_python_changes_no_byte() -> None:
-    """SymPy keeps arguments in sets; nothing of their order may reach a file."""
-    script = (
-        "import hashlib; from derive.pipeline import derive_base\n"
-        "print(hashlib.sha256(repr(list(derive_base().items())).encode()).hexdigest())"
+def test_committed_files_are_what_the_derivation_yields_under_any_hash_seed() -> None:
+    """SymPy keeps arguments in sets; nothing of their order may reach a file. ``make check`` draws another seed."""
+    done = subprocess.run(
+        [sys.executable, "-m", "ragg_runtime", "derive", "--check"],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONHASHSEED": "31337"},
+        capture_output=True,
+        text=True,
+        check=False,
     )
-    running = [
-        subprocess.Popen(
-            [sys.executable, "-c", script],
-            cwd=ROOT,
-            env={**os.environ, "PYTHONHASHSEED": seed},
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        for seed in ("0", "31337")
-    ]
-    digests = {p.communicate()[0].strip() for p in running}
-    names = json.loads((COMMITTED / "manifest.json").read_text())["files"]
-    committed = [(n, (COMMITTED / n).read_text()) for n in names]
-    assert digests == {hashlib.sha256(repr(committed).encode()).hexdigest()}
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -20,10 +20,9 @@ from tests.runtime.flown_twice import files, flights, new_model, run
 
 Array = NDArray[np.float64]
 
-STRICT = (
-    "CFLAGS=-std=c17 -O1 -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -pedantic "
-    "-fsanitize=undefined,address -fno-sanitize-recover=all"
-)
+WARNED = "CFLAGS=-std=c17 -O1 -Wall -Wextra -Wconversion -Wno-sign-conversion -Werror -pedantic"
+STRICT = f"{WARNED} -O0 -fsanitize=undefined,address -fno-sanitize-recover=all"
+"""The sanitizers see as much of what is not optimised, which is compiled ten times as fast."""
 
 
 def make(folder: Path, *arguments: str) -> str:
@@ -71,7 +70,8 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
     (folder / "extended.toml").write_text(full)
     run("new", folder / "e", "--from", folder / "extended.toml")
     run("export", folder / "e", folder / "c", "--c")
-    make(folder / "c", STRICT, "check")
+    make(folder / "c", WARNED, "ragg_model")  # of what is not optimised some warnings are not given
+    make(folder / "c", STRICT, "-B", "check")
     write_flight(flights()[0], folder / "one.csv")
     return folder / "e", folder / "c", folder / "one.csv"
 

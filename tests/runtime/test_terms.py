@@ -207,8 +207,8 @@ CASES: dict[str, tuple[Callable[[dict[str, Array]], Array], int, str]] = {
     "creep of 20 s": (lambda w: 1e-7 * _crept(w["f_p"] - w["f_p"][0], w["t"], 20.0), 0, "slow(a_z, 20 s)"),
 }
 
-LONG = {"temperature squared": 600.0}
-"""Seconds of record, where those of the others do not tell a case: the temperature has hardly turned by then."""
+LONG = {"temperature squared": (600.0, 8.0)}
+"""Seconds of record and rate, Hz, where those of the others do not tell a case: the temperature has hardly turned by then."""
 
 
 def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
@@ -223,7 +223,8 @@ def _diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
 @pytest.mark.parametrize("case", sorted(CASES))
 def test_what_a_transducer_may_do_beyond_the_catalogue_is_unexplained_and_named(case: str) -> None:
     change, j, product = CASES[case]
-    s = scenario(72, duration=LONG.get(case, 400.0))
+    duration, rate = LONG.get(case, (400.0, 16.0))
+    s = scenario(72, duration=duration, rate=rate)
     d = _diagnosed(s, _transducer(s.simulate({}), s, change, j))
     assert (d.verdict, d.found) == ("unexplained", ())
     term = max((t for x in d.remainder.searches for t in x.terms), key=lambda t: abs(t.z)).term
