@@ -83,24 +83,6 @@ def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
                 future.cancel()
 
 
-def begun(function: Callable[[], R]) -> Callable[[], R]:
-    """What waits for a result that a thread of its own is begun to make; of one thread it is made when it is asked for.
-
-    For work that leaves most of its time to one thread, beside other such work.
-    """
-    if count() == 1:
-        return function
-
-    def within() -> R:
-        with alone():
-            return function()
-
-    pool = ThreadPoolExecutor(1)
-    future = pool.submit(within)
-    pool.shutdown(wait=False)
-    return future.result
-
-
 def stretches(length: int, most: int) -> list[slice]:
     """``length`` items in a row as neighbouring slices of at most so many."""
     return [slice(k, min(k + most, length)) for k in range(0, length, most)]

@@ -14,12 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import begun, one_thread
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
 from ragg_runtime.diagnosis.credence import weighed, with_probability
@@ -92,10 +91,7 @@ def diagnose_fitted(
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
     output = _output_effects(f, flights)
     first = Stage.of(f)
-    ranked = partial(_ranking, first.fitted, first.field, first.choice, first.instants, output)
-    alone = begun(ranked) if first.fitted.kept else ranked
     steps, last = strong.taken(first, extend)
-    likely = begun(partial(weighed, last.field, steps))
     c = confirmed(last, extend)
     chosen = [*(t.effect for t in steps), *c.choice.chosen]
     left = _left(steps, last, c)
@@ -103,8 +99,8 @@ def diagnose_fitted(
     verdict, found = _verdict(left, end, chosen, output)
     by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
     whitened = sum(s.square for s in left.remainder.searches)
-    ranking, before = _ranked(*alone(), steps, last, c, end.target, left)
-    credence = likely()
+    ranking, before = _ranked(first, steps, last, c, end.target, left, output)
+    credence = weighed(last.field, steps)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     steady = [s for s in left.steady if s.effect in found]
     return Diagnosis(
@@ -226,16 +222,17 @@ def _verdict(
 
 
 def _ranked(
-    alone: Sequence[Ranked],
-    before: Error,
+    first: Stage,
     steps: Sequence[Taken],
     last: Stage,
     c: Confirmed,
     target: Fitted,
     left: _Left,
+    output: Sequence[str],
 ) -> tuple[list[Ranked], Error]:
-    """The effects as they stand in the ranking, first as each does alone, and the error before any is added."""
-    ranking = [*alone, *_ranked_random(last.fitted, left.random, before)]
+    """The effects as they stand in the ranking, and the error before any is added."""
+    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
+    ranking += _ranked_random(last.fitted, left.random, before)
     if steps:
         chosen = c.choice.chosen
         later = _ranking(last.fitted, c.field, c.choice, last.instants, only=chosen)[0] if chosen else []

@@ -137,11 +137,6 @@ class Fitted:
         return [self.observations[n] for n in self.first]
 
     @property
-    def kept(self) -> bool:
-        """Whether the columns of all flights are in memory, so that a pass over them needs none."""
-        return all(x.kept for x in self.prepared)
-
-    @property
     def n_base(self) -> int:
         return len(self.calibration.columns)
 

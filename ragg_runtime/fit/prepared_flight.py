@@ -39,11 +39,6 @@ class PreparedFlight:
     _kept: list[Piece] = field(default_factory=list, repr=False)
 
     @property
-    def kept(self) -> bool:
-        """Whether the columns are in memory."""
-        return bool(self._kept)
-
-    @property
     def edges(self) -> NDArray[np.intp]:
         """(BLOCKS + 1,): samples at which the blocks of time begin and end."""
         return block_edges(len(self.observation.record.time))
