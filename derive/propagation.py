@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from fractions import Fraction
+from functools import cache, cached_property
 from typing import Literal
 
 import sympy as sp
@@ -115,6 +116,17 @@ class Collected:
     amplitudes: Mapping[str, tuple[Term, ...]]
     generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], PolyElement]]
     ring: PolyRing
+
+    @cached_property
+    def largest(self) -> Mapping[tuple[int, tuple[int, ...], tuple[int, ...]], Fraction]:
+        """(harmonic, powers of the motion numbers, powers of the parameters) -> size of its coefficient, the larger of both phases'."""
+        found: dict[tuple[int, tuple[int, ...], tuple[int, ...]], Fraction] = {}
+        for (n, _), terms in self.generic.items():
+            for motion, coefficient in terms.items():
+                for parameters, c in coefficient.terms():
+                    value = abs(Fraction(int(c.numerator), int(c.denominator)))
+                    found[n, motion, parameters] = max(value, found.get((n, motion, parameters), value))
+        return found
 
 
 def monomial(powers: Sequence[int]) -> sp.Expr:

@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from functools import cache
-from typing import Any
+from functools import cache, lru_cache
+from typing import Any, TypeVar
 
 import sympy as sp
 
@@ -154,7 +154,11 @@ def ranges(
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
     """
-    channels = [Fraction(bound(name)) for name in _channels(kinematics)]
+    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics)
+
+
+@lru_cache(maxsize=64)
+def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> dict[str, Fraction]:
     bounds = {}
     for name, terms in _polynomials(kinematics).items():
         low = high = Fraction(0)
@@ -186,9 +190,12 @@ def _polynomials(kinematics: Kinematics) -> dict[str, tuple[tuple[tuple[int, ...
     }
 
 
-def product(bounds: Sequence[Fraction], powers: Sequence[int]) -> Fraction:
+N = TypeVar("N", Fraction, float)
+
+
+def product(bounds: Sequence[N], powers: Sequence[int]) -> N:
     """Product of bounds to their powers."""
-    return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=Fraction(1))
+    return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=type(bounds[0])(1))
 
 
 G0 = 9.8

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 
 from derive.propagation import Collected
 from derive.simplify.envelope import Envelope
-from derive.simplify.terms import sizes
+from derive.simplify.terms import exceeding
 
 
 def extent(envelope: Envelope, names: Sequence[str], full: Collected | None = None) -> tuple[float, float]:
@@ -17,10 +16,10 @@ def extent(envelope: Envelope, names: Sequence[str], full: Collected | None = No
     Searched from a millionth to a million, to a relative 1e-6; 0 and infinity where that does not suffice.
     Sizes never decrease with a bound, so that what lies between the two factors gives the same model.
     """
-    at_one = _kept(envelope, full)
+    at_one = exceeding(envelope, full)
 
     def same(exponent: float) -> bool:
-        return _kept(envelope.scaled(names, 10.0**exponent), full) == at_one
+        return exceeding(envelope.scaled(names, 10.0**exponent), full) == at_one
 
     upper = 6.0
     if "imbalance" in names:  # an instrument without a scale factor is no instrument
@@ -38,8 +37,3 @@ def _edge(same: Callable[[float], bool], far: float) -> float | None:
         middle = (inside + far) / 2
         inside, far = (middle, far) if same(middle) else (inside, middle)
     return inside
-
-
-def _kept(envelope: Envelope, full: Collected | None) -> list[bool]:
-    allotted = Fraction(envelope.allotted)
-    return [s.eotvos > allotted for s in sizes(envelope, full)]

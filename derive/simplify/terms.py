@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+from typing import TypeVar
 
 from sympy.polys.rings import PolyElement
 
@@ -20,6 +21,7 @@ from derive.propagation import (
 from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, product
 
 Powers = tuple[int, ...]
+N = TypeVar("N", Fraction, float)
 Generic = Mapping[tuple[int, str], Mapping[Powers, PolyElement]]
 
 _SIGNAL = frozenset(
@@ -55,28 +57,48 @@ def balanced(harmonic: int, parameters: Powers) -> bool:
 
 def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]:
     """The size of every term of the analytical model (or of ``full``) in an envelope, in its order."""
-    full = full or collect()
+    size = _sizing(envelope, Fraction)
+    return tuple(
+        Size(n, motion, parameters, size(c, n, motion, parameters))
+        for (n, motion, parameters), c in (full or collect()).largest.items()
+    )
+
+
+CLOSE = 1e-9
+"""Relative distance from what is allotted below which floating point does not decide."""
+
+
+def exceeding(envelope: Envelope, full: Collected | None = None) -> list[bool]:
+    """Whether each of :func:`sizes` is more than what is allotted; exactly, though most are told in floating point."""
+    rough, exact = _sizing(envelope, float), _sizing(envelope, Fraction)
+    allotted, found = envelope.allotted, []
+    for term, c in (full or collect()).largest.items():
+        size: Fraction | float = rough(c, *term)
+        if abs(size - allotted) <= CLOSE * allotted:
+            size = exact(c, *term)
+        found.append(size > allotted)
+    return found
+
+
+def _sizing(
+    envelope: Envelope, number: Callable[[Fraction], N]
+) -> Callable[[Fraction, int, Powers, Powers], N]:
+    """What gives the size of a coefficient's term in an envelope, in exact numbers or rough ones."""
     motion_bounds = envelope.motion()
-    motions = [motion_bounds[n] for n in MOTION_NUMBERS]
-    nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
-    scale = 1 / (4 * Fraction(envelope.radius) * EOTVOS)
-    coefficients: dict[tuple[int, Powers, Powers], Fraction] = {}
-    for (n, _), terms in full.generic.items():
-        for motion, coefficient in terms.items():
-            for parameters, c in coefficient.terms():
-                key = (n, motion, parameters)
-                value = abs(Fraction(int(c.numerator), int(c.denominator)))
-                coefficients[key] = max(value, coefficients.get(key, value))
+    motions = [number(motion_bounds[n]) for n in MOTION_NUMBERS]
+    nominal = [number(envelope.nominal(n)) for n in COEFFICIENT_PARAMETERS]
+    scale = number(1 / (4 * Fraction(envelope.radius) * EOTVOS))
     of_motion = cache(lambda powers: product(motions, powers))  # many terms share either
-    of_parameters = cache(lambda powers: product(nominal, powers) * scale)
-    departure = cache(envelope.departure)
-    result = []
-    for (n, motion, parameters), c in coefficients.items():
-        size = c * of_motion(motion) * of_parameters(parameters)
-        if balanced(n, parameters):
-            size *= departure(parameters)
-        result.append(Size(n, motion, parameters, size))
-    return tuple(result)
+
+    @cache
+    def of_parameters(harmonic: int, powers: Powers) -> N:
+        left = number(envelope.departure(powers)) if balanced(harmonic, powers) else 1
+        return product(nominal, powers) * scale * left
+
+    def size(c: Fraction, harmonic: int, motion: Powers, parameters: Powers) -> N:
+        return number(c) * of_motion(motion) * of_parameters(harmonic, parameters)
+
+    return size
 
 
 def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = None) -> Collected:
@@ -86,8 +108,7 @@ def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = Non
     always the signal itself (Eq. 30). What it drops is bounded by :func:`derive.simplify.certified_bound`.
     """
     full = full or collect()
-    allotted = Fraction(envelope.allotted)
-    kept = {(s.harmonic, s.motion, s.parameters) for s in sizes(envelope, full) if s.eotvos > allotted}
+    kept = {term for term, large in zip(full.largest, exceeding(envelope, full), strict=True) if large}
     return from_generic(_select(full.generic, kept))
 
 

@@ -155,7 +155,7 @@ class Segment:
         o = s.observation.part(slice(self.first, self.last))
         self.record: Record = o.record
         self.G = as_output(o, o.data)
-        self.x = self.record.inputs(s.model.chain)
+        self.x = np.array(self.record.inputs(s.model.chain))
         self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
         self.x[list(self.places.values())] = 0.0
         phi = self.record.demodulation_angle

@@ -3,31 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+
+import numpy as np
 
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.strong import Taken
-from ragg_runtime.evidence.probability import Probabilities, probabilities, summed
+from ragg_runtime.evidence.probability import Probabilities, summed, weights
 from ragg_runtime.evidence.selection import Field
 
 
 def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
     """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
-    found = probabilities(field)
-    sets: Mapping[tuple[str, ...], float] = found.sets
+    logs, effects = weights(field)
     for t in steps:
         options = (t.effect, *t.rivals)
         made: dict[tuple[str, ...], float] = {}
-        for s, p in sets.items():
+        for s, log in logs.items():
             for o in options:
-                key = tuple(sorted({*s, o}))
-                made[key] = made.get(key, 0.0) + p / len(options)
-        sets = made
-    if not steps:
-        return found
-    logs = {s: math.log(p) for s, p in sets.items() if p > 0.0}
-    return summed(logs, sorted({e for s in sets for e in s} | set(found.of)))
+                key = s if o in s else tuple(sorted((*s, o)))
+                own = log - math.log(len(options))
+                made[key] = own if key not in made else float(np.logaddexp(made[key], own))
+        logs, effects = made, [*effects, *options]
+    return summed(logs, sorted(set(effects)))
 
 
 def with_probability(r: Ranked, found: Probabilities) -> Ranked:

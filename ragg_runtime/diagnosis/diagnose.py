@@ -234,8 +234,9 @@ def _ranked(
     ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     ranking += _ranked_random(last.fitted, left.random, before)
     if steps:
-        later, _ = _ranking(last.fitted, c.field, c.choice, last.instants, ())
-        ranking = staged(steps, [r for r in later if r.effect in c.choice.chosen], ranking, target)
+        chosen = c.choice.chosen
+        later = _ranking(last.fitted, c.field, c.choice, last.instants, only=chosen)[0] if chosen else []
+        ranking = staged(steps, later, ranking, target)
     return ranking, before
 
 

@@ -68,11 +68,17 @@ class NotTestable:
 
 
 def _ranking(
-    f: Fitted, field: Field, choice: Choice, instants: Mapping[str, float], output: Sequence[str]
+    f: Fitted,
+    field: Field,
+    choice: Choice,
+    instants: Mapping[str, float],
+    output: Sequence[str] = (),
+    only: Sequence[str] | None = None,
 ) -> tuple[list[Ranked], Error]:
-    """Every testable effect with the evidence for it alone, and the error without any."""
+    """Every testable effect, or ``only`` some, with the evidence for it alone, and the error without any."""
     rivals = selection.rivals(field, choice)
-    tested = [(e, t, field.testable(e)) for e, t in choice.tests.items() if t.rank]
+    asked = choice.tests if only is None else {e: t for e, t in choice.tests.items() if e in only}
+    tested = [(e, t, field.testable(e)) for e, t in asked.items() if t.rank]
     fits = [f.coefficients(extra) for _, _, extra in tested]
     vectors = [f.vector(np.zeros(f.n_base))]
     for (_, _, extra), (c, _) in zip(tested, fits, strict=True):

@@ -7,8 +7,10 @@ parameter of the model could have absorbed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,13 +74,26 @@ def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, .
     All its parameters; those of one accelerometer only; one parameter in all accelerometers; one single
     value. An effect of one accelerometer, tested as a block of four, would waste power.
     """
-    every = tuple(n for n, _ in columns)
+    return [(tuple(columns[k][0] for k in block), count) for block, count in _ways(_kinds(columns))]
+
+
+Kinds = tuple[tuple[int | None, str], ...]
+
+
+def _kinds(columns: Sequence[tuple[int, Column]]) -> Kinds:
+    return tuple((c.accelerometer, c.name) for _, c in columns)
+
+
+@lru_cache(maxsize=1024)
+def _ways(kinds: Kinds) -> list[tuple[tuple[int, ...], int]]:
+    """:func:`sub_blocks` of columns of these accelerometers and names, by their places: the same for every record."""
+    every = tuple(range(len(kinds)))
     families: list[list[tuple[int, ...]]] = [[every]]
     by_accelerometer: dict[int | None, list[int]] = {}
     by_name: dict[str, list[int]] = {}
-    for n, c in columns:
-        by_accelerometer.setdefault(c.accelerometer, []).append(n)
-        by_name.setdefault(c.name, []).append(n)
+    for n, (accelerometer, name) in enumerate(kinds):
+        by_accelerometer.setdefault(accelerometer, []).append(n)
+        by_name.setdefault(name, []).append(n)
     for groups in (by_accelerometer.values(), by_name.values(), [[n] for n in every]):
         family = [tuple(g) for g in groups]
         if len(family) > 1 and not any(set(family) == set(f) for f in families):
@@ -99,14 +114,18 @@ def test(
     """
     every = [n for n, _ in columns]
     # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
-    small = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r"))
-    place, low = {n: k for k, n in enumerate(every)}, floor[every]
+    small, low = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r")), floor[every]
+    squares, along = np.sum(small[:, :-1] ** 2, axis=0), small[:, -1] @ small[:, :-1]
+    seen = squares > low**2
+    alone = np.where(seen, along**2 / np.where(seen, squares, 1.0), 0.0).tolist()
     best = Test(0.0, 0, 0.0, ())
-    for block, count in sub_blocks(columns):
-        chi2, rank = explained(small, [place[n] for n in block], low)
-        log_p = min(0.0, log_sf(chi2, rank, freedom) + np.log(count) + penalty)
+    for block, count in _ways(_kinds(columns)):
+        chi2, rank = (
+            (alone[block[0]], int(seen[block[0]])) if len(block) == 1 else explained(small, block, low)
+        )
+        log_p = min(0.0, log_sf(chi2, rank, freedom) + math.log(count) + penalty)
         if rank and log_p < best.log_p:
-            best = Test(chi2, rank, log_p, block)
+            best = Test(chi2, rank, log_p, tuple(every[k] for k in block))
     if not best.which:
         chi2, rank = explained(small, range(len(every)), low)
         best = Test(chi2, rank, min(0.0, log_sf(chi2, rank, freedom) + penalty), tuple(every))

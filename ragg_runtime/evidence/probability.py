@@ -73,13 +73,18 @@ class _Block:
 
 def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
     """Weigh all sets of up to :data:`LARGEST` of the field's effects; ``given`` are sure and projected out beforehand."""
+    return summed(*weights(f, given))
+
+
+def weights(f: Field, given: Sequence[str] = ()) -> tuple[dict[tuple[str, ...], float], list[str]]:
+    """Logarithms of the weights of all those sets, and the effects in them."""
     P, floor = f.P, f.floor
     if given:
         P, floor = f.onto([n for e in given for n, _ in f.candidates[e]])
     blocks = [b for e in f.candidates if e not in given for b in _blocks(f, P, floor, e)]
     effects = sorted({b.effect for b in blocks})
     if not effects:
-        return Probabilities(of={}, credible=((),), sets={(): 1.0})
+        return {(): 0.0}, []
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
     alone = _evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
     ways: dict[tuple[str, ...], list[float]] = {(): [0.0]}
@@ -91,7 +96,7 @@ def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
         sets = np.array(list(combinations(range(len(best)), size)), dtype=np.intp).reshape(-1, size)
         values = _evidence(best, sets) + size * odds
         logs.update(zip(combinations((b.effect for b in best), size), values.tolist(), strict=True))
-    return summed(logs, effects)
+    return logs, effects
 
 
 def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:
@@ -102,8 +107,11 @@ def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:
         usable = np.linalg.norm(X, axis=0) > floor[list(places)]
         if not usable.any():
             continue
-        U, s, _ = np.linalg.svd(X[:, usable], full_matrices=False)
-        Q = U[:, s > s[0] * 1e-7]
+        if len(places) == 1:
+            Q = X / np.linalg.norm(X)
+        else:
+            U, s, _ = np.linalg.svd(X[:, usable], full_matrices=False)
+            Q = U[:, s > s[0] * 1e-7]
         weight = -float(np.log(count)) - f.penalty.get(effect, 0.0)
         made.append(_Block(effect=effect, Q=Q, along=Q.T @ P[:, -1], weight=weight))
     return made
@@ -127,6 +135,8 @@ def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
     inner = Q.T @ Q
     length = np.array([len(b.along) for b in blocks])
     start = np.cumsum(length) - length
+    # the shortest block first: fewer shapes, each of which is worked on at once
+    sets = np.take_along_axis(sets, np.argsort(length[sets], axis=1, kind="stable"), axis=1)
     chi2, freedom = np.empty(len(sets)), np.sum(length[sets], axis=1)
     shapes, which = np.unique(length[sets], axis=0, return_inverse=True)
     for n, shape in enumerate(shapes):

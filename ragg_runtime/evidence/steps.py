@@ -48,12 +48,12 @@ def best_step(
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
     picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*triangles, strict=True)]
-    # The stretches after an edge count with the step's columns, those before it without.
-    after: list[Array] = [np.zeros((k + m + 1, k + m + 1))]
+    # The stretches after an edge count with the step's columns, those before it without; the prior in them.
+    sheet = prior_rows(range(n_base), k + m + 1, prior)
+    after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
     for t in reversed(picked[1:]):
         after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
-    sheet = prior_rows(range(n_base), k + m + 1, prior)
     best: Step | None = None
     own = [(n, c) for n, (_, c) in enumerate(columns)]
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
@@ -61,7 +61,7 @@ def best_step(
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
-        T = fold([before, after[len(edges) - n], sheet])
+        T = fold([before, after[len(edges) - n]])
         test = likelihood_ratio.test(likelihood_ratio.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
         if best is None or test.log_p < best.test.log_p:
             best = Step(edge, test, 2 * BLOCKS)

@@ -192,7 +192,8 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
 
     for _ in mapped(seen, stretches(len(columns), GROUP)):
         pass
-    taken = np.sum(np.abs(directions.T @ waves) ** 2, axis=0)
+    spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
+    taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)
     left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)
     return np.asarray(np.interp(np.arange(n // 2 + 1) * (size / n), some, np.maximum(left, 0.0)))
 

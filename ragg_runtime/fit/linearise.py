@@ -159,7 +159,9 @@ def linearised(at: Point, o: Observation) -> Array:
     if candidates:
         q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
         modules.append(module("signatures", at.model.signatures, q, candidates, len(base)))
-    columns = np.zeros((len(base) + len(candidates) + 1, len(o.series), len(r.time)))
+    # of one output that sums all accelerometers every column is written
+    every = not o.recorded.separate and len(o.output.members) == at.instrument.layout.size
+    columns = (np.empty if every else np.zeros)((len(base) + len(candidates) + 1, len(o.series), len(r.time)))
 
     def evaluated(some: slice) -> None:
         for x in modules:

@@ -63,7 +63,7 @@ def _eliminated(columns: Array) -> Array:
     for start in range(0, rows, CHUNK):
         part = np.array(columns[:, start : start + CHUNK].T, order="F")
         R, *_ = linalg.lapack.dtpqrt(0, min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
-    return np.asarray(np.triu(R))
+    return np.asarray(R)
 
 
 def join(blocks: Sequence[Array]) -> Array:
@@ -81,7 +81,7 @@ def fold(trapezoids: Sequence[Array]) -> Array:
     for t in others:
         part = np.array(t, order="F")
         R, *_ = linalg.lapack.dtpqrt(len(t), min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
-    return np.asarray(np.triu(R))
+    return np.asarray(R)
 
 
 def below(T: Array, first: int, picked: Sequence[int]) -> Array:

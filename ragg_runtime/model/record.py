@@ -152,11 +152,16 @@ class Record:
 
     def inputs(self, chain: Chain) -> Array:
         """(n_inputs, N) in the order of the module's INPUTS; channels that were not recorded are zero."""
+        if chain.INPUTS in self._inputs:
+            return self._inputs[chain.INPUTS]
         x = np.zeros((len(chain.INPUTS), len(self.time)))
         for n, name in enumerate(chain.INPUTS):
             series = self.series(name)
             if series is not None:
                 x[n] = series
+        if len(self.time) <= REMEMBERED:
+            x.flags.writeable = False
+            self._inputs[chain.INPUTS] = x
         return x
 
     def series(self, name: str) -> Array | None:
@@ -223,6 +228,11 @@ class Record:
     @cached_property
     def _made(self) -> dict[str, Array]:
         """Derivatives that were asked for: fits and the search of what is left ask for the same again and again."""
+        return {}
+
+    @cached_property
+    def _inputs(self) -> dict[tuple[str, ...], Array]:
+        """Inputs that were asked for: every point at which a fit is linearised has the same."""
         return {}
 
     def _differentiated(self, name: str) -> Array | None:

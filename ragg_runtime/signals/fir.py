@@ -37,14 +37,15 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     # What goes round in the transform may fall on samples that are not wanted.
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
-    result = np.zeros((len(columns), n - lead), dtype=columns.dtype)
+    result = np.empty((len(columns), n - lead), dtype=columns.dtype)
 
     def through(some: slice) -> None:
         part = columns[some]
         if tail is not None:
             part = np.concatenate([tail[some], part], axis=1)
-        if not part.any():
-            return  # effects of channels that were not recorded
+        if not part.any():  # effects of channels that were not recorded
+            result[some] = 0.0
+            return
         waves = fft.rfft(part, size, axis=1)
         waves *= gain
         result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
