@@ -47,7 +47,7 @@ Array = NDArray[np.float64]
 
 CACHE = Path(__file__).resolve().parents[2] / "build" / "bench-first-flight.jsonl"
 
-MOST = 20_000
+MOST = 8_000
 """Samples of the longest flight."""
 
 FIRST = {
@@ -128,7 +128,8 @@ def hidden_in(w: World, bench: Bench, rng: np.random.Generator) -> tuple[Hidden,
     """None to two effects; fewer where the flight cannot show what is drawn."""
     kinds = {e.id: e.kind for e in bench.fitted.model.candidates}
     columns = [e for e, k in kinds.items() if k in oracle.MODELLED and e not in strong.PHYSICAL]
-    wanted, found = int(rng.choice([0, 1, 1, 2, 2, 2])), []
+    wanted = int(rng.choice([0, 1, 1, 2, 2, 2]))
+    found: list[Hidden] = []
     end = w.scenario.duration * 0.4
     for _ in range(60):
         if wanted == len(found):
