@@ -237,7 +237,8 @@ def fit(
         some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
-        loud = loud or some.left(x) ** 2 > MISFIT * loudness(noise) ** 2
+        lines = float(np.mean([n.line_power for n in noise]))
+        loud = loud or some.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)

@@ -343,6 +343,16 @@ def swell(f: Fitted) -> float:
     return float(np.sqrt(np.mean(power)))
 
 
+def lines(f: Fitted) -> float:
+    """rms of the lines that are taken for noise, Eo."""
+    power = [
+        sum(w[q.output] ** 2 * q.amplitude**2 / 2 for q in x.noise.lines) / k_ggi**2
+        for x, k_ggi in zip(f.prepared, f.scales, strict=True)
+        for w in [x.noise.weights(x.observation.signs)]
+    ]
+    return float(np.sqrt(np.mean(power)))
+
+
 def estimated(x: PreparedFlight) -> float:
     """Variance of the estimated noise of what was observed as G_out, V^2."""
     share = x.observation.recorded.noise_share(x.observation.record)
