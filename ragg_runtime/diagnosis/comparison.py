@@ -270,7 +270,7 @@ def loud(f: Fitted, scored: Scored, noise: float) -> bool:
     """
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
-    return scored.whole.rms_Eo > np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f))
+    return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))
 
 
 def disturbed(f: Fitted) -> str | None:

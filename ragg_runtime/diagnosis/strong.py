@@ -28,7 +28,7 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
-from ragg_runtime.fit.off_sheet import with_room
+from ragg_runtime.fit.off_sheet import room_taken, widened
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
@@ -326,7 +326,7 @@ def _score(
     observations = certain(model, instrument, f.observations)
     c = calibrate.fit(model, instrument, observations, noise=noise)
     for _ in range(WIDENED):
-        wider = with_room(model, instrument, c)
+        wider = widened(model, instrument, c)
         if wider is None:
             break
         instrument = wider
@@ -346,7 +346,7 @@ def _score(
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
-    return c.chi2 + left_out + cost + 2.0 * known + tails
+    return c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c)
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

@@ -9,8 +9,9 @@ There it is the sheet that tells, if it is sure enough of these parameters; wher
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.parameters import PARAMETER
 
 Array = NDArray[np.float64]
 
@@ -91,7 +92,8 @@ _GRAVITY = (
 
 def misrecorded(f: Fitted) -> str | None:
     """What is wrong with a_z, and what to do, in words; ``None`` if nothing is, or the record and the sheet cannot tell."""
-    off = f.calibration.widening**2 * float(np.sum(f.to_nominal**2))
+    width = np.array([f.instrument.widths.get(q.name, 1.0) for q in f.calibration.columns])
+    off = float(np.sum((width * f.to_nominal) ** 2))
     beyond = float(f.data[:, -1] @ f.data[:, -1]) - f.calibration.rows
     if off + max(beyond, 0.0) < SURE or beyond > LOUDEST * f.calibration.rows:
         return None  # nothing can fit better by so much; or the fit is lost
@@ -133,9 +135,5 @@ def _convincing(given: Calibration, other: Calibration, sheet: Instrument, f: Fi
 
 def _as_sure_as_said(f: Fitted) -> Instrument:
     """The instrument with the sheet's own sigmas, which a fit far from it has widened."""
-    if f.calibration.widening == 1.0:
-        return f.instrument
-    sigmas: Mapping[str, Array] = {
-        q.name: f.instrument.sigma(q.name) / f.calibration.widening for q in PARAMETERS
-    }
-    return replace(f.instrument, sigmas=sigmas)
+    widths = {n: w for n, w in f.instrument.widths.items() if n not in PARAMETER}
+    return replace(f.instrument, widths=MappingProxyType(widths))

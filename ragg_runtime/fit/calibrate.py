@@ -70,8 +70,6 @@ class Calibration:
         loud, in what it counted as noise).
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
-    widening
-        By how much the sheet's sigmas had to be widened (``off_sheet.widened``): scales are so many sigmas.
     """
 
     p: Array
@@ -84,7 +82,6 @@ class Calibration:
     excess: float
     converged: bool
     reason: str
-    widening: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -289,14 +289,12 @@ def fit(
     """
     observations = certain(model, instrument, observations)
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
-    widening = 1.0
     for _ in range(WIDENED):
         wider = widened(model, instrument, c)
         if wider is None:
             break
-        instrument, widening = wider[0], widening * wider[1]
+        instrument = wider
         c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
-    c = replace(c, widening=widening)
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",
