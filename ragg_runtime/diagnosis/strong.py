@@ -28,7 +28,7 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
-from ragg_runtime.fit.off_sheet import room_taken, widened
+from ragg_runtime.fit.off_sheet import as_said, room_taken, widened
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
@@ -303,14 +303,14 @@ def _charge(columns: Array, rows: int) -> float:
 def _derived(
     f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
 ) -> tuple[Model, Instrument]:
-    """The model of some flights with further effects in it, and the sheet with the instants of steps among them."""
+    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
     model = extend(f.model, ids, candidates=candidates)
     steps = tuple(
         EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
         for e in ids
         if e in instants
     )
-    return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
+    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
 
 
 def _score(

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,11 +19,11 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.off_sheet import as_said
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETER
 
 Array = NDArray[np.float64]
 
@@ -97,7 +96,7 @@ def misrecorded(f: Fitted) -> str | None:
     beyond = float(f.data[:, -1] @ f.data[:, -1]) - f.calibration.rows
     if off + max(beyond, 0.0) < SURE or beyond > LOUDEST * f.calibration.rows:
         return None  # nothing can fit better by so much; or the fit is lost
-    sheet = _as_sure_as_said(f)
+    sheet = as_said(f.instrument)
     seen = [o.part(slice(0, min(ROWS, len(o.record.time)))) for o in f.observations]
     given = _fit(f, sheet, seen, f.calibration.p)
     noise_alone = beyond < (AS_NOISE - 1.0) * f.calibration.rows
@@ -131,9 +130,3 @@ def _convincing(given: Calibration, other: Calibration, sheet: Instrument, f: Fi
     moves = to_nominal(f.model, sheet, other)
     by_chance = len(moves) + BY_CHANCE * np.sqrt(2.0 * len(moves))
     return other.excess < AS_NOISE and float(moves @ moves) < by_chance
-
-
-def _as_sure_as_said(f: Fitted) -> Instrument:
-    """The instrument with the sheet's own sigmas, which a fit far from it has widened."""
-    widths = {n: w for n, w in f.instrument.widths.items() if n not in PARAMETER}
-    return replace(f.instrument, widths=MappingProxyType(widths))

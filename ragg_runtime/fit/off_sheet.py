@@ -101,6 +101,12 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
     return replace(instrument, widths=MappingProxyType({**others, **then}))
 
 
+def as_said(instrument: Instrument) -> Instrument:
+    """The instrument with a sheet as sure as it says: its parameters' widths are given back."""
+    widths = {n: w for n, w in instrument.widths.items() if n not in PARAMETER}
+    return replace(instrument, widths=MappingProxyType(widths))
+
+
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
     """How many times less sure than it says the sheet is of each kind of parameter, at least 1."""
     squares: dict[str, float] = {}
