@@ -27,8 +27,8 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
-from ragg_runtime.fit.off_sheet import as_said, room_taken, widened
+from ragg_runtime.fit.fitted import Fitted, calibrated, fit
+from ragg_runtime.fit.off_sheet import as_said, room_taken
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
@@ -324,13 +324,7 @@ def _score(
     """
     model, instrument = derived
     observations = certain(model, instrument, f.observations)
-    c = calibrate.fit(model, instrument, observations, noise=noise)
-    for _ in range(WIDENED):
-        wider = widened(model, instrument, c)
-        if wider is None:
-            break
-        instrument = wider
-        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
+    instrument, c = calibrated(model, instrument, observations, noise=noise)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     x = -to_nominal(model, instrument, c)
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))

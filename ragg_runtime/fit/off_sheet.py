@@ -78,7 +78,8 @@ MOST_ROOM = 3.0
 7,000 deg/h passed for a term that no effect of the catalogue makes, to the noise."""
 
 QUIET = 2.0
-"""Excess of chi-square up to which the record says how large an effect in the model is, not another one that is missing."""
+"""Excess of chi-square up to which the record says how far off the sheet parameters are and how large an effect in the model is; beyond
+it another one is missing."""
 
 
 def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
