@@ -107,10 +107,11 @@ def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
             for f in lines[np.isfinite(lines)]:
                 near = [q for q in found if q.output == m and abs(f - q.frequency) < width]
                 turns = int(np.rint(f / spin))
-                if near or (1 <= turns <= TURNS and abs(f - turns * spin) < width):
+                if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
                     continue
+                # several beside each other are one that wanders
                 own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
-                found.append(Line(m, float(f), float(np.sqrt(2 * np.mean(own**2)))))
+                found.append(Line(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
     return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
 
 

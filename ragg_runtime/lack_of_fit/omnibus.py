@@ -280,6 +280,8 @@ def _known(s: Scores) -> list[tuple[float, Found]]:
     noise, rate = s.prepared.noise, s.prepared.observation.record.rate
     found = []
     for q in noise.lines:
+        if not q.amplitude:
+            continue
         mean_square = q.amplitude**2 / 2
         density = float(noise.models[q.output].psd(np.array([q.frequency]))[0])
         chi2 = s.sums.samples * mean_square / (density * rate / 2)

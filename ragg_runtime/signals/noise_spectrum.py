@@ -298,7 +298,9 @@ def white_noise(rate: float, outputs: int) -> Noise:
 
 @dataclass(frozen=True)
 class Line:
-    """A sinusoid in what the filter ``output`` takes of an observation's series: Hz, and its amplitude, V."""
+    """A sinusoid in what the filter ``output`` takes of an observation's series: Hz, and its amplitude, V; 0 where that is counted with
+    another one beside it.
+    """
 
     output: int
     frequency: float
