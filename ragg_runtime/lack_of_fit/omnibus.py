@@ -91,7 +91,7 @@ class Omnibus:
     """The search over one flight's dictionary.
 
     ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
-    of ``square``, the whitened residual's sum of squares.
+    of ``square``, the whitened residual's sum of squares. ``apart`` is the significance of what is no line.
     """
 
     log_p: float
@@ -99,6 +99,7 @@ class Omnibus:
     terms: tuple[Found, ...]
     chi2: float
     square: float
+    apart: float = 0.0
 
     @property
     def significant(self) -> bool:
@@ -249,14 +250,16 @@ def search(
 
 def choose(s: Scores) -> Omnibus:
     """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
-    steady = _steady(s)
-    further = [t for t in (_varying(s), _line(s)) if t is not None]
-    log_p = min([steady.log_p, *(p for p, _ in further)])
+    steady, varying = _steady(s), _varying(s)
+    lines = _known(s) or [t for t in [_line(s)] if t is not None]
+    further = [*lines, *([] if varying is None else [varying])]
+    apart = min(steady.log_p, 0.0 if varying is None else varying[0])
+    log_p = min([apart, *(p for p, _ in lines)])
     significant = [(p, found) for p, found in further if p < np.log(FAMILY)]
     if steady.terms or not significant:
-        return replace(steady, log_p=log_p)
+        return replace(steady, log_p=log_p, apart=apart)
     found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found), apart=apart)
 
 
 def _varying(s: Scores) -> tuple[float, Found] | None:
@@ -270,6 +273,24 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
     z = float(np.sqrt(v.chi2))
     found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+
+
+def _known(s: Scores) -> list[tuple[float, Found]]:
+    """The lines that were taken out of the noise, the surest first."""
+    noise, rate = s.prepared.noise, s.prepared.observation.record.rate
+    found = []
+    for q in noise.lines:
+        if not q.amplitude:
+            continue
+        mean_square = q.amplitude**2 / 2
+        density = float(noise.models[q.output].psd(np.array([q.frequency]))[0])
+        chi2 = s.sums.samples * mean_square / (density * rate / 2)
+        term = Term(f"line {q.frequency:.5g} Hz", ())
+        std = q.amplitude / float(np.sqrt(max(chi2, 1.0)))
+        found.append(
+            (-chi2 / 2, Found(term, q.amplitude, std, float(np.sqrt(chi2)), chi2, mean_square, "line"))
+        )
+    return sorted(found, key=lambda x: x[0])
 
 
 def _line(s: Scores) -> tuple[float, Found] | None:
