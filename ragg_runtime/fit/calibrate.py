@@ -133,7 +133,14 @@ class _Task:
         found = design.base_columns(model, instrument)
         columns = tuple(c for c, _ in found)
         index = np.array([i for _, i in found])
-        return _Task(model, instrument, observations, vector(model, instrument), columns, index)
+        return _Task(
+            model=model,
+            instrument=instrument,
+            observations=observations,
+            nominal=vector(model, instrument),
+            columns=columns,
+            index=index,
+        )
 
     @property
     def scale(self) -> Array:
@@ -164,7 +171,7 @@ class _Task:
         if not np.isfinite(data).all():
             return self._nowhere(x)
         fall = _linear(data, -x)
-        return _Fall(fall.R, fall.y, fall.rest, data, -x, sums, rows)
+        return _Fall(R=fall.R, y=fall.y, rest=fall.rest, data=data, to_nominal=-x, sums=sums, rows=rows)
 
     def noise(self, x: Array) -> list[Noise]:
         """Noise of every flight from what nothing explains about x."""
@@ -174,7 +181,15 @@ class _Task:
     def _nowhere(self, x: Array) -> _Fall:
         """A point at which the model is no instrument: infinitely far from any record."""
         n = len(x)
-        return _Fall(np.eye(n), np.zeros(n), np.inf, np.zeros((n + 1, n + 1)), -x, {}, 1)
+        return _Fall(
+            R=np.eye(n),
+            y=np.zeros(n),
+            rest=np.inf,
+            data=np.zeros((n + 1, n + 1)),
+            to_nominal=-x,
+            sums={},
+            rows=1,
+        )
 
 
 @dataclass(frozen=True)

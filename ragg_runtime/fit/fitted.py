@@ -340,15 +340,15 @@ def about(
     prepared = prepared_flight.prepare(model, instrument, observations, c, candidates=candidates)
     triangles, sums = zip(*(prepared_flight.blocks(x) for x in prepared), strict=True)
     return Fitted(
-        model,
-        instrument,
-        tuple(observations),
-        c,
-        prepared,
-        triangles,
-        sums,
-        prepared_flight.to_nominal(model, instrument, c),
-        tuple(scale_factor(model, c.p, o.place) for o in observations),
+        model=model,
+        instrument=instrument,
+        observations=tuple(observations),
+        calibration=c,
+        prepared=prepared,
+        triangles=triangles,
+        sums=sums,
+        to_nominal=prepared_flight.to_nominal(model, instrument, c),
+        scales=tuple(scale_factor(model, c.p, o.place) for o in observations),
     )
 
 

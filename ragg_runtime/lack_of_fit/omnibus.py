@@ -271,7 +271,16 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
     size = s.dictionary.size(term)
     mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
     z = float(np.sqrt(v.chi2))
-    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
+    found = Found(
+        term=term,
+        coefficient=v.coefficient / size,
+        std=v.std / size,
+        z=z,
+        chi2=v.chi2,
+        mean_square=mean_square,
+        kind="varying",
+        how=v.how,
+    )
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
 
 
@@ -288,7 +297,18 @@ def _known(s: Scores) -> list[tuple[float, Found]]:
         term = Term(f"line {q.frequency:.5g} Hz", ())
         std = q.amplitude / float(np.sqrt(max(chi2, 1.0)))
         found.append(
-            (-chi2 / 2, Found(term, q.amplitude, std, float(np.sqrt(chi2)), chi2, mean_square, "line"))
+            (
+                -chi2 / 2,
+                Found(
+                    term=term,
+                    coefficient=q.amplitude,
+                    std=std,
+                    z=float(np.sqrt(chi2)),
+                    chi2=chi2,
+                    mean_square=mean_square,
+                    kind="line",
+                ),
+            )
         )
     return sorted(found, key=lambda x: x[0])
 
@@ -304,13 +324,13 @@ def _line(s: Scores) -> tuple[float, Found] | None:
     mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
     chi2 = line.share * s.sums.square
     found = Found(
-        Term(f"line {line.frequency:.5g} Hz", ()),
-        float(np.sqrt(2 * mean_square)),
-        float(np.sqrt(2 * mean_square / max(chi2, 1.0))),
-        float(np.sqrt(chi2)),
-        chi2,
-        mean_square,
-        "line",
+        term=Term(f"line {line.frequency:.5g} Hz", ()),
+        coefficient=float(np.sqrt(2 * mean_square)),
+        std=float(np.sqrt(2 * mean_square / max(chi2, 1.0))),
+        z=float(np.sqrt(chi2)),
+        chi2=chi2,
+        mean_square=mean_square,
+        kind="line",
     )
     return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
 
@@ -325,7 +345,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     freedom = s.prepared.noise.freedom
     first = _log_p(z, tried, freedom)
     if first >= np.log(FAMILY):
-        return Omnibus(first, tried, (), 0.0, s.sums.square)
+        return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
     sober = np.ones(len(places))
     if s.prepared.noise.level.parts:
@@ -333,7 +353,7 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         freedom = min(freedom, BLOCKS - 1.0)
         first = _log_p(z[places] / sober, tried, freedom)
         if first >= np.log(FAMILY):
-            return Omnibus(first, tried, (), 0.0, s.sums.square)
+            return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
     # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
@@ -361,9 +381,17 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
         spread = square - mean**2 if term.harmonic == "const" else square
         size2 = (amount * std * s.dictionary.size(term)) ** 2 * float(spread)
         taken.append(
-            Found(term, amount * std, std, float(now[k]), amount**2, size2, centre=s.dictionary.centre)
+            Found(
+                term=term,
+                coefficient=amount * std,
+                std=std,
+                z=float(now[k]),
+                chi2=amount**2,
+                mean_square=size2,
+                centre=s.dictionary.centre,
+            )
         )
-    return Omnibus(first, tried, tuple(taken), chi2, s.sums.square)
+    return Omnibus(log_p=first, tried=tried, terms=tuple(taken), chi2=chi2, square=s.sums.square)
 
 
 def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:

@@ -92,7 +92,16 @@ def rectification(found: Sequence[LineFigures], discs: Discs) -> list[Dependence
         slope = float(np.sum(x * y) / np.sum(x**2))
         std = float(np.sqrt(np.sum((y - slope * x) ** 2) / freedom / np.sum(x**2)))
         p = float(2 * stats.t.sf(abs(slope) / std, freedom)) if std > 0 else 1.0
-        result.append(Dependence(f"{name}", "vertical acceleration squared", slope, std, "Eo/(m/s^2)^2", p))
+        result.append(
+            Dependence(
+                of=f"{name}",
+                on="vertical acceleration squared",
+                slope=slope,
+                std=std,
+                unit="Eo/(m/s^2)^2",
+                p_value=p,
+            )
+        )
     return result
 
 
@@ -173,7 +182,11 @@ def _fitted(
     for k, (name, unit, centre) in enumerate(kept):
         std = float(np.sqrt(covariance[k, k]))
         p = float(2 * stats.t.sf(abs(solution[k]) / std, freedom)) if std > 0 else 1.0
-        result.append(Dependence(of, name, float(solution[k] / centre), std / centre, unit, p))
+        result.append(
+            Dependence(
+                of=of, on=name, slope=float(solution[k] / centre), std=std / centre, unit=unit, p_value=p
+            )
+        )
     return result
 
 
