@@ -114,17 +114,22 @@ def as_said(instrument: Instrument) -> Instrument:
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
     """How many times less sure than it says the sheet is of each parameter, at least 1. Those of one unit are a kind (lengths, angles,
     biases, scale factors, second-order coefficients): of a single one of these the record often says too little.
+    What the sheet says of its own sigmas is taken at its word: an arm that is 40 % longer would else pass for scale factors of 13 sigma.
     """
     squares: dict[str, float] = {}
     told: dict[str, float] = {}
     for (q, x), variance in zip(_off(model, instrument, c), np.diag(c.covariance), strict=True):
-        if q.effect is None:
+        if q.effect is None and q.name not in instrument.sigmas:
             kind = PARAMETER[q.name].si_unit
             squares[kind] = squares.get(kind, 0.0) + (x * instrument.widths.get(q.name, 1.0)) ** 2
             told[kind] = told.get(kind, 0.0) + max(0.0, 1.0 - float(variance))
     width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
     wide = {k: w if squares[k] >= FAR**2 and w >= WIDE else 1.0 for k, w in width.items()}
-    return {q.name: wide[PARAMETER[q.name].si_unit] for q in c.columns if q.effect is None}
+    return {
+        q.name: wide[PARAMETER[q.name].si_unit]
+        for q in c.columns
+        if q.effect is None and q.name not in instrument.sigmas
+    }
 
 
 def room_taken(instrument: Instrument, c: Calibration) -> float:
