@@ -1,5 +1,9 @@
-"""``python -m ragg_runtime`` is ``ragg``: the room of the commands, run as a program."""
+"""``python -m ragg_runtime`` is ``ragg``."""
 
-import runpy  # the interpreter's own, loaded before the current folder could stand in for it
+from ragg_runtime.cli.safe_path import without_current_folder
 
-runpy.run_module("ragg_runtime.cli", run_name="__main__", alter_sys=True)
+without_current_folder()  # before anything else is imported
+
+from ragg_runtime.cli.main import main  # noqa: E402
+
+main()

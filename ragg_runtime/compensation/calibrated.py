@@ -65,11 +65,6 @@ def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> l
     return found
 
 
-def value_of(q: Combination, values: Array, root: Array) -> tuple[float, float]:
-    """Value and standard deviation, in its unit, of values (n,) with a root (n, k) of their covariance, in scales."""
-    return float(q.weights @ values), float(np.linalg.norm(q.weights @ root))
-
-
 def with_sheet(T: Array, to_nominal: Array) -> Linear:
     """The fit of a triangle [base | residual] and of the sheet, whose values are ``to_nominal`` (n,) away, in scales."""
     whole = with_prior(T, range(len(to_nominal)), to_nominal)
@@ -151,7 +146,7 @@ class Calibrated:
         rows = []
         for name, step, root in flights if len(flights) > 1 else ():
             for q in self.combinations:
-                value, std = value_of(q, self.values + step, root)
+                value, std = q.of(self.values + step, root)
                 rows.append({"flight": name, "name": q.name, "value": value, "std": std, "unit": q.unit})
         return rows
 
@@ -175,7 +170,7 @@ class Calibrated:
             )
         combinations = []
         for x in self.combinations:
-            value, std = value_of(x, self.values, self.root)
+            value, std = x.of(self.values, self.root)
             combinations.append({"name": x.name, "value": value, "std": std, "unit": x.unit})
         return {
             "converged": self.converged,

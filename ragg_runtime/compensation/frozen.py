@@ -268,8 +268,8 @@ class Held:
         seen = calibrated.visible(f.model, c.p, c.columns, self.root)
         for flight, step, root_now in calibrated.each_flight(f):
             for q in seen:
-                value, std = calibrated.value_of(q, values, self.root)
-                now, now_std = calibrated.value_of(q, values + step, root_now)
+                value, std = q.of(values, self.root)
+                now, now_std = q.of(values + step, root_now)
                 both = float(np.hypot(std, now_std))
                 z = (now - value) / both if both else 0.0
                 row = {"flight": flight, "name": q.name, "frozen": value, "frozen_std": std}

@@ -130,6 +130,10 @@ class Combination:
     unit: str
     shares: tuple[float, ...] = ()
 
+    def of(self, values: Array, root: Array) -> tuple[float, float]:
+        """Value and standard deviation, in ``unit``, of values (n,) with a root (n, k) of their covariance, in scales."""
+        return float(self.weights @ values), float(np.linalg.norm(self.weights @ root))
+
 
 def combinations_seen(
     model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
@@ -141,13 +145,13 @@ def combinations_seen(
     vector, for the accelerometers' :func:`gains`.
     """
     found = []
+    alone = np.array([std(x) for x in np.eye(len(columns))])
     for name in dict.fromkeys(c.name for c in columns if c.accelerometer is not None):
         at = [k for k, c in enumerate(columns) if c.name == name]
         if len(at) != model.layout.size:
             continue
         each = [columns[k] for k in at]
-        single = np.array([std(x) for x in np.eye(len(columns))[at]])
-        known = single if np.all(single < SEEN) else np.ones(len(at))
+        known = alone[at] if np.all(alone[at] < SEEN) else np.ones(len(at))
         factor = np.array([c.scale / c.unit_factor for c in each])
         for label, shares in patterns(each, gains(model, p, name), model.layout):
             w = np.zeros(len(columns))

@@ -87,9 +87,7 @@ def _ranking(
         values, spread = c[f.n_base :], covariance[f.n_base :, f.n_base :]
         parameters = parameter_values(mine, values, spread)
         if e in instants:
-            parameters.append(
-                ParameterValue(name="t_step", accelerometer=None, value=instants[e], std=0.0, unit="s")
-            )
+            parameters.append(_instant(instants[e]))
         indistinguishable = rivals.get(e, ())
         for main, others in rivals.items():
             if e in others:
@@ -109,43 +107,35 @@ def _ranking(
                 indistinguishable_from=indistinguishable,
             )
         )
-    for e in output:
-        ranked.append(
-            Ranked(
-                effect=e,
-                log_p=-np.inf,
-                chi2=np.inf,
-                rank=1,
-                delta_bic=np.inf,
-                before=before,
-                after=before,
-                after_holdout=before,
-                parameters=(),
-                combinations=(),
-                indistinguishable_from=(),
-            )
-        )
+    certain = Test(log_p=-np.inf, chi2=np.inf, rank=1, which=())
+    ranked += [_unfitted(e, certain, np.inf, before) for e in output]
     return ranked, before
 
 
 def _ranked_random(f: Fitted, random: Mapping[str, Test], before: Error) -> list[Ranked]:
     rows = np.log(f.calibration.rows)
-    return [
-        Ranked(
-            effect=e,
-            log_p=t.log_p,
-            chi2=t.chi2,
-            rank=t.rank,
-            delta_bic=float(t.chi2 - rows),
-            before=before,
-            after=before,
-            after_holdout=before,
-            parameters=(),
-            combinations=(),
-            indistinguishable_from=(),
-        )
-        for e, t in random.items()
-    ]
+    return [_unfitted(e, t, float(t.chi2 - rows), before) for e, t in random.items()]
+
+
+def _unfitted(effect: str, t: Test, delta_bic: float, before: Error) -> Ranked:
+    """The row of an effect without columns: nothing of it is fitted, so the error stays."""
+    return Ranked(
+        effect=effect,
+        log_p=t.log_p,
+        chi2=t.chi2,
+        rank=t.rank,
+        delta_bic=delta_bic,
+        before=before,
+        after=before,
+        after_holdout=before,
+        parameters=(),
+        combinations=(),
+        indistinguishable_from=(),
+    )
+
+
+def _instant(t_step: float) -> ParameterValue:
+    return ParameterValue(name="t_step", accelerometer=None, value=t_step, std=0.0, unit="s")
 
 
 def staged(
@@ -170,9 +160,7 @@ def _ranked_taken(t: Taken, target: Fitted) -> Ranked:
     covariance = c.covariance[np.ix_(own, own)]
     parameters = parameter_values(columns, values, covariance)
     if t.instant is not None:
-        parameters.append(
-            ParameterValue(name="t_step", accelerometer=None, value=t.instant, std=0.0, unit="s")
-        )
+        parameters.append(_instant(t.instant))
     return Ranked(
         effect=t.effect,
         log_p=t.test.log_p,

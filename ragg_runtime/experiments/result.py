@@ -119,26 +119,15 @@ def judge(
     open_input, unexplained
         The reason to give in either case.
     """
+    verdict: Verdict
     inside = spread is not None and spread[0] <= printed.value <= spread[1]
     if inside or printed.matches(ours):
-        return Row(quantity=quantity, printed=printed, ours=ours, spread=spread, verdict="agrees", reason="")
-    if reach is not None and reach[0] <= printed.value <= reach[1]:
-        return Row(
-            quantity=quantity,
-            printed=printed,
-            ours=ours,
-            spread=spread,
-            verdict="open input",
-            reason=open_input,
-        )
-    return Row(
-        quantity=quantity,
-        printed=printed,
-        ours=ours,
-        spread=spread,
-        verdict="unexplained",
-        reason=unexplained,
-    )
+        verdict, reason = "agrees", ""
+    elif reach is not None and reach[0] <= printed.value <= reach[1]:
+        verdict, reason = "open input", open_input
+    else:
+        verdict, reason = "unexplained", unexplained
+    return Row(quantity=quantity, printed=printed, ours=ours, spread=spread, verdict=verdict, reason=reason)
 
 
 @dataclass(frozen=True)

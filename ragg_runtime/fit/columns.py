@@ -148,10 +148,11 @@ def heard(model: Model, instrument: Instrument, place: int, candidates: bool) ->
 
     The others, of other outputs' accelerometers, are zero; of several discs they are most. All of them, as a slice, of one output.
     """
+    if len(instrument.layout.outputs) == 1:
+        return slice(None)
     columns = [c for c, _ in base_columns(model, instrument)]
     columns += candidate_columns(model, instrument) if candidates else []
-    own = own_columns(columns, instrument, place)
-    return slice(None) if len(own) == len(columns) else np.array([*own, len(columns)], dtype=np.intp)
+    return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 
 def observed(o: Observation, v: Array, accelerometer: int | None) -> Array:

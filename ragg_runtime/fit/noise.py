@@ -173,7 +173,7 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
             outputs=tuple(left_over(x, valid, rate, band, t) for x, t in zip(each, known, strict=True)),
             taken=sum(w.white.shape[1] for w in piece.windows) / len(o.series),
             random={
-                e: tuple(x[0] ** 2 for x in np.split(piece.white[[place]], len(o.series), axis=1))
+                e: tuple(piece.white[place].reshape(len(o.series), -1) ** 2)
                 for place, e in shown
                 if e is not None
             },

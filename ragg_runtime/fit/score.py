@@ -41,6 +41,19 @@ class Error:
     inline_Eo_per_rtHz: float
     cross_Eo_per_rtHz: float
 
+    @staticmethod
+    def of(rms_V: float, rms_Eo: float, inline_Eo: float, cross_Eo: float) -> Error:
+        """Of these four; the densities follow."""
+        root = float(np.sqrt(CUTOFF))
+        return Error(
+            rms_V=rms_V,
+            rms_Eo=rms_Eo,
+            inline_Eo=inline_Eo,
+            cross_Eo=cross_Eo,
+            inline_Eo_per_rtHz=inline_Eo / root,
+            cross_Eo_per_rtHz=cross_Eo / root,
+        )
+
     def as_json(self) -> dict[str, float | None]:
         """The object as JSON: NaN becomes null."""
         return {k: finite(v) for k, v in asdict(self).items()}
@@ -100,15 +113,7 @@ def error(residual: Array, r: Record, k_ggi: float, selected: NDArray[np.bool_] 
     rms = float(np.sqrt(np.mean(residual[chosen] ** 2))) if np.any(chosen) else float("nan")
     _, inline, cross = channels(residual, r, k_ggi, chosen)
     i, c = (float(np.std(x)) if len(x) > 1 else float("nan") for x in (inline, cross))
-    root = float(np.sqrt(CUTOFF))
-    return Error(
-        rms_V=rms,
-        rms_Eo=rms / k_ggi,
-        inline_Eo=i,
-        cross_Eo=c,
-        inline_Eo_per_rtHz=i / root,
-        cross_Eo_per_rtHz=c / root,
-    )
+    return Error.of(rms, rms / k_ggi, i, c)
 
 
 def pooled(errors: list[Error], weights: list[float]) -> Error:
@@ -214,12 +219,4 @@ class Tally:
         if m > 1:
             mean, square = self._sums[:, group, :, series] / m
             i, c = (float(x) / k_ggi for x in np.sqrt(np.maximum(0.0, square - mean**2)))
-        root = float(np.sqrt(CUTOFF))
-        return Error(
-            rms_V=rms,
-            rms_Eo=rms / k_ggi,
-            inline_Eo=i,
-            cross_Eo=c,
-            inline_Eo_per_rtHz=i / root,
-            cross_Eo_per_rtHz=c / root,
-        )
+        return Error.of(rms, rms / k_ggi, i, c)

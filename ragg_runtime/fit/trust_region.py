@@ -172,20 +172,16 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
     """
     x = np.array(start, dtype=np.float64)
     at = linearise(x)
-    if not np.isfinite(at.cost):
-        return Minimum(
-            x=x,
-            at=at,
-            converged=False,
-            reason="the model has no finite output where the fit begins",
-            trials=1,
-        )
     radius, faithful, trials = np.inf, False, 1
+
+    def ended(converged: bool, reason: str, faithful: bool = False) -> Minimum[L]:
+        return Minimum(x=x, at=at, converged=converged, reason=reason, trials=trials, faithful=faithful)
+
+    if not np.isfinite(at.cost):
+        return ended(False, "the model has no finite output where the fit begins")
     while trials < most:
         if settled(at):
-            return Minimum(
-                x=x, at=at, converged=True, reason="nothing is left to gain", trials=trials, faithful=faithful
-            )
+            return ended(True, "nothing is left to gain", faithful)
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         end, ahead, tried = _followed(linearise, at, x, step)
@@ -200,20 +196,12 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
             x, at = end, ahead
             faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
             if fallen < SETTLED and at.decrement < VALLEY:
-                return Minimum(
-                    x=x, at=at, converged=True, reason="nothing worth having is left to gain", trials=trials
-                )
+                return ended(True, "nothing worth having is left to gain")
         elif radius < _smallest(x):
             if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
-                return Minimum(
-                    x=x, at=at, converged=True, reason="nothing worth having is left to gain", trials=trials
-                )
-            return Minimum(
-                x=x, at=at, converged=False, reason="no step, however small, lowers the misfit", trials=trials
-            )
-    return Minimum(
-        x=x, at=at, converged=settled(at), reason=f"it was stopped after {most} trials", trials=trials
-    )
+                return ended(True, "nothing worth having is left to gain")
+            return ended(False, "no step, however small, lowers the misfit")
+    return ended(settled(at), f"it was stopped after {most} trials")
 
 
 def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:

@@ -90,7 +90,7 @@ def room_like(x: Array, shape: tuple[int, ...]) -> Array:
     """An array to be filled, float64: in a file without a name where ``x`` is mapped, else in memory."""
     if not _mapping(x):
         return np.empty(shape)
-    with tempfile.TemporaryFile(dir=tempfile.gettempdir()) as file:
+    with tempfile.TemporaryFile() as file:
         return np.memmap(file, np.float64, mode="w+", shape=shape)
 
 

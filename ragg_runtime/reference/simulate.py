@@ -171,8 +171,8 @@ def simulate(
         spin=spin_share(kinematics, injected),
         misalignment=misalignment or _of_misalignment(rotations),
     )
-    clean, noisy = _clean(chain, time, rate, seed), _drawn(noise, chain, time, rate, seed)
-    return _recorded(chain, time, clean, noisy, _channels(chain, time, record_gradient, given))
+    clean, added = _clean(chain, time, rate, seed), _drawn(noise, chain, time, rate, seed)
+    return _recorded(chain, time, clean, added, _channels(chain, time, record_gradient, given))
 
 
 def _world(given: Mapping[str, Auxiliary] | None, injected: Injected, seed: int) -> Mapping[str, Auxiliary]:

@@ -394,13 +394,15 @@ def test_loops_are_vectors_and_call_no_sine(extended: Model) -> None:
             capture_output=True, text=True, check=True,
         ).stdout  # fmt: skip
         assert not re.search(r"call.*<(sin|cos|sincos|fma|rint|nearbyint|floor)", listing)
-        if "fma " in Path("/proc/cpuinfo").read_text():
-            packed = re.findall(r"\bvfn?m(?:add|sub)\w*pd\b.*%[yz]mm", listing)
+        processor = Path("/proc/cpuinfo").read_text()
+        if "fma " in processor:
+            # a loop of whole registers each, and for what is left over one of half of them and one of single numbers
+            whole, half = "zy" if "avx512f" in processor else "yx"
+            packed = re.findall(rf"\bvfn?m(?:add|sub)\w*pd\b.*%([{whole}{half}])mm", listing)
             single = re.findall(r"\bvfn?m(?:add|sub)\w*sd\b", listing)
-            assert (
-                len(packed) > 200
-            )  # a loop of vectors each, and one of single numbers for what is left over
+            assert len(packed) > 200
             assert len(packed) >= 0.9 * len(single)
+            assert 2 * packed.count(whole) >= len(packed)
 
 
 def test_sources_of_models_are_what_was_derived() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -60,9 +61,13 @@ class Quality:
 
     def names(self, of: str) -> list[str]:
         """Names of ``densities``, ``noise``, ``levels`` or ``figures`` that any line has."""
-        return names(self.lines, of)
+        return self._names[of]
 
-    @property
+    @cached_property
+    def _names(self) -> Mapping[str, list[str]]:  # once: every line's row of a table asks
+        return {of: names(self.lines, of) for of in ("densities", "noise", "levels", "figures")}
+
+    @cached_property
     def lacking(self) -> int:
         """Lines too much of which is missing: without a figure that another line has, or without noise."""
         return sum(
@@ -75,7 +80,7 @@ class Quality:
         """Name of a limit -> lines that exceed it."""
         return Counter(n for f in self.lines for n in f.failed)
 
-    @property
+    @cached_property
     def used(self) -> list[Limit]:
         """Limits of which the record gives the figure."""
         there = self.names("figures")
