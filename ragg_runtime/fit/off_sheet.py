@@ -10,7 +10,7 @@ import numpy as np
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import Column, spelt
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETER
+from ragg_runtime.instrument.parameters import PARAMETER, PARAMETERS
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
@@ -73,6 +73,9 @@ WIDE = 2.0
 """Root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
 than it says (or than is plausible), by that factor. Of an effect, the largest distance."""
 
+STATED = "stated"
+"""The kind of all parameters of which the sheet says how sure it is."""
+
 AGAIN = 1.5
 """Factor by which a width must have changed for the fit to be made again: the logarithm of a prior's width hardly matters."""
 
@@ -94,7 +97,7 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
     in the model (:func:`with_room`). ``None`` if nothing changes.
     """
     now = {n: w for n, w in instrument.widths.items() if n in PARAMETER}
-    then = {n: w for n, w in _widths(model, instrument, c).items() if w > 1.0}
+    then = _widths(model, instrument, c)
     changed = any(
         not 1 / AGAIN < then.get(n, 1.0) / now.get(n, 1.0) < AGAIN for n in dict.fromkeys((*now, *then))
     )
@@ -112,24 +115,23 @@ def as_said(instrument: Instrument) -> Instrument:
 
 
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
-    """How many times less sure than it says the sheet is of each parameter, at least 1. Those of one unit are a kind (lengths, angles,
-    biases, scale factors, second-order coefficients): of a single one of these the record often says too little.
-    What the sheet says of its own sigmas is taken at its word: an arm that is 40 % longer would else pass for scale factors of 13 sigma.
+    """How many times less sure than it says the sheet is of each parameter, at least 1.
+
+    Those of one unit are a kind (lengths, angles, biases, scale factors, second-order coefficients): of a single one of these the
+    record often says too little. All of which the sheet states sigmas are one kind, its word, which is doubted only where nothing
+    speaks for a missing effect: an arm that is 40 % longer would else pass for scale factors of 13 sigma.
     """
-    squares: dict[str, float] = {}
-    told: dict[str, float] = {}
+    kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
+    squares = dict.fromkeys(kinds.values(), 0.0)
+    told = dict.fromkeys(kinds.values(), 0.0)
     for (q, x), variance in zip(_off(model, instrument, c), np.diag(c.covariance), strict=True):
-        if q.effect is None and q.name not in instrument.sigmas:
-            kind = PARAMETER[q.name].si_unit
-            squares[kind] = squares.get(kind, 0.0) + (x * instrument.widths.get(q.name, 1.0)) ** 2
-            told[kind] = told.get(kind, 0.0) + max(0.0, 1.0 - float(variance))
+        if q.effect is None:
+            squares[kinds[q.name]] += (x * instrument.widths.get(q.name, 1.0)) ** 2
+            told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
     width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
-    wide = {k: w if squares[k] >= FAR**2 and w >= WIDE else 1.0 for k, w in width.items()}
-    return {
-        q.name: wide[PARAMETER[q.name].si_unit]
-        for q in c.columns
-        if q.effect is None and q.name not in instrument.sigmas
-    }
+    wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}
+    wide[STATED] = wide.get(STATED, False) and c.excess <= QUIET
+    return {n: width[k] for n, k in kinds.items() if wide[k]}
 
 
 def room_taken(instrument: Instrument, c: Calibration) -> float:
