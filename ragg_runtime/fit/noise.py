@@ -95,10 +95,15 @@ TURNS = 4
 """Multiples up to which that is so (``near_lines.MULTIPLES``)."""
 
 
+def line_width(o: Observation) -> float:
+    """Hz on either side of a line within which another is the same one, which wanders."""
+    seconds = float(o.record.time[-1] - o.record.time[0])
+    return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
+
+
 def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
     """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
-    r = o.record
-    width = RESOLVED / min(float(r.time[-1] - r.time[0]), unknown_gradient.WINDOW_SECONDS)
+    r, width = o.record, line_width(o)
     spin = unknown_gradient.spin_frequency(o) if r.turning else np.inf
     found: list[Line] = []
     for p in parts:
