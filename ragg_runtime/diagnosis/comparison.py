@@ -264,11 +264,11 @@ def concluded(
 def loud(f: Fitted, scored: Scored, noise: float) -> bool:
     """Whether an error stands above the noise (rms, Eo), whatever the tests of what is left say.
 
-    Allowed for: what bursts add, and three standard errors of a noise that few samples tell.
+    Allowed for: what bursts and lines add, and three standard errors of a noise that few samples tell.
     """
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
-    return scored.whole.rms_Eo > LOUD * noise * swell(f) * known
+    return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))
 
 
 def disturbed(f: Fitted) -> str | None:

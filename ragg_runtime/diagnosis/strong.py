@@ -27,8 +27,8 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import WIDENED, Fitted, fit
-from ragg_runtime.fit.off_sheet import with_room
+from ragg_runtime.fit.fitted import Fitted, calibrated, fit
+from ragg_runtime.fit.off_sheet import as_said, room_taken
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
 from ragg_runtime.fit.switching import certain
@@ -303,14 +303,14 @@ def _charge(columns: Array, rows: int) -> float:
 def _derived(
     f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
 ) -> tuple[Model, Instrument]:
-    """The model of some flights with further effects in it, and the sheet with the instants of steps among them."""
+    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
     model = extend(f.model, ids, candidates=candidates)
     steps = tuple(
         EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
         for e in ids
         if e in instants
     )
-    return model, replace(f.instrument, effects=(*f.instrument.effects, *steps))
+    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
 
 
 def _score(
@@ -324,13 +324,7 @@ def _score(
     """
     model, instrument = derived
     observations = certain(model, instrument, f.observations)
-    c = calibrate.fit(model, instrument, observations, noise=noise)
-    for _ in range(WIDENED):
-        wider = with_room(model, instrument, c)
-        if wider is None:
-            break
-        instrument = wider
-        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p)
+    instrument, c = calibrated(model, instrument, observations, noise=noise)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     x = -to_nominal(model, instrument, c)
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
@@ -346,7 +340,7 @@ def _score(
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
-    return c.chi2 + left_out + cost + 2.0 * known + tails
+    return c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c)
 
 
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:

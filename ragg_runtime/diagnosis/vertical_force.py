@@ -9,7 +9,7 @@ There it is the sheet that tells, if it is sure enough of these parameters; wher
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,11 +19,11 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.off_sheet import as_said
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETERS
 
 Array = NDArray[np.float64]
 
@@ -91,11 +91,12 @@ _GRAVITY = (
 
 def misrecorded(f: Fitted) -> str | None:
     """What is wrong with a_z, and what to do, in words; ``None`` if nothing is, or the record and the sheet cannot tell."""
-    off = f.calibration.widening**2 * float(np.sum(f.to_nominal**2))
+    width = np.array([f.instrument.widths.get(q.name, 1.0) for q in f.calibration.columns])
+    off = float(np.sum((width * f.to_nominal) ** 2))
     beyond = float(f.data[:, -1] @ f.data[:, -1]) - f.calibration.rows
     if off + max(beyond, 0.0) < SURE or beyond > LOUDEST * f.calibration.rows:
         return None  # nothing can fit better by so much; or the fit is lost
-    sheet = _as_sure_as_said(f)
+    sheet = as_said(f.instrument)
     seen = [o.part(slice(0, min(ROWS, len(o.record.time)))) for o in f.observations]
     given = _fit(f, sheet, seen, f.calibration.p)
     noise_alone = beyond < (AS_NOISE - 1.0) * f.calibration.rows
@@ -129,13 +130,3 @@ def _convincing(given: Calibration, other: Calibration, sheet: Instrument, f: Fi
     moves = to_nominal(f.model, sheet, other)
     by_chance = len(moves) + BY_CHANCE * np.sqrt(2.0 * len(moves))
     return other.excess < AS_NOISE and float(moves @ moves) < by_chance
-
-
-def _as_sure_as_said(f: Fitted) -> Instrument:
-    """The instrument with the sheet's own sigmas, which a fit far from it has widened."""
-    if f.calibration.widening == 1.0:
-        return f.instrument
-    sigmas: Mapping[str, Array] = {
-        q.name: f.instrument.sigma(q.name) / f.calibration.widening for q in PARAMETERS
-    }
-    return replace(f.instrument, sigmas=sigmas)

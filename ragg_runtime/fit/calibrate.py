@@ -70,8 +70,6 @@ class Calibration:
         loud, in what it counted as noise).
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
-    widening
-        By how much the sheet's sigmas had to be widened (``off_sheet.widened``): scales are so many sigmas.
     """
 
     p: Array
@@ -84,7 +82,6 @@ class Calibration:
     excess: float
     converged: bool
     reason: str
-    widening: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -252,7 +249,8 @@ def fit(
         some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
         x = some.fit(x, some.promised(x)).x
         noise = task.noise(x)
-        loud = loud or some.left(x) ** 2 > MISFIT * loudness(noise) ** 2
+        lines = float(np.mean([n.line_power for n in noise]))
+        loud = loud or some.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
     if not loud:
         found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)

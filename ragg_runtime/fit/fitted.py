@@ -15,7 +15,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.off_sheet import widened
+from ragg_runtime.fit.off_sheet import QUIET, widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.rounding import Rounding, rounding
@@ -271,6 +271,31 @@ class Fitted:
         return replace(self, prepared=tuple(x.released() for x in self.prepared))
 
 
+def calibrated(
+    model: Model,
+    instrument: Instrument,
+    observations: Sequence[Observation],
+    *,
+    noise: Sequence[Noise] | None = None,
+    start: Array | None = None,
+    unweighted: bool = False,
+) -> tuple[Instrument, Calibration]:
+    """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``).
+
+    A sheet that is held to be less sure than it says must bring what is left down to noise: where an effect is missing the
+    parameters would bend to that, the farther the wider they are, and another one would be taken for what they leave.
+    """
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
+    found = instrument, c
+    for _ in range(WIDENED):
+        wider = widened(model, instrument, c)
+        if wider is None:
+            break
+        instrument = wider
+        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
+    return (instrument, c) if c.excess <= QUIET else found
+
+
 @one_thread
 def fit(
     model: Model,
@@ -288,15 +313,9 @@ def fit(
     ``unweighted``: all samples weigh the same in it. Without ``candidates`` nothing is prepared for tests of effects.
     """
     observations = certain(model, instrument, observations)
-    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
-    widening = 1.0
-    for _ in range(WIDENED):
-        wider = widened(model, instrument, c)
-        if wider is None:
-            break
-        instrument, widening = wider[0], widening * wider[1]
-        c = calibrate.fit(model, instrument, observations, noise=noise, start=c.p, unweighted=unweighted)
-    c = replace(c, widening=widening)
+    instrument, c = calibrated(
+        model, instrument, observations, noise=noise, start=start, unweighted=unweighted
+    )
     if not all(scale_factor(model, c.p, o.place) > 0.0 for o in observations):
         raise UserError(
             "the calibration does not converge: the record is not one of this instrument",
@@ -339,6 +358,16 @@ def swell(f: Fitted) -> float:
         float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
         for x in f.prepared
         for r, level in [(x.observation.record, x.noise.level.of(x.observation.record.quantity))]
+    ]
+    return float(np.sqrt(np.mean(power)))
+
+
+def lines(f: Fitted) -> float:
+    """rms of the lines that are taken for noise, Eo."""
+    power = [
+        sum(w[q.output] ** 2 * q.amplitude**2 / 2 for q in x.noise.lines) / k_ggi**2
+        for x, k_ggi in zip(f.prepared, f.scales, strict=True)
+        for w in [x.noise.weights(x.observation.signs)]
     ]
     return float(np.sqrt(np.mean(power)))
 

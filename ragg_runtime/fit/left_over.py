@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,8 @@ class Left:
         Share of white noise that they leave at each frequency of the periodogram; empty where that is not asked for.
     found
         Lines and jumps that were fitted beside them.
+    shapes
+        (k, rows): what of the last one is each of these, by the fit.
     columns, directions
         All that was fitted (n, rows), and (n, n): columns times it are orthonormal.
     """
@@ -44,6 +47,7 @@ class Left:
     rank: float
     kept: Array
     found: list[Disturbance]
+    shapes: Array
     columns: Array = field(repr=False)
     directions: Array = field(repr=False)
 
@@ -106,11 +110,13 @@ def _fitted(
     wide: Array, flat: Array, valid: NDArray[np.bool_], rate: float | None, found: list[Disturbance]
 ) -> Left:
     fit = _least_squares(wide)
+    ends = np.cumsum([0, *(len(d.columns(np.zeros(1))) for d in found)])
     return Left(
         rest=np.asarray(flat[-1] - fit.solution @ wide[:-1]),
         rank=fit.rank,
         kept=_kept(wide[:-1], fit.directions, valid) if rate else np.empty(0),
         found=found,
+        shapes=np.array([fit.solution[a:b] @ wide[a:b] for a, b in pairwise(ends)]),
         columns=wide[:-1],
         directions=fit.directions,
     )

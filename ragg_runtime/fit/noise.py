@@ -24,7 +24,8 @@ from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import combinations, noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
-from ragg_runtime.signals.noise_spectrum import Noise, NoiseModel, white_noise
+from ragg_runtime.signals.noise_spectrum import LOWEST, Line, Noise, NoiseModel, white_noise, without_lines
+from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -81,7 +82,59 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
     words = "; ".join(w for w in said if w is not None) or None
     loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(noise, disturbed=words, level=loud, freedom=free, combinations=apart)
+    return replace(
+        noise, disturbed=words, level=loud, freedom=free, combinations=apart, lines=_lines(parts, o)
+    )
+
+
+RESOLVED = 4.0
+"""Widths of a line, one over the length of a window, from which on it is told from a multiple of the spin rate: one nearer
+is left to the search beside those, for what is fitted to it would take of what turns with the disc."""
+
+TURNS = 4
+"""Multiples up to which that is so (``near_lines.MULTIPLES``)."""
+
+
+def line_width(o: Observation) -> float:
+    """Hz on either side of a line within which another is the same one, which wanders."""
+    seconds = float(o.record.time[-1] - o.record.time[0])
+    return RESOLVED / min(seconds, unknown_gradient.WINDOW_SECONDS)
+
+
+def _lines(parts: Sequence[_Part], o: Observation) -> tuple[Line, ...]:
+    """The lines of the output that are none of the motion's: where that has lines itself, they may be."""
+    r, width = o.record, line_width(o)
+    spin = unknown_gradient.spin_frequency(o) if r.turning else np.inf
+    found: list[Line] = []
+    for p in parts:
+        for m, x in enumerate(p.outputs):
+            lines = np.array([d.at if d.kind == "line" else np.inf for d in x.found])
+            for f in lines[np.isfinite(lines)]:
+                near = [q for q in found if q.output == m and abs(f - q.frequency) < width]
+                turns = int(np.rint(f / spin))
+                if 1 <= turns <= TURNS and abs(f - turns * spin) < width:
+                    continue
+                # several beside each other are one that wanders
+                own = np.sum(x.shapes[np.abs(lines - f) < width], axis=0)
+                found.append(Line(m, float(f), 0.0 if near else float(np.sqrt(2 * np.mean(own**2)))))
+    return () if found and any(_has_lines(o, p) for p in parts) else tuple(found)
+
+
+LOUD = 1e-3
+"""Share of the power of a channel of the motion from which a line counts: by a smaller one an effect that is missing would show less
+than a thirtieth of what it shows by the rest of the motion."""
+
+
+def _has_lines(o: Observation, p: _Part) -> bool:
+    """Whether any channel of the motion has a line, over a part."""
+    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE):
+        if name not in o.record.wide:
+            continue
+        x = o.record.wide[name][p.rows]
+        power = periodogram(np.where(p.valid, x - np.mean(x[p.valid]), 0.0), o.record.rate)[1][LOWEST:-1]
+        if np.sum(power - without_lines(power)) > LOUD * np.sum(power):
+            return True
+    return False
 
 
 def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:

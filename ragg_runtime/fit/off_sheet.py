@@ -10,6 +10,7 @@ import numpy as np
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import Column, spelt
 from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.instrument.parameters import PARAMETER, PARAMETERS
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
@@ -56,7 +57,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
         OffSheet(
             name=q.name,
             accelerometer=q.accelerometer,
-            sigmas=float((c.p[k] - sheet[k]) / q.scale * c.widening),
+            sigmas=float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0),
             value=float(c.p[k] / q.unit_factor),
             sheet=float(sheet[k] / q.unit_factor),
             unit=q.unit,
@@ -69,29 +70,74 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
 
 
 WIDE = 2.0
-"""Root mean square of the parameters' distances, in the sheet's sigmas, from which the whole sheet is less sure than it says
-(or than is plausible), by that factor: a sheet for an instrument of another class, say. Of an effect, the largest distance."""
+"""Root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
+than it says (or than is plausible), by that factor. Of an effect, the largest distance."""
+
+STATED = "stated"
+"""The kind of all parameters of which the sheet says how sure it is."""
+
+AGAIN = 1.5
+"""Factor by which a width must have changed for the fit to be made again: the logarithm of a prior's width hardly matters."""
 
 MOST_ROOM = 3.0
 """Factor by which the prior of an effect is widened at the most (thirty times its usual size): with more, a gyroscope's bias of
 7,000 deg/h passed for a term that no effect of the catalogue makes, to the noise."""
 
 QUIET = 2.0
-"""Excess of chi-square up to which the record says so, not an effect that is missing."""
+"""Excess of chi-square up to which the record says how far off the sheet parameters are and how large an effect in the model is; beyond
+it another one is missing."""
 
 
-def widened(model: Model, instrument: Instrument, c: Calibration) -> tuple[Instrument, float] | None:
-    """The instrument with a sheet as sure as the record says it is, if that is far less than it says; and by what factor.
+def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
+    """The instrument with a sheet as sure of each kind of parameter as the record says it is, if that is less than it says.
 
-    The same of the sizes that are usual of effects in the model (:func:`with_room`). ``None`` if nothing is to be widened.
+    The widths are those of which the record is likeliest (empirical Bayes; MacKay, Neural Computation 4, 1992): the square of the
+    distances over the number of parameters that the record tells. A kind that it does not tell stays as it is, and one that a missing
+    effect had pushed away is given back its sheet once that is in the model. The same of the sizes that are usual of effects
+    in the model (:func:`with_room`). ``None`` if nothing changes.
     """
+    now = {n: w for n, w in instrument.widths.items() if n in PARAMETER}
+    then = _widths(model, instrument, c)
+    changed = any(
+        not 1 / AGAIN < then.get(n, 1.0) / now.get(n, 1.0) < AGAIN for n in dict.fromkeys((*now, *then))
+    )
     roomy = with_room(model, instrument, c)
-    off = _off(model, instrument, c)
-    factor = float(np.sqrt(np.mean([x**2 for q, x in off if q.effect is None])))
-    if factor < WIDE or c.excess > QUIET:
-        return None if roomy is None else (roomy, 1.0)
-    sigmas = {q.name: factor * instrument.sigma(q.name) for q, _ in off if q.effect is None}
-    return replace(roomy or instrument, sigmas=MappingProxyType(sigmas)), factor
+    if not changed:
+        return roomy
+    others = {n: w for n, w in (roomy or instrument).widths.items() if n not in PARAMETER}
+    return replace(instrument, widths=MappingProxyType({**others, **then}))
+
+
+def as_said(instrument: Instrument) -> Instrument:
+    """The instrument with a sheet as sure as it says: its parameters' widths are given back."""
+    widths = {n: w for n, w in instrument.widths.items() if n not in PARAMETER}
+    return replace(instrument, widths=MappingProxyType(widths))
+
+
+def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
+    """How many times less sure than it says the sheet is of each parameter, at least 1.
+
+    Those of one unit are a kind (lengths, angles, biases, scale factors, second-order coefficients): of a single one of these the
+    record often says too little. All of which the sheet states sigmas are one kind, its word, which is doubted only where nothing
+    speaks for a missing effect: an arm that is 40 % longer would else pass for scale factors of 13 sigma.
+    """
+    kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
+    squares = dict.fromkeys(kinds.values(), 0.0)
+    told = dict.fromkeys(kinds.values(), 0.0)
+    for (q, x), variance in zip(_off(model, instrument, c), np.diag(c.covariance), strict=True):
+        if q.effect is None:
+            squares[kinds[q.name]] += (x * instrument.widths.get(q.name, 1.0)) ** 2
+            told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
+    width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
+    wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}
+    wide[STATED] = wide.get(STATED, False) and c.excess <= QUIET
+    return {n: width[k] for n, k in kinds.items() if wide[k]}
+
+
+def room_taken(instrument: Instrument, c: Calibration) -> float:
+    """What wider priors cost, in chi-square: the logarithm of the volume that they add to, of every parameter that the record tells."""
+    width = np.array([instrument.widths.get(q.name, 1.0) if q.effect is None else 1.0 for q in c.columns])
+    return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))
 
 
 def with_room(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:

@@ -1,5 +1,6 @@
 """A gravity gradient that was not recorded: slow, unknown, neither an effect nor to hide one.
 
+Lines of the output that are no signal of the instrument are projected out in the same windows.
 It enters as T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30) with T_1, T_2 free to follow periods of half a minute and
 longer: cubic splines, projected out of data and columns alike. The splines of one window of time know nothing
 of the next, so that the work grows with the length of a flight and not with its square.
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from scipy import interpolate
 
 from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.fit.disturbances import Disturbance
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import orthonormal
 from ragg_runtime.model.record import GRADIENTS, quantities_of
@@ -108,8 +110,8 @@ def splines(time: Array, cosine: Array, sine: Array) -> Array:
 
 
 def windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
-    """The windows of one segment of a flight, whitened; none if the gradient is known."""
-    if not unknown(o):
+    """The windows of one segment of a flight, whitened; none if the gradient is known and the output has no lines."""
+    if not unknown(o) and not noise.lines:
         return []
     if (rows.start, rows.stop) != (0, len(o.record.time)):
         return _windows(o, rows, noise)
@@ -136,12 +138,13 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         here = np.array(r.valid[a - lead : b])
         if np.sum(here[lead:]) < 2:
             return None
-        X = splines(*r.carried(slice(a - lead, b))) * here
         inside = here[lead:]
-        shares = _shares(o, X)
+        shares = [np.empty((0, len(here)))] * len(o.series)
+        if unknown(o):
+            shares = _shares(o, splines(*r.carried(slice(a - lead, b))) * here)
         plain = np.concatenate([x[:, lead:][:, inside] for x in shares], axis=1)
         loud = level[a - rows.start : b - rows.start][inside]
-        together = np.stack(shares, axis=1)
+        together = np.concatenate([np.stack(shares, axis=1), _lines(o, noise, slice(a - lead, b)) * here])
         parts = [
             filtered(noise.series(together, m), taps, lead=lead)[:, inside] / loud
             for m, taps in enumerate(filters)
@@ -152,6 +155,16 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         return Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1)))
 
     return [w for w in mapped(window, list(pairwise(edges))) if w is not None]
+
+
+def _lines(o: Observation, noise: Noise, rows: slice) -> Array:
+    """(k, m, n): what the lines of an observation's noise span in some of its samples, each in its own series."""
+    found, seen = [], noise.combinations
+    for line in noise.lines:
+        own = Disturbance("line", line.frequency, 1.0).columns(o.record.time[rows])
+        shown = (np.eye(len(o.series)) if seen is None else seen)[line.output]
+        found.append(own[:, None] * shown[:, None])
+    return np.concatenate(found) if found else np.empty((0, len(o.series), rows.stop - rows.start))
 
 
 def _shares(o: Observation, X: Array) -> list[Array]:
@@ -189,11 +202,12 @@ def project(columns: Floats, found: Sequence[Window]) -> None:
 
 def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:
     """Take the fitted unknown gradient out of residuals (k, m, N): it is signal, not error."""
-    if not found:
+    gradient = [w for w in found if len(w.plain)]
+    if not gradient:
         return e
     left = e.copy()
     k, m, _ = e.shape
-    for w in found:
+    for w in gradient:
         inside = np.flatnonzero(valid[w.samples]) + w.samples.start
         y = e[:, :, inside].reshape(k, m * len(inside))  # of no residual at all, too
         left[:, :, inside] = (y - (y @ w.raw) @ w.raw.T).reshape(k, m, len(inside))

@@ -66,8 +66,8 @@ class Instrument:
     Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
     the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
     ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
-    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: effect id -> how many times wider than usual
-    the prior of its parameters is.
+    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: name of a kind of parameter, or effect id ->
+    how many times wider than the sheet says, or than is usual, the prior of its parameters is.
     """
 
     radius: float
@@ -142,16 +142,16 @@ class Instrument:
 
     def sigma(self, name: str) -> Vector:
         """How far a parameter of the accelerometers may be from its sheet, (n,) SI: as the sheet says, or plausible."""
-        if name in self.sigmas:
-            return self.sigmas[name]
-        return PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
+        said = self.sigmas.get(name)
+        usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
+        return (usual if said is None else said) * self.widths.get(name, 1.0)
 
     def grade(self, name: str | None) -> float:
         """How many times less sure the sheet is of a parameter than of a navigation instrument's; 1 if it says nothing."""
-        if name is None or name not in self.sigmas:
+        if name is None or not (name in self.sigmas or name in self.widths):
             return 1.0
         usual = PARAMETER[name].plausible_si(self.accelerometers[name], self.g0)
-        return max(1.0, float(np.median(self.sigmas[name] / usual)))
+        return max(1.0, float(np.median(self.sigma(name) / usual)))
 
     def with_effects(self, effects: tuple[EffectSetting, ...]) -> Instrument:
         """The same instrument with another list of effects."""

@@ -297,12 +297,24 @@ def white_noise(rate: float, outputs: int) -> Noise:
 
 
 @dataclass(frozen=True)
+class Line:
+    """A sinusoid in what the filter ``output`` takes of an observation's series: Hz, and its amplitude, V; 0 where that is counted with
+    another one beside it.
+    """
+
+    output: int
+    frequency: float
+    amplitude: float
+
+
+@dataclass(frozen=True)
 class Noise:
     """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
     sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
     ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
 
-    ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
+    ``lines``: those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and
+    columns alike. ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
     (:mod:`ragg_runtime.signals.combinations`).
     """
 
@@ -313,6 +325,12 @@ class Noise:
     level: Level = field(default_factory=Level)
     freedom: float = np.inf
     combinations: Array | None = field(default=None, compare=False)
+    lines: tuple[Line, ...] = ()
+
+    @property
+    def line_power(self) -> float:
+        """V^2, of the lines, mean over the series."""
+        return sum(x.amplitude**2 / 2 for x in self.lines) / len(self.models)
 
     def series(self, x: Array, m: int) -> Array:
         """What the filter m takes of series (n, m, N): (n, N)."""

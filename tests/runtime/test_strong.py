@@ -149,6 +149,46 @@ def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(densit
     assert c.off_sheet == ()  # by the sheet's own word
 
 
+@pytest.mark.parametrize(("seed", "size"), [(1, 0.1), (2, 1.0)])
+def test_nothing_is_missing_where_a_sheet_that_does_not_say_so_is_far_off(seed: int, size: float) -> None:
+    """Each kind of parameter is as sure as the record says; what is not off keeps its sheet."""
+    s = scenario(seed, duration=400.0)
+    rng = np.random.default_rng(77)
+    a = s.sheet.accelerometers
+    true = s.sheet.replace(
+        **{k: a[k] + size * v * rng.standard_normal(4) for k, v in sheet_of_a_mems(s).items()}
+    )
+    run = dataclasses.replace(s, instrument=true).simulate()
+    c = compare(load.packaged(), s.sheet, [run.flight()])
+    truth = np.std(run.G_out - run.G_out_noise_free) / c.fitted.k_ggi
+    assert c.calibrated.rms_Eo == pytest.approx(truth, rel=0.01)
+    assert c.converged
+    assert c.adequate
+    assert c.off_sheet
+    assert c.fitted.instrument.widths["K2"] > 3.0
+    assert "K0" not in c.fitted.instrument.widths  # of which the record says nothing
+
+
+@pytest.mark.parametrize(
+    "hidden", [{}, {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}}, STRONG["gain-step"][0]]
+)
+def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing(hidden: dict[str, Any]) -> None:
+    s = scenario(57, duration=400.0)
+    run = s.simulate(hidden)
+    size = 5.0 * np.std(run.G_out - run.G_out_noise_free)
+    x = run.flight()
+    line = size * np.sin(2 * np.pi * 3.3 * x.time)
+    d = diagnosed(s, dataclasses.replace(x, outputs={"G_out": x.outputs["G_out"] + line}))
+    assert d.found == tuple(hidden)
+    assert d.noise_floor == pytest.approx(size / d.target.k_ggi / 5.0, rel=0.03)
+    if hidden:
+        assert d.verdict == "missing-effect"
+        assert f"line 3.3 Hz of {size / d.target.k_ggi:.3g} Eo" in str(d.remark)
+    else:
+        assert d.verdict == "unexplained"
+        assert d.terms()[0]["harmonic"] == "line 3.3 Hz"
+
+
 def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
     s = scenario(3, duration=400.0)
     K1 = s.instrument.accelerometers["K1"] * np.array([1.0, 1.04, 1.0, 1.0])
