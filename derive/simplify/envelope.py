@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -134,7 +134,7 @@ class Envelope:
         value = getattr(self, kind)
         return Fraction(value if kind == "Gamma" else value["xyz".index(axis)])
 
-    def motion(self) -> dict[str, Fraction]:
+    def motion(self) -> Mapping[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
         return ranges(self.channel, self.kinematics)
 
@@ -149,7 +149,7 @@ class Envelope:
 
 def ranges(
     bound: Callable[[str], Fraction | int], kinematics: Kinematics = "platform"
-) -> dict[str, Fraction]:
+) -> Mapping[str, Fraction]:
     """Bounds of a, T and S by those of the motion channels (Eq. 16), which are independent.
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
@@ -158,7 +158,7 @@ def ranges(
 
 
 @lru_cache(maxsize=64)
-def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> dict[str, Fraction]:
+def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> Mapping[str, Fraction]:
     bounds = {}
     for name, terms in _polynomials(kinematics).items():
         low = high = Fraction(0)

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import TypeVar
 
 from sympy.polys.rings import PolyElement
 
@@ -18,10 +17,9 @@ from derive.propagation import (
     collect,
     from_generic,
 )
-from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, product
+from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, N, product
 
 Powers = tuple[int, ...]
-N = TypeVar("N", Fraction, float)
 Generic = Mapping[tuple[int, str], Mapping[Powers, PolyElement]]
 
 _SIGNAL = frozenset(

@@ -17,6 +17,7 @@ import time
 from collections.abc import Iterator
 from io import BufferedReader
 from pathlib import Path
+from typing import IO
 
 from ragg_runtime.base.errors import UserError
 
@@ -44,9 +45,17 @@ def require_room(path: Path, size: int) -> None:
     """
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
-    if hasattr(os, "posix_fallocate"):  # a quota shows itself only when the room is taken
-        with tempfile.TemporaryFile(dir=path.parent) as trial:
-            os.posix_fallocate(trial.fileno(), 0, max(size, 1))
+    with tempfile.TemporaryFile(dir=path.parent) as trial:
+        take_room(trial, size)
+
+
+def take_room(file: IO[bytes], size: int) -> None:
+    """Let an open file have so many bytes of the disc; OSError where it cannot, as where a quota ends.
+
+    Nothing happens on systems that cannot do this beforehand.
+    """
+    if hasattr(os, "posix_fallocate"):
+        os.posix_fallocate(file.fileno(), 0, max(size, 1))
 
 
 class Target:

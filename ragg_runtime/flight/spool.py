@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import math
 import mmap
-import os
 import shutil
 import tempfile
 from collections.abc import Iterable
@@ -16,6 +15,7 @@ import numpy as np
 import pyarrow as pa
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.files import take_room
 from ragg_runtime.base.memory import give_back
 from ragg_runtime.flight.record import Array, Flight, Mask
 
@@ -99,13 +99,10 @@ def room_like(x: Array, shape: tuple[int, ...]) -> Array:
     if not _mapping(x):
         return np.empty(shape)
     with tempfile.TemporaryFile() as file:
-        if hasattr(
-            os, "posix_fallocate"
-        ):  # a full disk says so here, not by a signal where the array is filled
-            try:
-                os.posix_fallocate(file.fileno(), 0, 8 * math.prod(shape))
-            except OSError as error:
-                raise _no_room(None, Path(tempfile.gettempdir()), error.strerror) from None
+        try:  # a full disk says so here, not by a signal where the array is filled
+            take_room(file, 8 * math.prod(shape))
+        except OSError as error:
+            raise _no_room(None, Path(tempfile.gettempdir()), error.strerror) from None
         return np.memmap(file, np.float64, mode="w+", shape=shape)
 
 

@@ -29,7 +29,7 @@ from ragg_runtime.workflow.online import online
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument
-from tests.runtime.test_export import STRICT, make
+from tests.runtime.test_export import make_strictly
 
 
 @cache
@@ -79,7 +79,7 @@ def written(folder: Path, files: dict[str, str]) -> Path:
 @pytest.fixture(scope="module")
 def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = written(tmp_path_factory.mktemp("odd"), c_program(contents()))
-    given, derived = re.findall(r"largest difference (\S+) V", make(folder, STRICT, "check"))
+    given, derived = re.findall(r"largest difference (\S+) V", make_strictly(folder, "check"))
     assert float(given) == 0.0
     assert float(derived) < 1e-10  # the last bit of some of its 260,000 V
     return folder

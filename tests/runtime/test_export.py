@@ -31,6 +31,12 @@ def make(folder: Path, *arguments: str) -> str:
     return done.stdout
 
 
+def make_strictly(folder: Path, target: str) -> str:
+    """With every warning an error, some of which are given of what is optimised alone; then for the sanitizers."""
+    make(folder, WARNED, target)
+    return make(folder, STRICT, "-B", target)
+
+
 def program(folder: Path, motion: bytes) -> subprocess.CompletedProcess[bytes]:
     return subprocess.run([folder / "ragg_model"], input=motion, capture_output=True, check=False)
 
@@ -49,7 +55,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path]:
     model, (one, _) = new_model(folder), files(folder)
     run("calibrate", model, one, "--save")
     run("export", model, folder / "c", "--c")
-    assert "largest difference" in make(folder / "c", STRICT, "check")
+    assert "largest difference" in make_strictly(folder / "c", "check")
     write_flight(flights()[0], folder / "one.csv")
     return model, folder / "c", folder / "one.csv"
 
@@ -70,8 +76,7 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
     (folder / "extended.toml").write_text(full)
     run("new", folder / "e", "--from", folder / "extended.toml")
     run("export", folder / "e", folder / "c", "--c")
-    make(folder / "c", WARNED, "ragg_model")  # of what is not optimised some warnings are not given
-    make(folder / "c", STRICT, "-B", "check")
+    make_strictly(folder / "c", "check")
     write_flight(flights()[0], folder / "one.csv")
     return folder / "e", folder / "c", folder / "one.csv"
 

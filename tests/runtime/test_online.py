@@ -23,7 +23,7 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.online import online
 from tests.runtime.flown_twice import files, flights, new_model, run
-from tests.runtime.test_export import STRICT, make
+from tests.runtime.test_export import make, make_strictly
 
 Array = NDArray[np.float64]
 
@@ -123,7 +123,7 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path, Path
     model, (one, two) = new_model(folder), files(folder)
     run("calibrate", model, one, "--save")
     run("export", model, folder / "c", "--c")
-    make(folder / "c", STRICT, "ragg_online")
+    make_strictly(folder / "c", "ragg_online")
     return model, folder / "c", two
 
 
