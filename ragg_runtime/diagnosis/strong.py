@@ -12,7 +12,8 @@ have decided between them: then the other one is followed to its end, too, and t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Protocol
@@ -225,23 +226,36 @@ def _may_be_left(strong: Sequence[Taken], first: Stage) -> dict[str, float]:
     return least
 
 
-def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> Taken:
-    """The effect that explains most once it is in the model; of those that do equally well, the linear test's choice.
+def _strongest(stage: Stage, extend: Extend) -> Taken:
+    """The effect that explains most once it is in the model, of those that are possible at the size that they then have."""
+    f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
-    ``without`` are effects that turned out to be no possible ones: at sizes that they cannot have.
-    """
-    f = stage.fitted
-    tests = {e: t for e, t in stage.choice.tests.items() if t.rank and e not in without}
-    total = float(np.sum(stage.field.P[:, -1] ** 2))
-    least = min(total - t.chi2 for t in tests.values())
-    near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
-    near = sorted(near, key=lambda e: (tests[e].log_p, e))
-
+    @functools.cache
     def score(e: str) -> float:
         held = frozenset(_others(stage.field, e, tests[e].which))
         return _score(f, f.calibration.noise, held, _derived(f, [e], stage.instants, extend))
 
-    charge = {e: _charge(stage.field.P[:, list(tests[e].which)], f.calibration.rows) for e in near}
+    while True:
+        effect, rivals, undecided = _best(stage, tests, score)
+        found = replace(_in_model(stage, effect, undecided, extend), rivals=rivals)
+        if len(tests) == 1 or not impossible(found.after, (effect,)):
+            return found
+        tests.pop(effect)
+
+
+def _best(
+    stage: Stage, tests: Mapping[str, Test], score: Callable[[str], float]
+) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
+    """Of some effects the one that leaves least by its ``score``; of those that do equally well, the linear test's choice.
+
+    With it those that would have done as well, and those against which an effect not yet in the model may have decided.
+    """
+    total = float(np.sum(stage.field.P[:, -1] ** 2))
+    least = min(total - t.chi2 for t in tests.values())
+    near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
+    near = sorted(near, key=lambda e: (tests[e].log_p, e))
+    rows = stage.fitted.calibration.rows
+    charge = {e: _charge(stage.field.P[:, list(tests[e].which)], rows) for e in near}
     tried = near[:CONTENDERS]
     left = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e] + charge[e], e))
@@ -257,10 +271,7 @@ def _strongest(stage: Stage, extend: Extend, without: tuple[str, ...] = ()) -> T
     noise = float(stage.field.P[-1, -1] ** 2) + stage.field.P.shape[1]
     far = {e: left[e] - left[effect] for e in tried if e not in (effect, *rivals)}
     undecided = sorted((e for e in far if far[e] < OPEN * (left[effect] - noise)), key=lambda e: (far[e], e))
-    found = _in_model(stage, effect, tuple(undecided), extend)
-    if len(tests) > 1 and impossible(found.after, (effect,)):
-        return _strongest(stage, extend, (*without, effect))
-    return replace(found, rivals=rivals)
+    return effect, rivals, tuple(undecided)
 
 
 def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Extend) -> Taken:

@@ -33,6 +33,10 @@ VALLEY = 1.0
 curved valley, or lost in the rounding of a record without noise, and what is at its end is not worth a standard deviation in
 one direction of the dozens that are fitted."""
 
+SLOW = 0.01
+"""The same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the
+1 % to which it is asked for. A search ends there whose step gained less than :data:`RELATIVE` and could not have been longer."""
+
 ACCEPTED = 1e-4
 """Least share of the promised decrease for which a step is taken."""
 
@@ -195,7 +199,8 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
         if ratio > ACCEPTED:
             x, at = end, ahead
             faithful = tried == 1 and abs(ratio - 1.0) < FAITHFUL and not np.isfinite(radius)
-            if fallen < SETTLED and at.decrement < VALLEY:
+            creeps = ratio <= GOOD and fallen < RELATIVE * at.cost and at.decrement < SLOW * at.cost
+            if creeps or (fallen < SETTLED and at.decrement < VALLEY):
                 return ended(True, "nothing worth having is left to gain")
         elif radius < _smallest(x):
             if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
