@@ -148,6 +148,7 @@ def calibration(
         rows=int(sum(np.sum(o.record.valid) for o in observations)),
         chi2=0.0,
         excess=1.0,
+        unheld=1.0,
         converged=True,
         reason="nothing is fitted: the parameters are those that were saved",
     )

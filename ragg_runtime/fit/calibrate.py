@@ -68,6 +68,8 @@ class Calibration:
     chi2, excess
         Chi-square where the fit ended, prior included; and that of the data alone over their number (of a fit of what is
         loud, in what it counted as noise).
+    unheld
+        What the linearised problem would leave of the latter without the sheet's word.
     converged, reason
         Whether the fit ended at an optimum, and in words why it ended.
     """
@@ -80,6 +82,7 @@ class Calibration:
     rows: int
     chi2: float
     excess: float
+    unheld: float
     converged: bool
     reason: str
 
@@ -293,6 +296,7 @@ def _calibration(task: _Task, found: Minimum[_Fall], noise: Sequence[Noise]) -> 
         rows=at.rows,
         chi2=at.cost,
         excess=at.excess,
+        unheld=float(at.data[-1, -1] ** 2) / max(at.rows, 1),
         converged=found.converged,
         reason=found.reason,
     )

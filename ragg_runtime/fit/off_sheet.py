@@ -87,6 +87,10 @@ QUIET = 2.0
 """Excess of chi-square up to which the record says how far off the sheet parameters are and how large an effect in the model is; beyond
 it another one is missing."""
 
+HELD = 0.5
+"""Share of what is left that must be the sheet's doing for a sheet that is less sure to be worth a fit: of what stays however wide it
+is (linearised), not even a curved valley takes most."""
+
 
 def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
     """The instrument with a sheet as sure of each kind of parameter as the record says it is, if that is less than it says.
@@ -94,8 +98,10 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
     The widths are those of which the record is likeliest (empirical Bayes; MacKay, Neural Computation 4, 1992): the square of the
     distances over the number of parameters that the record tells. A kind that it does not tell stays as it is, and one that a missing
     effect had pushed away is given back its sheet once that is in the model. The same of the sizes that are usual of effects
-    in the model (:func:`with_room`). ``None`` if nothing changes.
+    in the model (:func:`with_room`). ``None`` if nothing changes, or if more than noise is left that no width takes.
     """
+    if c.unheld > max(QUIET, HELD * c.excess):
+        return None
     now = {n: w for n, w in instrument.widths.items() if n in PARAMETER}
     then = _widths(model, instrument, c)
     changed = any(
