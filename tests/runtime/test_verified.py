@@ -28,7 +28,7 @@ def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def model(tmp_path: Path) -> Path:
-    return loop.add(loop.new(tmp_path / "model"), "lag").loaded.directory.path
+    return loop.add(loop.new(tmp_path / "model"), "gain-drift").loaded.directory.path
 
 
 def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
@@ -49,7 +49,7 @@ def derives(monkeypatch: pytest.MonkeyPatch) -> list[int]:
 def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     count = derives(monkeypatch)
     m = loop.load(model)
-    assert ([e.id for e in m.model.effects], m.notes, count) == (["lag"], (), [])
+    assert ([e.id for e in m.model.effects], m.notes, count) == (["gain-drift"], (), [])
     for file in (model.parent / "cache" / "derived").iterdir():
         file.unlink()
     assert m.model.digest == derive.model_of(m.instrument).digest
@@ -66,7 +66,7 @@ def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-c", code, model], cwd=ROOT, capture_output=True, text=True, check=True
     )
-    assert done.stdout.strip() == "['lag'] False"
+    assert done.stdout.strip() == "['gain-drift'] False"
 
 
 @pytest.mark.parametrize("name", ["chain.py", "signatures.py", "__init__.py", "manifest.json", "new.py"])
@@ -80,10 +80,10 @@ def test_what_differs_is_not_executed(
     m = loop.load(model)
     assert not mark.exists()
     assert count == []
-    assert [e.id for e in m.model.effects] == ["lag"]
+    assert [e.id for e in m.model.effects] == ["gain-drift"]
     assert len(m.notes) == 1
     assert name in m.notes[0]
-    assert loop.load(loop.remove(m, "lag").directory.path).notes == ()
+    assert loop.load(loop.remove(m, "gain-drift").directory.path).notes == ()
 
 
 @pytest.mark.parametrize("writable", ["file", "folder"])
@@ -107,7 +107,7 @@ def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.Monkey
     for file in (model.parent / "cache" / "derived").iterdir():
         file.write_text(damage)
     count = derives(monkeypatch)
-    assert [e.id for e in loop.load(model).model.effects] == ["lag"]
+    assert [e.id for e in loop.load(model).model.effects] == ["gain-drift"]
     assert count == [1]
 
 
@@ -142,9 +142,9 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path) -> None:
     text = (ROOT / "ragg_runtime" / "example.toml").read_text("utf-8")
     line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { unit = "ug/g^2" } }'
     lists = [
-        '["lag"]',
-        '["lag", "cubic-input"]',
-        '["cubic-input", "lag"]',
+        '["gain-drift"]',
+        '["gain-drift", "cubic-input"]',
+        '["cubic-input", "gain-drift"]',
         f"[{line}]",
         f"[{line.replace('**2', '**3')}]",
         f"[{line.replace('ug/g^2', 'mg/g^2')}]",
@@ -177,5 +177,5 @@ def test_values_are_no_part_of_the_request() -> None:
 def test_a_list_that_cannot_be_written_only_costs_time(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(derived_cache, "_folder", lambda: Path("/proc/nowhere/derived"))
     count = derives(monkeypatch)
-    assert [e.id for e in loop.load(model).model.effects] == ["lag"]
+    assert [e.id for e in loop.load(model).model.effects] == ["gain-drift"]
     assert count == [1]
