@@ -255,7 +255,7 @@ def separation(rows: Array, n_base: int, rival: Sequence[int], signal: int) -> f
 
     The base has its prior in the rows; a rival has none, as in the tests (``evidence.selection``): however large, it may imitate.
     """
-    R = np.linalg.qr(rows[:, [*range(n_base), *rival, signal]], mode="r")
+    R = np.asarray(np.linalg.qr(rows[:, [*range(n_base), *rival, signal]], mode="r"))
     return float(abs(R[-1, -1]))
 
 
