@@ -38,6 +38,7 @@ STEPS = (
     "diagnosis.line_rival:line_rival",
     "diagnosis.ranking:_ranking",
     "diagnosis.credence:weighed",
+    "diagnosis.next_motion:proposals",
 )
 LEAST = 0.02
 """Share of the whole below which a step is not shown."""

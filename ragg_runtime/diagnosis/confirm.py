@@ -101,9 +101,7 @@ def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted 
 
 def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
     """Parameter vector of the extended model as the linear fit has it, SI."""
-    own = [
-        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect in chosen
-    ]
+    own = [(n, c) for n, c in enumerate(f.candidates) if c.effect in chosen]
     fitted, _ = f.coefficients([n for n, _ in own])
     columns = (*f.calibration.columns, *(c for _, c in own))
     before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
@@ -133,7 +131,7 @@ def _random_columns(f: Fitted) -> dict[str, int]:
     """The place of every random effect's column."""
     if any(o.recorded.demodulated for o in f.observations):
         return {}  # neighbouring samples of a demodulated channel are not independent
-    columns = design.candidate_columns(f.model, f.instrument)
+    columns = f.candidates
     found = {}
     for e in f.model.candidates:
         own = [n for n, c in enumerate(columns) if c.effect == e.id]

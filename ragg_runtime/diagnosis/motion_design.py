@@ -17,16 +17,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from ragg_runtime.base.threads import mapped, one_thread
-from ragg_runtime.diagnosis.next_motion import (
-    AT_REST,
-    AXES,
-    RATIOS,
-    Sinusoid,
-    kind,
-    rows_of,
-    separation,
-    signal_of,
-)
+from ragg_runtime.diagnosis.next_motion import AT_REST, AXES, RATIOS, Pairs, Sinusoid, kind
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit.fitted import Fitted
 
@@ -91,24 +82,15 @@ def design(
 
     ``None`` if there is nothing to tell apart, or no frequency within the band.
     """
-    field = field_of(f, testable_effects(f))
-    known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
-    known = list(
-        dict.fromkeys([*known, *((r, e) for e, r in known)])
-    )  # which of the two is there is not known
+    # which of the two is there is not known
+    both = dict.fromkeys([*pairs, *((r, e) for e, r in pairs)])
+    asked = Pairs.of(f, field_of(f, testable_effects(f)), list(both))
     tones = tones_of(f.instrument.spin_frequency, limits, band)
-    if not known or not tones:
+    if not asked.known or not tones:
         return None
-    wanted = sorted({n for pair in known for e in pair for n, _ in field.candidates[e]})
-    places = [*range(f.n_base), *(f.n_base + n for n in wanted)]
-
-    signals = {e: signal_of(f, field, e) for e, _ in known}
-
-    def separations(rows: Array) -> list[float]:
-        return [separation(rows, f.n_base, field, signals[e], r) for e, r in known]
 
     def worth(motion: Sequence[Sinusoid]) -> float:
-        there = separations(np.vstack([f.whole, rows_of(f, motion, places, duration=duration)]))
+        there = asked.separations(asked.rows(motion, duration=duration))
         return float(np.sum(np.log1p(np.square(there))))
 
     alone = list(mapped(worth, [[(*t, 0.0)] for t in tones]))
@@ -117,13 +99,12 @@ def design(
     found = max((_climbed(worth, tones, limits, x) for x in _starts(tones, alone, best)), key=lambda x: x[1])
     motion = multisine(tones, found[0])
     length = min(duration, LONGEST)
-    rows = np.vstack([f.whole, rows_of(f, motion, places, simulated=length, duration=duration)])
-    then = separations(rows)
+    then = asked.separations(asked.rows(motion, simulated=length, duration=duration))
     return Design(
         sinusoids=motion,
         separations=tuple(
             Separation(effect=e, rival=r, now=now, then=later)
-            for (e, r), now, later in zip(known, separations(f.whole), then, strict=True)
+            for (e, r), now, later in zip(asked.known, asked.separations(), then, strict=True)
         ),
     )
 

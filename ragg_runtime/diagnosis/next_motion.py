@@ -9,7 +9,8 @@ recorded beside the present flights.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.linearise import linearised
+from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.flight.record import is_disc_angle
 from ragg_runtime.signals.fir import filtered
@@ -111,20 +112,103 @@ class Proposal:
         }
 
 
+@dataclass(frozen=True)
+class Pairs:
+    """Pairs (effect, rival), and what flights say of them.
+
+    Attributes
+    ----------
+    known
+        The pairs of which the flights have columns.
+    places
+        Columns, among all, of base and rivals: those of the base first.
+    rivals
+        Effect -> its own among ``places``.
+    signals
+        (effects, size): of every effect that has a rival its coefficients alone, as the record has it.
+    """
+
+    f: Fitted
+    known: Sequence[tuple[str, str]]
+    places: Sequence[int]
+    rivals: Mapping[str, Sequence[int]]
+    signals: Mapping[str, Array]
+    _means: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
+
+    @staticmethod
+    def of(f: Fitted, field: Field, pairs: Sequence[tuple[str, str]]) -> Pairs:
+        known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
+        own = {r: [f.n_base + n for n, _ in field.candidates[r]] for _, r in known}
+        places = [*range(f.n_base), *sorted({k for some in own.values() for k in some})]
+        rivals = {r: [places.index(k) for k in some] for r, some in own.items()}
+        signals = {e: signal_of(f, field, e) for e, _ in known}
+        return Pairs(f=f, known=known, places=places, rivals=rivals, signals=signals)
+
+    @cached_property
+    def root(self) -> Array:
+        """(k, k): triangle of [places | signals] of the flights, the prior in it."""
+        signals = [self.f.whole[:, :-1] @ v for v in self.signals.values()]
+        return np.asarray(np.linalg.qr(np.column_stack([self.f.whole[:, self.places], *signals]), mode="r"))
+
+    def separations(self, *further: Array) -> list[float]:
+        """Of every pair, with further rows (n, k) beside the flights."""
+        rows, names = np.vstack([self.root, *further]), list(self.signals)
+        return [
+            separation(rows, self.f.n_base, self.rivals[r], len(self.places) + names.index(e))
+            for e, r in self.known
+        ]
+
+    @cached_property
+    def at(self) -> Point:
+        """About what motions are linearised: of the candidates no columns but those that are needed."""
+        n = self.f.n_base
+        needed = {*self.places[n:], *(int(k) for v in self.signals.values() for k in np.flatnonzero(v))}
+        return replace(self.f.prepared[0].at, only=tuple(sorted(k - n for k in needed)))
+
+    def rows(
+        self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
+    ) -> Array:
+        """Triangle (k, k) of [places | signals] of a motion about the flight's mean, ``simulated`` s of it, weighted for
+        ``duration``, whitened.
+        """
+        prepared, at = self.f.prepared[0], self.at
+        o, noise = prepared.observation, prepared.noise
+        n = int(simulated * o.record.rate)
+        time = np.arange(n) / o.record.rate
+        channels = {name: np.full(n, mean) for name, mean in self._calm(n).items()}
+        channels |= moved(channels, motion, time)
+        r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
+        made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
+        X = linearised(at, made)[:-1]
+        there = [*range(self.f.n_base), *(self.f.n_base + k for k in at.only or ())]
+        signals = np.tensordot(np.array([v[there] for v in self.signals.values()]), X, 1)
+        X = np.concatenate([X[[there.index(k) for k in self.places]], signals])
+        white = [filtered(noise.series(X, m), taps[:n]) for m, taps in enumerate(noise.filters)]
+        return np.asarray(np.sqrt(duration / simulated) * triangle(np.concatenate(white, axis=1)))
+
+    def _calm(self, samples: int) -> Mapping[str, float]:
+        """Means of the channels over so many samples of the flight's beginning."""
+        if samples not in self._means:
+            r = self.f.prepared[0].observation.record
+            first = r.part(slice(0, min(len(r.time), samples)))
+            self._means[samples] = {
+                name: float(np.mean(x[first.valid])) if first.valid.any() else 0.0
+                for name, x in first.channels.items()
+                if not is_disc_angle(name)
+            }
+        return self._means[samples]
+
+
 def proposals(
     f: Fitted, field: Field, pairs: Sequence[tuple[str, str]], limits: Mapping[str, float] = LIMITS
 ) -> list[Proposal]:
     """The best motion for every pair (effect, rival), the separation that it promises beside today's."""
-    known = [(e, r) for e, r in pairs if e in field.candidates and r in field.candidates]
-    if not known:
+    asked = Pairs.of(f, field, pairs)
+    if not asked.known:
         return []
-    signals = {e: signal_of(f, field, e) for e, _ in known}
-    needed = {n for pair in known for e in pair for n, _ in field.candidates[e]}
-    places = [*range(f.n_base), *(f.n_base + n for n in sorted(needed))]
 
     def separations(motion: Sequence[Sinusoid]) -> list[float]:
-        rows = np.vstack([f.whole, rows_of(f, motion, places)])
-        return [separation(rows, f.n_base, field, signals[e], r) for e, r in known]
+        return asked.separations(asked.rows(motion))
 
     first = f.prepared[0].observation.record
     spin, rate = abs(first.spin_frequency) or AT_REST, first.rate
@@ -136,12 +220,11 @@ def proposals(
     ]
     still, *moving = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
     found = []
-    for n, (e, r) in enumerate(known):
+    for n, ((e, r), now) in enumerate(zip(asked.known, asked.separations(), strict=True)):
         best = max(range(len(motions)), key=lambda m: moving[m][n], default=None)
         if best is None or moving[best][n] <= WORTHWHILE * still[n]:
             continue
         axis, ratio, size = motions[best]
-        now = separation(f.whole, f.n_base, field, signals[e], r)
         found.append(
             Proposal(
                 effect=e,
@@ -167,46 +250,13 @@ def signal_of(f: Fitted, field: Field, effect: str) -> Array:
     return v
 
 
-def separation(rows: Array, n_base: int, field: Field, signal: Array, rival: str) -> float:
-    """Norm of a signal once base and the rival's columns are projected out of rows (k, size + 1).
+def separation(rows: Array, n_base: int, rival: Sequence[int], signal: int) -> float:
+    """Norm of a signal, a column of rows (n, k), once base and the rival's columns are projected out.
 
     The base has its prior in the rows; a rival has none, as in the tests (``evidence.selection``): however large, it may imitate.
     """
-    places = [n_base + n for n, _ in field.candidates[rival]]
-    X = np.column_stack([rows[:, :n_base], rows[:, places], rows[:, :-1] @ signal])
-    return float(abs(np.asarray(np.linalg.qr(X, mode="r"))[-1, -1]))
-
-
-def rows_of(
-    f: Fitted,
-    motion: Sequence[Sinusoid],
-    places: Sequence[int],
-    *,
-    simulated: float = SIMULATED,
-    duration: float = DURATION,
-) -> Array:
-    """Triangle of the whitened columns of a motion about the flight's mean, ``simulated`` s of it, weighted for ``duration``.
-
-    (len(places), size + 1): only the columns at ``places`` are there, the others are zero.
-    """
-    prepared = f.prepared[0]
-    o = prepared.observation
-    n = int(simulated * o.record.rate)
-    time = np.arange(n) / o.record.rate
-    first = o.record.part(slice(0, min(len(o.record.time), n)))
-    channels = {
-        name: np.full(n, float(np.mean(x[first.valid])) if first.valid.any() else 0.0)
-        for name, x in first.channels.items()
-        if not is_disc_angle(name)
-    }
-    channels |= moved(channels, motion, time)
-    r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
-    made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
-    columns, noise = linearised(prepared.at, made), prepared.noise
-    white = [filtered(noise.series(columns, m)[places], taps[:n]) for m, taps in enumerate(noise.filters)]
-    T = np.zeros((len(places), len(columns)))
-    T[:, places] = triangle(np.concatenate(white, axis=1))
-    return np.asarray(np.sqrt(duration / simulated) * T)
+    R = np.asarray(np.linalg.qr(rows[:, [*range(n_base), *rival, signal]], mode="r"))
+    return float(abs(R[-1, -1]))
 
 
 def moved(calm: Mapping[str, Array], motion: Sequence[Sinusoid], time: Array) -> dict[str, Array]:

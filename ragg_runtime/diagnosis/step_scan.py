@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence import steps as special
 from ragg_runtime.evidence.selection import Field, field_of, testable_effects
-from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit
@@ -49,8 +48,7 @@ def with_steps(
     steps = [e for e in f.model.candidates if e.kind == "step"]
     if len(f.flights) != 1 or not steps:
         return field_of(f, available), f, {}
-    columns = design.candidate_columns(f.model, f.instrument)
-    owned = {e.id: [(n, c) for n, c in enumerate(columns) if c.effect == e.id] for e in steps}
+    owned = {e.id: [(n, c) for n, c in enumerate(f.candidates) if c.effect == e.id] for e in steps}
     places = {e: [f.n_base + n for n, _ in own] for e, own in owned.items()}
     time, edges = f.observations[0].record.time, f.prepared[0].edges
     exact = {e: _sharpened(f, step, places[e]) for e, step in known.items()}
@@ -63,10 +61,11 @@ def with_steps(
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
     root = _root(f, edges, samples, places)
+    # blocks of time do not judge a step yet: one that is in the noise makes it uneven
+    unjudged = replace(plain, blocks=()) if plain.blocks else plain
     for n, (e, (step, given)) in enumerate(scans.items()):
         so_far = [*samples][: n + 1]
-        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned))
-        # blocks of time do not judge it yet: a step that is in the noise makes it uneven
+        field = _with_penalty(f, [*available, *exact, *so_far], _picked(root, f, so_far, scanned), unjudged)
         if e in selection.choose(replace(field, blocks=())).chosen:
             step = special.refined(f.prepared, step, f.n_base, given, owned[e], f.to_nominal)
             found[e] = _Found(_sharpened(f, _Found(step.sample, given), places[e]), given)
@@ -84,7 +83,7 @@ def with_steps(
     instants = {e: float(time[k]) for e, k in (exact | rest).items()}
     f = _begun(f, edges, rest, places)
     f = replace(f, prepared=tuple(x.with_steps(instants, places) for x in f.prepared))
-    return _with_penalty(f, [*available, *instants]), f, instants
+    return _with_penalty(f, [*available, *instants], within=plain), f, instants
 
 
 def _sharpened(f: Fitted, step: _Found, places: Sequence[int]) -> int:
@@ -174,7 +173,9 @@ def _picked(root: Array, f: Fitted, steps: Sequence[str], places: Mapping[str, S
     return below(root, f.n_base, column)
 
 
-def _with_penalty(f: Fitted, effects: Sequence[str], T: Array | None = None) -> Field:
+def _with_penalty(
+    f: Fitted, effects: Sequence[str], T: Array | None = None, within: Field | None = None
+) -> Field:
     """The field of effects, steps among them charged for the choice of their instant; on another triangle if one is given."""
     steps = [e.id for e in f.model.candidates if e.kind == "step"]
-    return replace(field_of(f, effects, T), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))
+    return replace(field_of(f, effects, T, within), penalty=dict.fromkeys(steps, float(np.log(2 * BLOCKS))))

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base import false_alarms
 from ragg_runtime.evidence import likelihood_ratio, sheet, uneven
 from ragg_runtime.evidence.likelihood_ratio import Test
-from ragg_runtime.fit import columns
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
@@ -57,6 +56,8 @@ class Field:
         Triangles of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
     freed
         Effect id -> the field as if the sheet did not know the parameter that the effect is the common part of (``sheet``).
+    within
+        A field of some of the effects on the same flights: what it says of them holds here.
     """
 
     T: Array
@@ -67,6 +68,7 @@ class Field:
     freedom: float = np.inf
     blocks: tuple[Array, ...] = ()
     freed: Mapping[str, Field] = field(default_factory=dict)
+    within: Field | None = None
     norms: Array = field(init=False)
     P: Array = field(init=False)
     _known: dict[tuple[str, ...], Mapping[str, Test]] = field(init=False, default_factory=dict)
@@ -107,19 +109,23 @@ class Field:
         return self._known[key]
 
     def _tests(self, given: Sequence[str]) -> dict[str, Test]:
+        known: Mapping[str, Test] = {}
+        if self.within is not None and all(e in self.within.candidates for e in given):
+            known = self.within.tests(given)
         P, floor = self.P, self.floor
         if given:
             P, floor = self.onto([n for e in given for n, _ in self.candidates[e]])
         found = {
             e: likelihood_ratio.test(P, columns, floor, self.penalty.get(e, 0.0), self.freedom)
             for e, columns in self.candidates.items()
-            if e not in given
+            if e not in given and e not in known
         }
         if self.blocks and any(map(self._raises, found.values())):
             others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
             beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
             found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
-        return found
+        found |= known
+        return {e: found[e] for e in self.candidates if e in found}
 
     def _raises(self, t: Test) -> bool:
         """Whether a test says anything: those that do not stay as they are."""
@@ -242,9 +248,11 @@ def rivals(f: Field, choice: Choice) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Field:
+def field_of(
+    f: Fitted, available: Sequence[str], T: Array | None = None, within: Field | None = None
+) -> Field:
     """The candidates among ``available`` effects, on the triangle of everything or another one of the same columns."""
-    candidates = grouped(columns.candidate_columns(f.model, f.instrument))
+    candidates = grouped(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
@@ -254,7 +262,9 @@ def field_of(f: Fitted, available: Sequence[str], T: Array | None = None) -> Fie
         e.id: Field(f.freed(str(e.common_of), range(f.size - f.n_base)), f.n_base, kept, f.calibration.rows)
         for e in common
     }
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, freed=free)
+    return Field(
+        T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, freed=free, within=within
+    )
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.evidence import likelihood_ratio
-from ragg_runtime.fit import columns
 from ragg_runtime.fit.fitted import Fitted
 
 Array = NDArray[np.float64]
@@ -31,7 +30,7 @@ def doubtful(f: Fitted, effect: str) -> str | None:
         return "the disc stands still: what would turn with it is a constant"
     if not e.told_from and e.common_of is None:
         return None
-    own = [n for n, c in enumerate(columns.candidate_columns(f.model, f.instrument)) if c.effect == effect]
+    own = [n for n, c in enumerate(f.candidates) if c.effect == effect]
     P = likelihood_ratio.project(f.whole, f.n_base)
     known = float(np.linalg.norm(P[:, own]))
     for name in e.told_from:

@@ -143,15 +143,13 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
     return columns
 
 
-def heard(model: Model, instrument: Instrument, place: int, candidates: bool) -> slice | NDArray[np.intp]:
-    """Which of the columns [base | candidates, if there are any | residual] an output can hold anything of.
+def heard(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
+    """Which of these columns, and of the residual after them, an output can hold anything of.
 
     The others, of other outputs' accelerometers, are zero; of several discs they are most. All of them, as a slice, of one output.
     """
     if len(instrument.layout.outputs) == 1:
         return slice(None)
-    columns = [c for c, _ in base_columns(model, instrument)]
-    columns += candidate_columns(model, instrument) if candidates else []
     return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
 
 

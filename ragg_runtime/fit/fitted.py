@@ -14,6 +14,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.fit import calibrate, columns, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import QUIET, widened
 from ragg_runtime.fit.passes import Piece
@@ -139,6 +140,11 @@ class Fitted:
     @property
     def n_base(self) -> int:
         return len(self.calibration.columns)
+
+    @property
+    def candidates(self) -> Sequence[Column]:
+        """Those of the candidate effects, after the base columns; none where nothing was prepared for their tests."""
+        return self.prepared[0].at.candidates
 
     @property
     def size(self) -> int:

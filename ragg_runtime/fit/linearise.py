@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,8 @@ class Point:
         Whether the columns of the candidate effects are wanted.
     instants
         Effect id -> instant of its step, s since the first sample; at all times where none is given.
+    only
+        Places of the candidates' columns that are wanted; ``None``: all.
     """
 
     model: Model
@@ -41,6 +44,24 @@ class Point:
     p: Array
     with_candidates: bool
     instants: Mapping[str, float] = field(default_factory=dict)
+    only: tuple[int, ...] | None = None
+
+    @cached_property
+    def base(self) -> list[Column]:
+        """The parameters of the model."""
+        return [c for c, _ in design.base_columns(self.model, self.instrument)]
+
+    @cached_property
+    def candidates(self) -> list[Column]:
+        """Those of the candidate effects whose columns are wanted."""
+        every = design.candidate_columns(self.model, self.instrument) if self.with_candidates else []
+        return every if self.only is None else [every[n] for n in self.only]
+
+    @cached_property
+    def rows(self) -> tuple[_Rows, _Rows]:
+        """Which rows of chain and signatures make which columns."""
+        chain, signatures = self.model.chain, self.model.signatures
+        return _Rows.of(chain, self.base, 0), _Rows.of(signatures, self.candidates, len(self.base))
 
 
 CACHED = 4096
@@ -146,19 +167,17 @@ class _Module:
 
 def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
-    base = [c for c, _ in design.base_columns(at.model, at.instrument)]
-    candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
+    base, candidates = at.base, at.candidates
     evaluators, r = at.model.evaluators, o.record
 
-    def module(name: str, chain: Chain, p: Array, columns: Sequence[Column], first: int) -> _Module:
-        rows = _Rows.of(chain, columns, first)
+    def module(name: str, chain: Chain, p: Array, rows: _Rows) -> _Module:
         return _Module(evaluator=evaluators[name], inputs=r.inputs(chain), p=p, rows=rows)
 
-    chain = module("chain", at.model.chain, at.p, base, 0)
+    chain = module("chain", at.model.chain, at.p, at.rows[0])
     modules = [chain]
     if candidates:
         q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
-        modules.append(module("signatures", at.model.signatures, q, candidates, len(base)))
+        modules.append(module("signatures", at.model.signatures, q, at.rows[1]))
     # of one output that sums all accelerometers every column is written
     every = not o.recorded.separate and len(o.output.members) == at.instrument.layout.size
     columns = (np.empty if every else np.zeros)((len(base) + len(candidates) + 1, len(o.series), len(r.time)))

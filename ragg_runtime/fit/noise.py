@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, in_words
@@ -160,13 +159,8 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
     """What is left of segments that are spread over the flight, of the series as they are or in combinations."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
-    n_base = len(design.base_columns(at.model, at.instrument))
     random = {e.id for e in at.model.candidates if e.kind == "random"}
-    shown = [
-        (n_base + n, c.effect)
-        for n, c in enumerate(design.candidate_columns(at.model, at.instrument))
-        if c.effect in random
-    ]
+    shown = [(n, c.effect) for n, c in enumerate(at.candidates, len(at.base)) if c.effect in random]
 
     def part(piece: Piece) -> _Part:
         valid = piece.observation.record.valid

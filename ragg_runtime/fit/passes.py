@@ -114,8 +114,8 @@ def passed(
     ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
     ``effort`` times as long as what makes the piece.
     """
-    n_base = len(design.base_columns(at.model, at.instrument))
-    heard = design.heard(at.model, at.instrument, o.place, at.with_candidates)
+    n_base = len(at.base)
+    heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
     found = flight_segments(o) if chosen is None else chosen
     memory = max(len(t) for t in noise.filters) - 1 if whitened and chosen is None else 0
     tails: list[Future[Array | None]] = [Future() for _ in found]

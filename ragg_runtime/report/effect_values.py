@@ -18,7 +18,6 @@ from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, ParameterValue, gain
 from ragg_runtime.diagnosis.parameters import headlines as of_parameters
 from ragg_runtime.diagnosis.parameters import own_name as _name
 from ragg_runtime.diagnosis.ranking import Ranked
-from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.posterior import Posterior, posterior
@@ -52,9 +51,7 @@ class Values:
 
 def values(f: Fitted, r: Ranked) -> Values:
     """The values of a ranked effect."""
-    columns = [
-        (n, c) for n, c in enumerate(design.candidate_columns(f.model, f.instrument)) if c.effect == r.effect
-    ]
+    columns = [(n, c) for n, c in enumerate(f.candidates) if c.effect == r.effect]
     wanted = {(p.name, p.accelerometer) for p in r.parameters}
     own = [(n, c) for n, c in columns if (_name(c), c.accelerometer) in wanted]
     extra = [

@@ -54,6 +54,8 @@ def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None)
     if not (np.isfinite(rate) and rate > 0):
         raise UserError("the sampling rate must be positive", found=rate, expected="Hz")
     x = np.asarray(x, dtype=np.float64)
+    if valid is None and x.shape[-1] > 1 and not np.any(x != x[..., :1]):  # a constant; NaN is none
+        return np.zeros_like(x)
     present: NDArray[np.bool_] = np.asarray(np.isfinite(x).all(axis=tuple(range(x.ndim - 1))))
     if valid is not None:
         present = present & valid

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -12,6 +13,7 @@ from derive.emit.render import environment
 from derive.folded import Folded
 from derive.ir import Chain, Harmonic
 from derive.propagation import Term
+from derive.tape import Program
 
 
 def harmonic(m: Harmonic) -> dict[str, str]:
@@ -37,9 +39,34 @@ def folded(m: Folded) -> dict[str, str]:
     return _both("folded", m.name, m=m)
 
 
+@dataclass(frozen=True)
+class Turned(Program):
+    """A program that finds cosine and sine of some of its inputs, the ``angles``, in arrays ``cos_of_<name>``, ``sin_of_<name>``."""
+
+    angles: tuple[str, ...] = ()
+
+    @staticmethod
+    def of(program: Program, inputs: Sequence[str]) -> Turned:
+        found = {
+            f: sp.Symbol(f"{f.func.__name__}_of_{f.args[0]}[i]")
+            for _, e in (*program.assignments, *program.outputs)
+            for f in e.atoms(sp.cos, sp.sin)
+            if str(f.args[0]) in inputs
+        }
+        return Turned(
+            assignments=tuple((s, e.xreplace(found)) for s, e in program.assignments),
+            outputs=tuple((n, e.xreplace(found)) for n, e in program.outputs),
+            angles=tuple(sorted({str(f.args[0]) for f in found})),
+        )
+
+
 def chain(m: Chain, *, packaged: bool) -> dict[str, str]:
     """The packaged models are whole in C; of a model directory, C serves to evaluate it elsewhere."""
-    return _both("chain", m.name, m=m) if packaged or m.name == "chain" else {}
+    if not packaged and m.name != "chain":
+        return {}
+    inputs = [c.local for c in m.inputs]
+    m = replace(m, value=Turned.of(m.value, inputs), derivatives=Turned.of(m.derivatives, inputs))
+    return _both("chain", m.name, m=m, whole=m.name == "signatures")
 
 
 def paper(starred: Mapping[str, sp.Expr], ideal: Mapping[str, tuple[Term, ...]]) -> dict[str, str]:
