@@ -14,6 +14,7 @@ from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
 
@@ -148,16 +149,16 @@ def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
     base = [c for c, _ in design.base_columns(at.model, at.instrument)]
     candidates = design.candidate_columns(at.model, at.instrument) if at.with_candidates else []
-    evaluators, r = at.model.evaluators, o.record
+    evaluators, (r, p) = at.model.evaluators, about(at.model, o.record, at.p)
 
     def module(name: str, chain: Chain, p: Array, columns: Sequence[Column], first: int) -> _Module:
         rows = _Rows.of(chain, columns, first)
         return _Module(evaluator=evaluators[name], inputs=r.inputs(chain), p=p, rows=rows)
 
-    chain = module("chain", at.model.chain, at.p, base, 0)
+    chain = module("chain", at.model.chain, p, base, 0)
     modules = [chain]
     if candidates:
-        q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
+        q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         modules.append(module("signatures", at.model.signatures, q, candidates, len(base)))
     # of one output that sums all accelerometers every column is written
     every = not o.recorded.separate and len(o.output.members) == at.instrument.layout.size

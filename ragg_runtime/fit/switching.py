@@ -1,8 +1,11 @@
-"""Samples of which the sheet leaves open on which side of a switch an accelerometer is.
+"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
+a record in which motion is late.
 
 An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
 is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
 outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
+
+What stood in the record before it began or after it ended no fit can move to where it belongs.
 """
 
 from __future__ import annotations
@@ -15,9 +18,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.off_sheet import MOST_ROOM
 from ragg_runtime.fit.segments import segments
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -30,11 +35,31 @@ MOST = 0.2
 
 
 def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations, where an effect in the model switches without the samples whose side is open."""
+    """The observations without the samples that effects in the model leave open: sides of a switch, ends of late motion."""
+    observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
-        return list(observations)
+        return observations
     # a sample of channels is made of many: of those none is left out
     return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
+
+
+def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
+    """Without as much of either end as motion may be late."""
+    r = o.record
+    most = [
+        c.scale * (r.time[-1] if q.growing else 1.0) * r.rate
+        for c, k in design.base_columns(model, instrument)
+        for place, q in late(model)
+        if k == place
+    ]
+    if not most:
+        return o
+    n = int(np.ceil(MOST_ROOM * max(most)))
+    inside = np.zeros(len(r.valid), dtype=np.bool_)
+    inside[n : len(inside) - n] = True
+    if np.sum(r.valid & inside) < (1.0 - MOST) * np.sum(r.valid):
+        return o
+    return replace(o, record=replace(r, valid=r.valid & inside), memo=[])
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:

@@ -19,9 +19,11 @@ from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import (
+    BROAD,
     DEGREES,
     best_degree,
     differentiate,
+    interpolated,
     smooth_slope,
     steady_and_swing,
     stretches,
@@ -201,6 +203,24 @@ class Record:
         halo = (a - first, last - b)
         return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
 
+    def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
+        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
+
+        Beyond the ends of the record it is what the spline makes of it for a sample, and then stays.
+        """
+        key = tuple(sorted(moves.items()))
+        if key not in self._moved:
+            wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
+            at = np.arange(samples, dtype=np.float64)
+            time = float(self.time[0]) + (at - self.halo[0]) / self.rate
+            for quantity, (offset, drift) in moves.items():
+                names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
+                there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
+                wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
+            self._moved.clear()
+            self._moved[key] = replace(self, wide=wide)
+        return self._moved[key]
+
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:
         """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
         time = np.array(self.time[rows])
@@ -231,6 +251,11 @@ class Record:
         return {}
 
     @cached_property
+    def _moved(self) -> dict[tuple[tuple[str, tuple[float, float]], ...], Record]:
+        """The record as it was moved last: a fit that has come near its end asks for the same again."""
+        return {}
+
+    @cached_property
     def _inputs(self) -> dict[tuple[str, ...], Array]:
         """Inputs that were asked for: every point at which a fit is linearised has the same."""
         return {}
@@ -243,7 +268,7 @@ class Record:
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
-                return None if inner is None else differentiate(inner, self.rate)
+                return None if inner is None else differentiate(inner, self.rate, band=BROAD)
         return None
 
 
