@@ -245,6 +245,8 @@ def _model(
 
 
 def _effect(entry: Mapping[str, Any]) -> Effect:
-    parameters = tuple(EffectParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"])
+    parameters = tuple(
+        EffectParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
+    )
     several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from")}
     return Effect(**{**entry, **several, "parameters": parameters})

@@ -16,7 +16,8 @@ from ragg_runtime.signals.derivative import BAND, BROAD, DEGREES, WINDOW, weight
 def numpy_files(c: Contents) -> dict[str, str]:
     """File name -> text."""
     short, broad = (
-        [[float(x) for x in weights(WINDOW, k, band)] for k in range(WINDOW // 2 + 1)] for band in (BAND, BROAD)
+        [[float(x) for x in weights(WINDOW, k, band)] for k in range(WINDOW // 2 + 1)]
+        for band in (BAND, BROAD)
     )
     slopes = {
         "short": short,

@@ -111,10 +111,7 @@ def _parameters(c: Contents) -> list[str]:
 
 def _derivatives() -> list[str]:
     short, broad = (
-        (
-            f"{{{', '.join(f'{x:.17g}' for x in weights(WINDOW, k, band))}}},"
-            for k in range(WINDOW // 2 + 1)
-        )
+        [f"{{{', '.join(f'{x:.17g}' for x in weights(WINDOW, k, band))}}}," for k in range(WINDOW // 2 + 1)]
         for band in (BAND, BROAD)
     )
     long = wide_weights()[: REACH + 1]
