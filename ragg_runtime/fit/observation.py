@@ -15,13 +15,11 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.digits import Digits, digits_of
-from ragg_runtime.flight.record import ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
-from ragg_runtime.signals.derivative import HEAD, unsure
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -66,8 +64,6 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
                 valid &= ~imu_saturation.clipped(flight.channels[name], valid)
             let_go(flight.channels[name])
     let_go(*flight.outputs.values())
-    n = _unsure(flight)
-    valid[:n] = valid[len(valid) - n :] = False
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
@@ -154,24 +150,6 @@ class Observation:
             flight=self.flight,
             gains=self.gains,
         )
-
-
-ENDS = 32
-"""Part of a record, one over it, that is left out at either end at the most."""
-
-
-def _unsure(flight: Flight) -> int:
-    """Samples at either end at which derivatives of the motion are good for nothing, so that no effect that follows them can be told.
-
-    Of a record of four samples a second some seven: there the error of one sample would be more than a strong effect in all others.
-    """
-    found = [0]
-    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE):
-        if name in flight.channels:
-            head = np.array(flight.channels[name][:HEAD])
-            let_go(flight.channels[name])
-            found.append(unsure(head) if np.isfinite(head).all() else 0)
-    return min(max(found), len(flight) // ENDS)
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:

@@ -1,11 +1,12 @@
 """Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
-a record in which motion is late.
+a record, where motion that is late is not in it, or has no derivatives.
 
 An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
 is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
 outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
 
-What stood in the record before it began or after it ended no fit can move to where it belongs.
+What stood in the record before it began or after it ended no fit can move to where it belongs. And where the motion goes on to the
+Nyquist frequency, its derivatives at the ends are wrong by more than themselves.
 """
 
 from __future__ import annotations
@@ -30,12 +31,15 @@ Array = NDArray[np.float64]
 OPEN = 3.0
 """Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
 
+ENDS = 32
+"""Part of a record, one over it, that is left out at either end for its derivatives at the most."""
+
 MOST = 0.2
 """Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
 
 def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations without the samples that effects in the model leave open: sides of a switch, ends of late motion."""
+    """The observations without the samples of which the model says nothing: sides of a switch, ends of the motion."""
     observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
         return observations
@@ -44,7 +48,7 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
-    """Without as much of either end as motion may be late."""
+    """Without as much of either end as motion may be late, or its derivatives are good for nothing."""
     r = o.record
     most = [
         c.scale * (r.time[-1] if q.growing else 1.0) * r.rate
@@ -52,14 +56,13 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
         for place, q in late(model)
         if k == place
     ]
-    if not most:
-        return o
-    n = int(np.ceil(MOST_ROOM * max(most)))
+    n = max(int(np.ceil(MOST_ROOM * max(most, default=0.0))), min(r.unsure, len(r.valid) // ENDS))
     inside = np.zeros(len(r.valid), dtype=np.bool_)
     inside[n : len(inside) - n] = True
-    if np.sum(r.valid & inside) < (1.0 - MOST) * np.sum(r.valid):
+    kept = r.valid & inside
+    if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST) * np.sum(r.valid):
         return o
-    return replace(o, record=replace(r, valid=r.valid & inside), memo=[])
+    return replace(o, record=replace(r, valid=kept), memo=[])
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:

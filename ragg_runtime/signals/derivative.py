@@ -27,7 +27,7 @@ up to 1.2 Hz in a record of four samples a second is beyond the other band. Amid
 UNSURE = 0.15
 """Error of a second derivative beside an end, over its rms, from which it is good for nothing."""
 
-HEAD = 32768
+HEAD = 8192
 """Samples from the first ones on that tell."""
 
 _EDGE = 6  # samples at either end where the window is so one-sided that noise needs holding down

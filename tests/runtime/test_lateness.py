@@ -84,8 +84,12 @@ def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.
 
 def test_slow_records_lose_the_ends_at_which_their_motion_has_no_derivatives() -> None:
     fast, slow = (scenario(73, duration=300.0, rate=rate) for rate in (16.0, 4.0))
-    assert observe(fast.simulate().flight(), fast.sheet).record.valid.all()
-    left_out = np.flatnonzero(~observe(slow.simulate().flight(), slow.sheet).record.valid)
+    o = observe(fast.simulate().flight(), fast.sheet)
+    assert certain(load.packaged(), fast.sheet, [o])[0] is o
+    o = observe(slow.simulate().flight(), slow.sheet)
+    (kept,) = certain(load.packaged(), slow.sheet, [o])
+    assert certain(load.packaged(), slow.sheet, [kept])[0] is kept
+    left_out = np.flatnonzero(~kept.record.valid)
     n = len(left_out) // 2
     assert 3 <= n <= 9
     assert left_out.tolist() == [*range(n), *range(1200 - n, 1200)]
@@ -99,6 +103,6 @@ def test_a_strong_effect_of_second_derivatives_is_described_at_four_samples_a_se
     f = fitted.fit(model, s.sheet, [o], candidates=False)
     noise = float(np.std(sim.G_out - sim.G_out_noise_free))
     before = fitted.fit(load.packaged(), s.sheet, [o], candidates=False)
-    kept = o.record.valid
+    kept = f.observations[0].record.valid
     assert np.std(before.residuals(np.zeros(before.n_base))[0][kept]) > 3 * noise
     assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.1 * noise
