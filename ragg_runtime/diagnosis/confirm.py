@@ -20,7 +20,6 @@ from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.off_sheet import as_said
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.remainder import Remainder
@@ -91,20 +90,13 @@ def _others(field: Field, choice: Choice) -> list[Choice]:
 
 
 def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
-    """The chosen effects derived into the model and everything fitted again, if that can be done.
-
-    Where that creeps from what the parameters had to become without them, it begins at the sheet, as strong effects do.
-    """
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
     steps = {e.id for e in f.model.candidates if e.kind == "step"}
     if not chosen or extend is None or (steps & set(chosen)):
         return None
     extended = extend(f.model, chosen)
     start = _linear(f, chosen, extended)
-    found = fit(extended, f.instrument, f.observations, f.calibration.noise, start)
-    if found.calibration.converged:
-        return found
-    anew = fit(extended, as_said(f.instrument), f.observations, f.calibration.noise)
-    return anew if anew.calibration.converged else found
+    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
 
 
 def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:

@@ -15,7 +15,6 @@ import pytest
 import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
-from ragg_runtime.diagnosis import confirm
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
@@ -110,28 +109,6 @@ def test_an_effect_that_was_taken_first_may_be_the_sum_of_later_ones_that_are_li
     taken = Taken("arm-stretch", tests["arm-stretch"], nothing, nothing, (), None, stage)
     assert _parts(taken, ["gain-step", "time-offset", "lag", "bias-step"]) == ("lag", "time-offset")
     assert _parts(taken, ["gain-step"]) == ()
-
-
-@pytest.mark.parametrize("arrives", [True, False])
-def test_a_last_fit_that_creeps_begins_at_the_sheet(arrives: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    s = scenario(61, duration=60.0)
-    instrument = dataclasses.replace(s.sheet, widths=MappingProxyType({"K1": 7.0, "lag": 3.0}))
-    calibration = SimpleNamespace(noise=("noise",))
-    before = SimpleNamespace(
-        model=load.packaged(), instrument=instrument, observations=("o",), calibration=calibration
-    )
-    asked: list[tuple[dict[str, float], Any]] = []
-
-    def fitted(model: Any, sheet: Any, observations: Any, noise: Any, start: Any = None) -> Any:
-        asked.append((dict(sheet.widths), start))
-        converged = start is None and arrives
-        return SimpleNamespace(calibration=SimpleNamespace(converged=converged), start=start)
-
-    monkeypatch.setattr(confirm, "fit", fitted)
-    monkeypatch.setattr(confirm, "_linear", lambda *_: "linear")
-    found = confirm._derived(cast(Any, before), ["lag"], lambda m, ids, **_: m)
-    assert asked == [({"K1": 7.0, "lag": 3.0}, "linear"), ({"lag": 3.0}, None)]
-    assert cast(Any, found).start == (None if arrives else "linear")
 
 
 def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
