@@ -7,8 +7,7 @@ nonlinearly; with the best in the model everything is done anew: calibration, no
 the sheet: parameters that had to absorb what was missing may be far from it, in a valley that is long and curved.
 
 Where the one that came next explains less by no more than what the chosen one leaves, an effect that is not in the model yet may
-have decided between them: then the other one is followed to its end, too, and the ends are compared. So is one that was chosen later
-and is like it: of two effects the sum may look like a third one, which stays beside them for what it is not quite.
+have decided between them: then the other one is followed to its end, too, and the ends are compared.
 """
 
 from __future__ import annotations
@@ -138,20 +137,11 @@ def taken(first: Stage, extend: Extend | None) -> End:
         return [], first
     end = _followed(first, [], first, extend)
     for n, t in enumerate(end[0]):
-        rest = t.open or _parts(t, [e for _, e, _ in _blocks(end)[n + 1 :]])
-        if rest and len(_blocks(end)) > n + 1:
-            other = _followed(first, end[0][:n], t.stage, extend, (*rest, t.effect))
+        if t.open and len(_blocks(end)) > n + 1:
+            other = _followed(first, end[0][:n], t.stage, extend, (*t.open, t.effect))
             end = other if _better(other, end, first, extend) else end
             break
     return _with_rivals(end, first, extend)
-
-
-def _parts(t: Taken, later: Sequence[str]) -> tuple[str, ...]:
-    """Of effects that were chosen after one, those that are like it, the likest first: it may be none, but their sum."""
-    alone = {e: t.stage.choice.tests[e].chi2 for e in later if e in t.stage.choice.tests}
-    return tuple(
-        sorted((e for e, x in alone.items() if x > LIKE * t.test.chi2), key=lambda e: (-alone[e], e))
-    )
 
 
 def _followed(

@@ -6,8 +6,8 @@ import dataclasses
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from types import MappingProxyType, SimpleNamespace
-from typing import Any, cast
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,8 +19,7 @@ from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import with_steps
-from ragg_runtime.diagnosis.strong import Stage, Taken, _charge, _parts
-from ragg_runtime.evidence import likelihood_ratio
+from ragg_runtime.diagnosis.strong import Stage, _charge
 from ragg_runtime.evidence.random_effects import Variance
 from ragg_runtime.evidence.selection import Field, choose
 from ragg_runtime.fit import calibrate
@@ -97,18 +96,6 @@ def test_what_a_strong_effect_leaves_names_none_that_is_like_it() -> None:
     assert choose(f, beside=True).chosen == ("lag",)
     assert choose(f, beside=True, least={"lag": 1.1 * chi2}).chosen == ()
     assert choose(f, beside=True, least={"arm-stretch": 1.1 * chi2}).chosen == ("lag",)
-
-
-def test_an_effect_that_was_taken_first_may_be_the_sum_of_later_ones_that_are_like_it() -> None:
-    tests = {
-        e: likelihood_ratio.Test(log_p=-chi2 / 2, chi2=chi2, rank=1, which=(0,))
-        for e, chi2 in (("arm-stretch", 4.5e5), ("time-offset", 2.5e5), ("lag", 3.1e5), ("gain-step", 90.0))
-    }
-    stage = cast(Stage, SimpleNamespace(choice=SimpleNamespace(tests=tests)))
-    nothing = cast(Any, None)
-    taken = Taken("arm-stretch", tests["arm-stretch"], nothing, nothing, (), None, stage)
-    assert _parts(taken, ["gain-step", "time-offset", "lag", "bias-step"]) == ("lag", "time-offset")
-    assert _parts(taken, ["gain-step"]) == ()
 
 
 def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
