@@ -304,6 +304,8 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
                 "fitted": q.fitted,
                 **({} if q.physical is None else {"physical": q.physical}),
                 **({} if q.like is None else {"like": q.like}),
+                **({"late": list(q.late)} if q.late else {}),
+                **({"growing": True} if q.growing else {}),
             }
             for q in e.parameters
         ],

@@ -34,12 +34,20 @@ EFFECT = Effect(
         r"\bm v(t) = \bm v_{rec}(t + \epsilon t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}"
     ),
     limits=(
-        "To second order in epsilon t, which must be far below the time scale of the motion; from the instant 0 of the "
-        "record's time column (another one is time-offset)."
+        "From the instant 0 of the record's time column (another one is time-offset). Fits take the motion from where it "
+        "stands in the record; exported programs know it to second order in epsilon t, which must be far below the time scale "
+        "of the motion."
     ),
     parameters=(
         EffectParameter(
-            "epsilon", r"\epsilon", "1", "lateness of the motion record that a second adds", 1e-6, shared=True
+            "epsilon",
+            r"\epsilon",
+            "1",
+            "lateness of the motion record that a second adds",
+            1e-6,
+            shared=True,
+            late=("a", "omega", "omegadot"),
+            growing=True,
         ),
     ),
     sensing=sensing,

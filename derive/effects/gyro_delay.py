@@ -36,13 +36,28 @@ EFFECT = Effect(
         r" \dot{\bm\omega}_{im}(t) = \dot{\bm\omega}_{rec}(t + \delta_{\dot\omega})"
     ),
     limits=(
-        "To second order in the delays; specific force keeps its clock (time-offset moves both). The two delays are one "
+        "Specific force keeps its clock (time-offset moves both). Fits take the rates from where they stand in the record; "
+        "exported programs know them to second order in the delays. The two delays are one "
         "where the angular acceleration is derived from the rate, and two where it is measured."
     ),
     parameters=(
-        EffectParameter("delta_w", r"\delta_\omega", "s", "lateness of the angular rate", 1e-3, shared=True),
         EffectParameter(
-            "delta_d", r"\delta_{\dot\omega}", "s", "lateness of the angular acceleration", 1e-3, shared=True
+            "delta_w",
+            r"\delta_\omega",
+            "s",
+            "lateness of the angular rate",
+            1e-3,
+            shared=True,
+            late=("omega",),
+        ),
+        EffectParameter(
+            "delta_d",
+            r"\delta_{\dot\omega}",
+            "s",
+            "lateness of the angular acceleration",
+            1e-3,
+            shared=True,
+            late=("omegadot",),
         ),
     ),
     sensing=sensing,

@@ -32,11 +32,20 @@ EFFECT = Effect(
     source="time synchronisation of inertial sensors",
     equation=r"\bm v(t) = \bm v_{rec}(t + \delta t),\; \bm v = \bm a, \bm\omega_{im}, \dot{\bm\omega}_{im}",
     limits=(
-        "To second order in delta_t: holds while it is far below the time scale of the motion. Gradients and "
-        "the disc angle, which belong to the output's clock, are not moved."
+        "Fits take the motion from where it stands in the record; exported programs know it to second order in delta_t, which "
+        "must be far below the time scale of the motion. Gradients and the disc angle, which belong to the output's clock, are "
+        "not moved."
     ),
     parameters=(
-        EffectParameter("delta_t", r"\delta t", "s", "lateness of the motion record", 1e-3, shared=True),
+        EffectParameter(
+            "delta_t",
+            r"\delta t",
+            "s",
+            "lateness of the motion record",
+            1e-3,
+            shared=True,
+            late=("a", "omega", "omegadot"),
+        ),
     ),
     sensing=sensing,
 )

@@ -20,6 +20,7 @@ from ragg_runtime.compensation.schedule import Stretch, within
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
 from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.model import lateness
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
@@ -155,7 +156,9 @@ class Segment:
         o = s.observation.part(slice(self.first, self.last))
         self.record: Record = o.record
         self.G = as_output(o, o.data)
-        self.x = np.array(self.record.inputs(s.model.chain))
+        moved, rest = lateness.about(s.model, self.record, s.stretches[0].about)
+        self.late = s.stretches[0].about - rest
+        self.x = np.array(moved.inputs(s.model.chain))
         self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
         self.x[list(self.places.values())] = 0.0
         phi = self.record.demodulation_angle
@@ -177,7 +180,8 @@ class Segment:
     def by(self, p: Array, some: slice = slice(None)) -> Array:
         """G_out (n,), V, of some samples by parameters p (size,), SI."""
         r, place = self.record, self.s.observation.place
-        return self.s.evaluator.output(r.time[some], self.x[:, some], p, r.phi[some], 1, which=place)
+        q = p - self.late
+        return self.s.evaluator.output(r.time[some], self.x[:, some], q, r.phi[some], 1, which=place)
 
     def demodulated(self, e: Array) -> Complex:
         """inline + i cross (N,), Eo, of residuals (N,), V."""
@@ -246,7 +250,7 @@ class Segment:
                 self.s.evaluator,
                 r.time[own],
                 self.x[:, own],
-                stretch.about,
+                stretch.about - self.late,
                 STEP * stretch.directions,
                 r.phi[own],
                 few,

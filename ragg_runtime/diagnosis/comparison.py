@@ -27,6 +27,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit.dictionary import carrier, harmonics
 from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
+from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.demodulate import demodulable, low_pass
 from ragg_runtime.signals.fir import convolved
@@ -302,7 +303,7 @@ def _digits(f: Fitted) -> list[str]:
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:
     """Residual of G_out, (N,) V, of a piece of a flight with these values; no unknown gradient."""
     o = piece.observation
-    predicted = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
+    predicted = columns.observed(o, voltages(f.model.chain, *about(f.model, o.record, p), o.output), None)
     (left,) = piece.observed(np.where(o.record.valid, o.data - predicted, 0.0)[None])
     return np.asarray(left)
 

@@ -15,6 +15,7 @@ from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
+from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
 
@@ -168,15 +169,15 @@ class _Module:
 def linearised(at: Point, o: Observation) -> Array:
     """Base columns, candidates (if wanted), each times its parameter's scale, and residual: (n + 1, m, N), V."""
     base, candidates = at.base, at.candidates
-    evaluators, r = at.model.evaluators, o.record
+    evaluators, (r, p) = at.model.evaluators, about(at.model, o.record, at.p)
 
     def module(name: str, chain: Chain, p: Array, rows: _Rows) -> _Module:
         return _Module(evaluator=evaluators[name], inputs=r.inputs(chain), p=p, rows=rows)
 
-    chain = module("chain", at.model.chain, at.p, at.rows[0])
+    chain = module("chain", at.model.chain, p, at.rows[0])
     modules = [chain]
     if candidates:
-        q = np.concatenate([at.p, np.zeros(at.model.signatures.SIZE - len(at.p))])
+        q = np.concatenate([p, np.zeros(at.model.signatures.SIZE - len(p))])
         modules.append(module("signatures", at.model.signatures, q, at.rows[1]))
     # of one output that sums all accelerometers every column is written
     every = not o.recorded.separate and len(o.output.members) == at.instrument.layout.size

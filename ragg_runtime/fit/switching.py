@@ -1,8 +1,12 @@
-"""Samples of which the sheet leaves open on which side of a switch an accelerometer is.
+"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
+a record, where motion that is late is not in it, or has no derivatives.
 
 An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
 is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
 outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
+
+What stood in the record before it began or after it ended no fit can move to where it belongs. And where the motion goes on to the
+Nyquist frequency, its derivatives at the ends are wrong by more than themselves.
 """
 
 from __future__ import annotations
@@ -15,9 +19,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.off_sheet import MOST_ROOM
 from ragg_runtime.fit.segments import segments
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -25,16 +31,38 @@ Array = NDArray[np.float64]
 OPEN = 3.0
 """Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
 
+ENDS = 32
+"""Part of a record, one over it, that is left out at either end for its derivatives at the most."""
+
 MOST = 0.2
 """Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
 
 def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations, where an effect in the model switches without the samples whose side is open."""
+    """The observations without the samples of which the model says nothing: sides of a switch, ends of the motion."""
+    observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
-        return list(observations)
+        return observations
     # a sample of channels is made of many: of those none is left out
     return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
+
+
+def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
+    """Without as much of either end as motion may be late, or its derivatives are good for nothing."""
+    r = o.record
+    most = [
+        c.scale * (r.time[-1] if q.growing else 1.0) * r.rate
+        for c, k in design.base_columns(model, instrument)
+        for place, q in late(model)
+        if k == place
+    ]
+    n = max(int(np.ceil(MOST_ROOM * max(most, default=0.0))), min(r.unsure, len(r.valid) // ENDS))
+    inside = np.zeros(len(r.valid), dtype=np.bool_)
+    inside[n : len(inside) - n] = True
+    kept = r.valid & inside
+    if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST) * np.sum(r.valid):
+        return o
+    return replace(o, record=replace(r, valid=kept), memo=[])
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:

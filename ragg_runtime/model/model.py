@@ -40,6 +40,7 @@ class EffectParameter:
 
     ``physical`` is the one value, beside the neutral one, that nature knows (``None``: any). ``plausible`` is of a
     navigation instrument; of another it grows with the sigma that the sheet gives the accelerometers' parameter ``like``.
+    ``late``, ``growing``: which quantities of the motion it makes late (:mod:`ragg_runtime.model.lateness`).
     """
 
     name: str
@@ -54,6 +55,8 @@ class EffectParameter:
     fitted: bool
     physical: float | None = None
     like: str | None = None
+    late: tuple[str, ...] = ()
+    growing: bool = False
 
     @property
     def default(self) -> float:
@@ -242,6 +245,8 @@ def _model(
 
 
 def _effect(entry: Mapping[str, Any]) -> Effect:
-    parameters = tuple(EffectParameter(**q) for q in entry["parameters"])
+    parameters = tuple(
+        EffectParameter(**{**q, "late": tuple(q.get("late", ()))}) for q in entry["parameters"]
+    )
     several = {k: tuple(entry.get(k, ())) for k in ("channels", "told_from")}
     return Effect(**{**entry, **several, "parameters": parameters})

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import GRADIENT, RATES
+from ragg_runtime.flight.record import ANGULAR_RATE, GRADIENT, RATES, SPECIFIC_FORCE
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
@@ -19,12 +19,16 @@ from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import (
+    BROAD,
     DEGREES,
+    HEAD,
     best_degree,
     differentiate,
+    interpolated,
     smooth_slope,
     steady_and_swing,
     stretches,
+    unsure,
 )
 
 Array = NDArray[np.float64]
@@ -201,6 +205,24 @@ class Record:
         halo = (a - first, last - b)
         return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
 
+    def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
+        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
+
+        Beyond the ends of the record it is what the spline makes of it for a sample, and then stays.
+        """
+        key = tuple(sorted(moves.items()))
+        if key not in self._moved:
+            wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
+            at = np.arange(samples, dtype=np.float64)
+            time = float(self.time[0]) + (at - self.halo[0]) / self.rate
+            for quantity, (offset, drift) in moves.items():
+                names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
+                there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
+                wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
+            self._moved.clear()
+            self._moved[key] = replace(self, wide=wide)
+        return self._moved[key]
+
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:
         """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
         time = np.array(self.time[rows])
@@ -226,8 +248,27 @@ class Record:
         return found
 
     @cached_property
+    def unsure(self) -> int:
+        """Samples at either end at which second derivatives of the motion are good for nothing.
+
+        Of four a second some seven: there the error of one sample would be more than a strong effect in all others.
+        """
+        found = [0]
+        for name in (*SPECIFIC_FORCE, *ANGULAR_RATE):
+            if name in self.wide:
+                head = np.array(self.wide[name][:HEAD])
+                let_go(self.wide[name])
+                found.append(unsure(head) if np.isfinite(head).all() else 0)
+        return max(found)
+
+    @cached_property
     def _made(self) -> dict[str, Array]:
         """Derivatives that were asked for: fits and the search of what is left ask for the same again and again."""
+        return {}
+
+    @cached_property
+    def _moved(self) -> dict[tuple[tuple[str, tuple[float, float]], ...], Record]:
+        """The record as it was moved last: a fit that has come near its end asks for the same again."""
         return {}
 
     @cached_property
@@ -243,7 +284,7 @@ class Record:
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
-                return None if inner is None else differentiate(inner, self.rate)
+                return None if inner is None else differentiate(inner, self.rate, band=BROAD)
         return None
 
 

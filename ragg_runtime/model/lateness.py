@@ -1,0 +1,50 @@
+"""Motion that stands late in a record, taken from where it stands.
+
+An effect that makes motion late is derived as a Taylor series in its lateness, which says nothing once that reaches the time
+scale of the motion: half a sample, say. So the series is taken about the lateness that a fit has come to: the motion is
+interpolated there, and only what is left of the parameter enters the series. Which parameters make what late, the effects'
+own files say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.model.model import EffectParameter, Model
+from ragg_runtime.model.record import Record
+
+Array = NDArray[np.float64]
+
+STEP = 1 / 32
+"""Samples between the latenesses to which motion is moved: by the series the rest of at most half of it is described to 1e-6 of
+the change, as well as derivatives are known (up to 42 % of the Nyquist frequency)."""
+
+
+def about(model: Model, r: Record, p: Array) -> tuple[Record, Array]:
+    """The record with its motion moved, and what of the parameters p (size,), SI, is left for the series beside it."""
+    rest = p
+    moves: dict[str, tuple[float, float]] = {}
+    end = float((r.whole or r).time[-1])
+    for k, q in late(model):
+        span = end if q.growing else 1.0
+        steps = np.rint(p[k] * span * r.rate / STEP) if span > 0.0 else 0.0
+        if steps:
+            by = float(steps) * STEP / (r.rate * span)
+            rest = rest - by * (np.arange(len(p)) == k)
+            for quantity in q.late:
+                offset, drift = moves.get(quantity, (0.0, 0.0))
+                moves[quantity] = (offset, drift + by) if q.growing else (offset + by, drift)
+    return (r.moved(moves) if moves else r), rest
+
+
+def late(model: Model) -> Iterator[tuple[int, EffectParameter]]:
+    """Parameters of a model that make motion late, each with its place in the parameter vector."""
+    found = {q.symbol: q for e in model.effects for q in e.parameters if q.late}
+    place = 0
+    for name, size in model.chain.PARAMETERS if found else ():
+        if name in found:
+            yield place, found[name]
+        place += size

@@ -1,0 +1,108 @@
+"""Motion that stands late in a record: a fit takes it from where it stands, and leaves out what it cannot."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ragg_runtime.fit import fitted
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.switching import certain
+from ragg_runtime.model import model as load
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.lateness import STEP, about, late
+from ragg_runtime.model.record import record
+from ragg_runtime.model_dir import derive
+from ragg_runtime.reference.scenario import Scenario, scenario
+
+
+@pytest.fixture(scope="module")
+def world() -> tuple[Scenario, load.Model]:
+    s = scenario(71, duration=200.0)
+    return s, derive.with_effects(s.sheet, load.packaged(), ["clock-drift", "time-offset"])
+
+
+def _parameters(s: Scenario, model: load.Model, values: dict[str, float]) -> np.ndarray:
+    p = vector(model, s.sheet)
+    for k, q in late(model):
+        p[k] = values[q.name]
+    return p
+
+
+def test_motion_is_moved_to_where_it_was_true(world: tuple[Scenario, load.Model]) -> None:
+    s, model = world
+    true = record(s.simulate().flight(), s.sheet)
+    # half a sample at the end, and three more from the beginning on
+    values = {"epsilon": 0.5 / true.rate / true.time[-1], "delta_t": 3 / true.rate}
+    drift, offset = {"epsilon": values["epsilon"]}, {"delta_t": values["delta_t"]}
+    r = record(s.simulate({"clock-drift": drift, "time-offset": offset}).flight(), s.sheet)
+    moved, rest = about(model, r, _parameters(s, model, values))
+    inner = slice(20, -20)
+    for name in ("a_x", "omega_y", "omegadot_z", "d_a_z"):
+        was, got = true.series(name), moved.series(name)
+        assert was is not None and got is not None
+        assert np.max(np.abs(got - was)[inner]) < 1e-3 * np.std(was)
+    assert max(abs(rest[k]) for k, _ in late(model)) < 1e-12
+    part, whole = r.part(slice(1000, 1400)), moved.series("d2_a_x")
+    of_part = about(model, part, _parameters(s, model, values))[0].series("d2_a_x")
+    assert whole is not None and of_part is not None
+    assert np.max(np.abs(of_part - whole[1000:1400])) < 1e-6 * np.std(whole)
+
+
+def test_nothing_is_moved_by_less_than_the_series_describes(world: tuple[Scenario, load.Model]) -> None:
+    s, model = world
+    r = record(s.simulate().flight(), s.sheet)
+    p = _parameters(s, model, {"epsilon": 1e-6, "delta_t": 0.4 * STEP / r.rate})
+    same, rest = about(model, r, p)
+    assert same is r
+    assert rest is p
+
+
+def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
+    s = scenario(72, duration=200.0)
+    sim = s.simulate({"clock-drift": {"epsilon": 4e-4}})  # 1.3 samples
+    model = derive.with_effects(s.sheet, load.packaged(), ["clock-drift"])
+    o = observe(sim.flight(), s.sheet)
+    f = fitted.fit(model, s.sheet, [o], candidates=False)
+    noise = float(np.std(sim.G_out - sim.G_out_noise_free))
+    kept = f.observations[0].record.valid
+    assert 0 < np.sum(~kept) < 10
+    assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.02 * noise
+    ((k, _),) = late(model)
+    assert f.calibration.p[k] == pytest.approx(4e-4, rel=1e-3)
+
+
+def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.Model]) -> None:
+    s, model = world
+    o = observe(s.simulate().flight(), s.sheet)
+    assert certain(load.packaged(), s.sheet, [o])[0] is o
+    (kept,) = certain(model, s.sheet, [o])
+    assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
+    short = o.part(slice(0, 8))
+    assert certain(model, s.sheet, [short])[0] is short
+
+
+def test_slow_records_lose_the_ends_at_which_their_motion_has_no_derivatives() -> None:
+    fast, slow = (scenario(73, duration=300.0, rate=rate) for rate in (16.0, 4.0))
+    o = observe(fast.simulate().flight(), fast.sheet)
+    assert certain(load.packaged(), fast.sheet, [o])[0] is o
+    o = observe(slow.simulate().flight(), slow.sheet)
+    (kept,) = certain(load.packaged(), slow.sheet, [o])
+    assert certain(load.packaged(), slow.sheet, [kept])[0] is kept
+    left_out = np.flatnonzero(~kept.record.valid)
+    n = len(left_out) // 2
+    assert 3 <= n <= 9
+    assert left_out.tolist() == [*range(n), *range(1200 - n, 1200)]
+
+
+def test_a_strong_effect_of_second_derivatives_is_described_at_four_samples_a_second() -> None:
+    s = scenario(74, duration=400.0, rate=4.0)
+    sim = s.simulate({"output-filter": {"b": 1.5e-5}})
+    model = derive.with_effects(s.sheet, load.packaged(), ["output-filter"])
+    o = observe(sim.flight(), s.sheet)
+    f = fitted.fit(model, s.sheet, [o], candidates=False)
+    noise = float(np.std(sim.G_out - sim.G_out_noise_free))
+    before = fitted.fit(load.packaged(), s.sheet, [o], candidates=False)
+    kept = f.observations[0].record.valid
+    assert np.std(before.residuals(np.zeros(before.n_base))[0][kept]) > 3 * noise
+    assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.1 * noise
