@@ -211,7 +211,8 @@ class Record:
         Beyond the ends of the record it is what the spline makes of it for a sample, and then stays.
         """
         key = tuple(sorted(moves.items()))
-        if key not in self._moved:
+        found = self._moved.get(key)
+        if found is None:
             wide, samples = dict(self.wide), len(self.time) + sum(self.halo)
             at = np.arange(samples, dtype=np.float64)
             time = float(self.time[0]) + (at - self.halo[0]) / self.rate
@@ -219,9 +220,10 @@ class Record:
                 names = [n for k in "xyz" if (n := f"{quantity}_{k}") in wide]
                 there = np.clip(at + (offset + drift * time) * self.rate, -1.0, samples)
                 wide |= dict(zip(names, interpolated([wide[n] for n in names], there), strict=True))
+            found = replace(self, wide=wide)
             self._moved.clear()
-            self._moved[key] = replace(self, wide=wide)
-        return self._moved[key]
+            self._moved[key] = found
+        return found
 
     def carried(self, rows: slice) -> tuple[Array, Array, Array]:
         """Time, s, of some samples alone, and cosine and sine of its carriers in what is fitted."""
