@@ -198,7 +198,8 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
     m = load(model_dir)
     for place in after.export(m, folder, form):
         click.echo(f"written: {place}")
-    click.echo(f"with {after.contents(m).origin}")
+    exported = after.contents(m)
+    click.echo("\n".join([f"with {exported.origin}", *exported.limits()]))
 
 
 def compare_frozen(

@@ -313,3 +313,13 @@ def test_numpy_of_the_models_own_kinematics_gives_its_answers(tmp_path: Path) ->
     )
     found, said = answer(done.stdout)[1], answer((tmp_path / "n" / "test" / "G_out.csv").read_bytes())[1]
     assert np.max(np.abs(found - said)) < 1e-9
+
+
+def test_it_says_that_late_motion_is_a_series_there(tmp_path: Path) -> None:
+    text = (new_model(tmp_path) / "model.toml").read_text()
+    late = 'effects = [{ id = "time-offset", delta_t = { value = 0.03, unit = "s" } }]'
+    (tmp_path / "late.toml").write_text(text.replace("effects = []", late))
+    run("new", tmp_path / "late", "--from", tmp_path / "late.toml")
+    told = run("export", tmp_path / "late", tmp_path / "c", "--c")
+    for said in (told, (tmp_path / "c" / "README.txt").read_text()):
+        assert "delta_t makes motion late: a series of second order" in said

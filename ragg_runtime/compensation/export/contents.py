@@ -18,6 +18,7 @@ from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER
 from ragg_runtime.instrument.units import units
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import named, scale_factor
+from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import GRADIENTS, SPIN, Record, phase
 
@@ -186,6 +187,15 @@ class Contents:
     def columns(self) -> list[str]:
         """The columns of a flight that the model reads, beside ``time`` and the disc angles."""
         return list(dict.fromkeys(x.column for x in self.inputs() if x.column != DISC))
+
+    def limits(self) -> list[str]:
+        """What is described less well than by Python, in words."""
+        return [
+            f"{q.symbol} makes motion late: a series of second order in it, good while it is far below the time scale of the "
+            "motion (ragg itself takes the motion from where it stands in the record)"
+            for k, q in late(self.model)
+            if self.p[k]
+        ]
 
     def example(self, *, derived: bool = False) -> tuple[dict[str, Array], dict[str, Array]]:
         """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it.

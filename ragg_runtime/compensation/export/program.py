@@ -72,6 +72,7 @@ def _readme(c: Contents, online: bool) -> str:
         Gradients (Gamma_xx ... [s^-2]) are zero where they are missing; {", ".join(c.angles())} [rad] replaces 2 pi f t.
         """
     )
+    text += "".join(f"{limit}.\n" for limit in c.limits())
     if not online:
         return text
     return text + textwrap.dedent(
