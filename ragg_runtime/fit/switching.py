@@ -1,12 +1,11 @@
 """Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
-a record, where motion that is late is not in it, or has no derivatives.
+a record, where motion that is late is not in it.
 
 An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
 is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
 outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
 
-What stood in the record before it began or after it ended no fit can move to where it belongs. And where the motion goes on to the
-Nyquist frequency, its derivatives at the ends are wrong by more than themselves.
+What stood in the record before it began or after it ended no fit can move to where it belongs.
 """
 
 from __future__ import annotations
@@ -31,9 +30,6 @@ Array = NDArray[np.float64]
 OPEN = 3.0
 """Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
 
-ENDS = 32
-"""Part of a record, one over it, that is left out at either end for its derivatives at the most."""
-
 MOST = 0.2
 """Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
@@ -48,7 +44,7 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
-    """Without as much of either end as motion may be late, or its derivatives are good for nothing."""
+    """Without as much of either end as motion may be late."""
     r = o.record
     most = [
         c.scale * (r.time[-1] if q.growing else 1.0) * r.rate
@@ -56,7 +52,7 @@ def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation
         for place, q in late(model)
         if k == place
     ]
-    n = max(int(np.ceil(MOST_ROOM * max(most, default=0.0))), min(r.unsure, len(r.valid) // ENDS))
+    n = int(np.ceil(MOST_ROOM * max(most, default=0.0)))
     inside = np.zeros(len(r.valid), dtype=np.bool_)
     inside[n : len(inside) - n] = True
     kept = r.valid & inside

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.record import ANGULAR_RATE, GRADIENT, RATES, SPECIFIC_FORCE
+from ragg_runtime.flight.record import GRADIENT, RATES
 from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
@@ -19,16 +19,13 @@ from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.derivative import (
-    BROAD,
     DEGREES,
-    HEAD,
     best_degree,
     differentiate,
     interpolated,
     smooth_slope,
     steady_and_swing,
     stretches,
-    unsure,
 )
 
 Array = NDArray[np.float64]
@@ -250,20 +247,6 @@ class Record:
         return found
 
     @cached_property
-    def unsure(self) -> int:
-        """Samples at either end at which second derivatives of the motion are good for nothing.
-
-        Of four a second some seven: there the error of one sample would be more than a strong effect in all others.
-        """
-        found = [0]
-        for name in (*SPECIFIC_FORCE, *ANGULAR_RATE):
-            if name in self.wide:
-                head = np.array(self.wide[name][:HEAD])
-                let_go(self.wide[name])
-                found.append(unsure(head) if np.isfinite(head).all() else 0)
-        return max(found)
-
-    @cached_property
     def _made(self) -> dict[str, Array]:
         """Derivatives that were asked for: fits and the search of what is left ask for the same again and again."""
         return {}
@@ -286,7 +269,7 @@ class Record:
         for prefix, base in (("d_", name[2:]), ("d2_", f"d_{name[3:]}")):
             if name.startswith(prefix):
                 inner = self._wide(base)
-                return None if inner is None else differentiate(inner, self.rate, band=BROAD)
+                return None if inner is None else differentiate(inner, self.rate)
         return None
 
 

@@ -17,26 +17,12 @@ Array = NDArray[np.float64]
 WINDOW = 25
 """Samples that enter one derivative."""
 
-BAND = 0.42
-"""Share of the Nyquist frequency up to which a derivative is designed."""
-
-BROAD = 0.65
-"""The same of one that a small parameter multiplies (what an effect adds): its noise does not matter, and motion that goes on
-up to 1.2 Hz in a record of four samples a second is beyond the other band. Amid a record it is as accurate as that one."""
-
-UNSURE = 0.15
-"""Error of a second derivative beside an end, over its rms, from which it is good for nothing."""
-
-HEAD = 8192
-"""Samples from the first ones on that tell."""
-
+_BAND = 0.42  # of the Nyquist frequency: the derivative is designed up to here
 _EDGE = 6  # samples at either end where the window is so one-sided that noise needs holding down
 _POLYNOMIAL = 4  # polynomials up to this degree are differentiated exactly
 
 
-def differentiate(
-    x: Array, rate: float, valid: NDArray[np.bool_] | None = None, *, band: float = BAND
-) -> Array:
+def differentiate(x: Array, rate: float, valid: NDArray[np.bool_] | None = None) -> Array:
     """Time derivative of ``x`` along its last axis, in units of x per second.
 
     A window of 25 samples, weighted by least squares for motion below 42 % of the Nyquist frequency, exact
@@ -55,9 +41,6 @@ def differentiate(
     valid
         (N,) bool, False where there is no sample; NaN counts as none as well. Each run of samples is
         differentiated by itself, so that nothing is carried over a gap.
-    band
-        With :data:`BROAD` in the place of 42 % of the Nyquist frequency white noise grows by 1.6 ``rate`` inside, 30 and 200
-        ``rate`` at the last two samples.
 
     Returns
     -------
@@ -78,30 +61,8 @@ def differentiate(
         present = present & valid
     result = np.full_like(x, np.nan)
     for run in runs(present):
-        result[..., run] = _derivative(x[..., run], band) * rate
+        result[..., run] = _derivative(x[..., run]) * rate
     return result
-
-
-def unsure(x: Array) -> int:
-    """Samples beside an end of a series (N,) at which second derivatives of the broad band are good for nothing.
-
-    The series is cut, and what its pieces have at their ends is compared with what stands there in the whole.
-    """
-    pieces = x[: min(len(x), HEAD) // PIECE * PIECE].reshape(-1, PIECE)
-    if len(pieces) < 3:
-        return 0
-
-    def twice(x: Array) -> Array:
-        return differentiate(differentiate(x, 1.0, band=BROAD), 1.0, band=BROAD)
-
-    whole = twice(pieces.ravel()).reshape(-1, PIECE)[1:-1]
-    error = np.sqrt(np.mean((twice(pieces)[1:-1] - whole) ** 2, axis=0))
-    bad = np.maximum(error, error[::-1])[: PIECE // 2] > UNSURE * np.std(whole)
-    return int(np.max(np.flatnonzero(bad), initial=-1)) + 1
-
-
-PIECE = 4 * WINDOW
-"""Samples of a piece for that."""
 
 
 def runs(present: NDArray[np.bool_]) -> list[slice]:
@@ -110,7 +71,7 @@ def runs(present: NDArray[np.bool_]) -> list[slice]:
     return [slice(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _derivative(x: Array, band: float) -> Array:
+def _derivative(x: Array) -> Array:
     """Derivative per sample of an uninterrupted run."""
     n = x.shape[-1]
     if n < 2:
@@ -120,23 +81,23 @@ def _derivative(x: Array, band: float) -> Array:
     half = window // 2
     result = np.empty_like(x)
     if n >= WINDOW:
-        ndimage.correlate1d(x, weights(window, half, band), axis=-1, output=result, mode="nearest")
+        ndimage.correlate1d(x, weights(window, half), axis=-1, output=result, mode="nearest")
     for k in range(half if n >= WINDOW else n):
-        result[..., k] = x[..., :window] @ weights(window, k, band)
+        result[..., k] = x[..., :window] @ weights(window, k)
     for k in range(half if n >= WINDOW else 0):
-        result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k, band))
+        result[..., n - 1 - k] = -(x[..., : -window - 1 : -1] @ weights(window, k))
     return result
 
 
 @cache
-def weights(window: int, at: int, band: float = BAND) -> Array:
+def weights(window: int, at: int) -> Array:
     """Weights (window,) of the derivative, per sample, at sample ``at`` of the window.
 
     Least squares of the relative error of the frequency response over the band, plus the noise gain with a
     small weight, under the constraint that low polynomials come out exactly.
     """
     k = np.arange(window) - float(at)
-    theta = (np.arange(2000) + 0.5) / 2000 * band * np.pi
+    theta = (np.arange(2000) + 0.5) / 2000 * _BAND * np.pi
     scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))
     phase = np.outer(theta, k)
     response = np.concatenate([np.cos(phase) * scale[:, None], np.sin(phase) * scale[:, None]])

@@ -80,29 +80,3 @@ def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.
     assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
     short = o.part(slice(0, 8))
     assert certain(model, s.sheet, [short])[0] is short
-
-
-def test_slow_records_lose_the_ends_at_which_their_motion_has_no_derivatives() -> None:
-    fast, slow = (scenario(73, duration=300.0, rate=rate) for rate in (16.0, 4.0))
-    o = observe(fast.simulate().flight(), fast.sheet)
-    assert certain(load.packaged(), fast.sheet, [o])[0] is o
-    o = observe(slow.simulate().flight(), slow.sheet)
-    (kept,) = certain(load.packaged(), slow.sheet, [o])
-    assert certain(load.packaged(), slow.sheet, [kept])[0] is kept
-    left_out = np.flatnonzero(~kept.record.valid)
-    n = len(left_out) // 2
-    assert 3 <= n <= 9
-    assert left_out.tolist() == [*range(n), *range(1200 - n, 1200)]
-
-
-def test_a_strong_effect_of_second_derivatives_is_described_at_four_samples_a_second() -> None:
-    s = scenario(74, duration=400.0, rate=4.0)
-    sim = s.simulate({"output-filter": {"b": 1.5e-5}})
-    model = derive.with_effects(s.sheet, load.packaged(), ["output-filter"])
-    o = observe(sim.flight(), s.sheet)
-    f = fitted.fit(model, s.sheet, [o], candidates=False)
-    noise = float(np.std(sim.G_out - sim.G_out_noise_free))
-    before = fitted.fit(load.packaged(), s.sheet, [o], candidates=False)
-    kept = f.observations[0].record.valid
-    assert np.std(before.residuals(np.zeros(before.n_base))[0][kept]) > 3 * noise
-    assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.1 * noise

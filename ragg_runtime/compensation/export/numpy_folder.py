@@ -10,18 +10,14 @@ from ragg_runtime.compensation.export.document import json_files
 from ragg_runtime.compensation.export.program import example_files
 from ragg_runtime.flight.angular_acceleration import wide_weights
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
-from ragg_runtime.signals.derivative import BAND, BROAD, DEGREES, WINDOW, weights
+from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
 
 
 def numpy_files(c: Contents) -> dict[str, str]:
     """File name -> text."""
-    short, broad = (
-        [[float(x) for x in weights(WINDOW, k, band)] for k in range(WINDOW // 2 + 1)]
-        for band in (BAND, BROAD)
-    )
+    short = [[float(x) for x in weights(WINDOW, k)] for k in range(WINDOW // 2 + 1)]
     slopes = {
         "short": short,
-        "broad": broad,
         "long": [float(x) for x in wide_weights()],
         "spin": {"seconds": SPIN_WINDOW, "most": HALO, "degrees": DEGREES},
     }

@@ -8,7 +8,7 @@ from ragg_runtime.compensation.export.contents import DISC, Contents, is_gradien
 from ragg_runtime.flight.angular_acceleration import REACH, wide_weights
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SI_UNITS
 from ragg_runtime.model.record import HALO, SPIN_WINDOW
-from ragg_runtime.signals.derivative import BAND, BROAD, DEGREES, WINDOW, weights
+from ragg_runtime.signals.derivative import DEGREES, WINDOW, weights
 
 SPELLINGS: Mapping[str, str] = {
     "m/s^2": "m/s^2|m/s2|m/s**2|m s^-2",
@@ -110,17 +110,15 @@ def _parameters(c: Contents) -> list[str]:
 
 
 def _derivatives() -> list[str]:
-    short, broad = (
-        [f"{{{', '.join(f'{x:.17g}' for x in weights(WINDOW, k, band))}}}," for k in range(WINDOW // 2 + 1)]
-        for band in (BAND, BROAD)
-    )
+    short = (weights(WINDOW, k) for k in range(WINDOW // 2 + 1))
     long = wide_weights()[: REACH + 1]
     return [
         "/* Weights of a window of samples for the derivative, per sample, at its first, second ... middle sample. */",
         _enum({"WINDOW": WINDOW, "REACH": REACH, "SPIN_MOST": HALO}),
-        *_table("const double DERIVATIVE[WINDOW / 2 + 1][WINDOW]", short),
-        "/* The same of a broader band, for what effects multiply by small parameters. */",
-        *_table("const double BROAD[WINDOW / 2 + 1][WINDOW]", broad),
+        *_table(
+            "const double DERIVATIVE[WINDOW / 2 + 1][WINDOW]",
+            (f"{{{', '.join(f'{x:.17g}' for x in row)}}}," for row in short),
+        ),
         "/* Of the longer window of the angular acceleration, up to its middle; the other half is its mirror, negative. */",
         *_table("const double WIDE[REACH + 1]", (f"{x:.17g}," for x in long)),
         "/* Half the stretch over which an encoder's angle is smoothed, s, and the degrees of polynomials to choose from. */",

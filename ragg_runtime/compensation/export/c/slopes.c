@@ -7,9 +7,10 @@
 #include "fail.h"
 #include "values.h"
 
-/* Derivative of a run of n samples, rate in Hz: weights[k] weighs a window of samples at its sample k. Towards the end
+/* Derivative of a run of n samples, rate in Hz: DERIVATIVE[k] weighs a window of samples at its sample k. Towards the end
  * of the run the window is that at its beginning, turned round. */
-static void windows(const double weights[][WINDOW], size_t n, double rate, const double *x, double *slope) {
+static void short_windows(size_t n, double rate, const double *x, int order, double *slope) {
+    (void)order;
     const size_t half = WINDOW / 2;
     for (size_t i = 0; i < n; ++i) {
         slope[i] = NAN;
@@ -20,15 +21,10 @@ static void windows(const double weights[][WINDOW], size_t n, double rate, const
         const size_t at = turned ? n - 1 - i : i < half ? i : half;
         double sum = 0.0;
         for (size_t k = 0; k < WINDOW; ++k) {
-            sum += weights[at][k] * (x[turned ? n - 1 - k : i - at + k] - x[0]);
+            sum += DERIVATIVE[at][k] * (x[turned ? n - 1 - k : i - at + k] - x[0]);
         }
         slope[i] = (turned ? -sum : sum) * rate;
     }
-}
-
-static void broad_windows(size_t n, double rate, const double *x, int order, double *slope) {
-    (void)order;
-    windows(BROAD, n, rate, x, slope);
 }
 
 /* Weights of an odd (sign -1) or even (1) window at sample i of x, of those up to the middle one; pairs are joined first. */
@@ -41,8 +37,7 @@ static double weighed(const double *weights, size_t half, double sign, const dou
 }
 
 static void long_windows(size_t n, double rate, const double *x, int order, double *slope) {
-    (void)order;
-    windows(DERIVATIVE, n, rate, x, slope);
+    short_windows(n, rate, x, order, slope);
     if (n <= 2 * REACH) {
         return;
     }
@@ -220,7 +215,7 @@ static void by_runs(size_t n, double step, const double *time, const double *x, 
 }
 
 void ragg_differentiate(size_t n, double step, const double *time, const double *x, double *slope) {
-    by_runs(n, step, time, x, broad_windows, 1, slope);
+    by_runs(n, step, time, x, short_windows, 1, slope);
 }
 
 void ragg_acceleration(size_t n, double step, const double *time, const double *x, double *slope) {

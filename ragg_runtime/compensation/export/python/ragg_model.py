@@ -16,7 +16,7 @@ import numpy as np
 
 MODEL = json.loads((Path(__file__).parent / "model.json").read_text("utf-8"))
 SLOPES = json.loads((Path(__file__).parent / "derivative.json").read_text("utf-8"))
-SHORT, BROAD, LONG, SPIN = *(np.array(SLOPES[n]) for n in ("short", "broad", "long")), SLOPES["spin"]
+SHORT, LONG, SPIN = np.array(SLOPES["short"]), np.array(SLOPES["long"]), SLOPES["spin"]
 DEGREES = SPIN["degrees"]
 PARAMETERS = np.concatenate([q["values"] for q in MODEL["parameters"]])
 OMEGADOT = [f"omegadot_{axis}" for axis in "xyz"]
@@ -66,7 +66,7 @@ def read_input(x, o, encoder, columns, t):
         raise SystemExit(f"ragg_model: the column {name} is missing; expected in {x['unit']}")
     value = columns.get(name, np.zeros(len(t)))
     for _ in range(x["derivative"]):
-        value = differentiate(value, t, BROAD)
+        value = differentiate(value, t)
     return value
 
 
@@ -75,23 +75,23 @@ def rate_of(t):
     return (len(t) - 1) / (t[-1] - t[0])
 
 
-def differentiate(x, t, windows):
+def differentiate(x, t):
     """Time derivative of an evenly sampled series of at least as many samples as a window has."""
-    half = len(windows) - 1
+    half = len(SHORT) - 1
     if len(x) < 2 * half + 1:
         raise SystemExit(f"ragg_model: too few rows to differentiate; expected at least {2 * half + 1}")
     y = x - x[0]
     slope = np.empty(len(y))
-    slope[half : len(y) - half] = np.convolve(y, windows[half][::-1], mode="valid")
+    slope[half : len(y) - half] = np.convolve(y, SHORT[half][::-1], mode="valid")
     for k in range(half):
-        slope[k] = windows[k] @ y[: 2 * half + 1]
-        slope[len(y) - 1 - k] = -(windows[k] @ y[: -2 * half - 2 : -1])
+        slope[k] = SHORT[k] @ y[: 2 * half + 1]
+        slope[len(y) - 1 - k] = -(SHORT[k] @ y[: -2 * half - 2 : -1])
     return slope * rate_of(t)
 
 
 def acceleration(omega, t):
     """Angular acceleration of a rate: amid the record by a longer window, good to 90 % of the Nyquist frequency."""
-    slope, reach = differentiate(omega, t, SHORT), len(LONG) // 2
+    slope, reach = differentiate(omega, t), len(LONG) // 2
     if len(omega) > 2 * reach:
         slope[reach : len(omega) - reach] = weighed(LONG, -1, omega - omega[0]) * rate_of(t)
     return slope
