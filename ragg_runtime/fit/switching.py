@@ -45,12 +45,14 @@ def certain(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
     """Without as much of either end as motion may be late."""
+    moving = dict(late(model))
+    if not moving:
+        return o
     r = o.record
     most = [
-        c.scale * (r.time[-1] if q.growing else 1.0) * r.rate
+        c.scale * (r.time[-1] if moving[k].growing else 1.0) * r.rate
         for c, k in design.base_columns(model, instrument)
-        for place, q in late(model)
-        if k == place
+        if k in moving
     ]
     n = int(np.ceil(MOST_ROOM * max(most, default=0.0)))
     inside = np.zeros(len(r.valid), dtype=np.bool_)
