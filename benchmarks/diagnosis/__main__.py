@@ -30,38 +30,33 @@ ROOT = Path(__file__).resolve().parents[2]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
 PAGE = ROOT / "docs" / "diagnosis.md"
 
+ROOMS = (
+    "base diagnosis evidence fit flight instrument lack_of_fit model model_dir plausibility reference signals"
+).split()
+"""Of the runtime: what the result of a flight depends on; a change elsewhere (reports, commands) flies nothing anew."""
+
 SOURCES = (
     "generated/manifest.json",
-    "ragg_runtime/evidence/*.py",
-    "ragg_runtime/reference/**/*.py",
-    *(
-        f"ragg_runtime/{name}.py"
-        for name in (
-            "calibrate",
-            "compare",
-            "design",
-            "diagnose",
-            "evaluate",
-            "gradient",
-            "ingredients",
-            "metrics",
-            "noise",
-            "passes",
-            "segments",
-            "terms",
-            "whiten",
-        )
-    ),
+    "derive/**/*.py",
+    *(f"ragg_runtime/{room}/**/*.py" for room in ROOMS),
     *(f"benchmarks/diagnosis/{name}.py" for name in ("fly", "inject", "outside", "peers")),
 )
-"""What the result of a flight depends on; a change elsewhere (reports, files, commands) flies nothing anew."""
 
 
 def source_digest(root: Path = ROOT) -> str:
-    """Digest of the sources that a flight's result depends on."""
+    """Digest of the sources that a flight's result depends on.
+
+    Raises
+    ------
+    FileNotFoundError
+        A pattern of ``SOURCES`` names no file: it has moved, and its changes would go unseen.
+    """
     digest = hashlib.sha256()
     for pattern in SOURCES:
-        for path in sorted(root.glob(pattern)):
+        paths = sorted(root.glob(pattern))
+        if not paths:
+            raise FileNotFoundError(f"no file is called {pattern}; name what took its place in SOURCES")
+        for path in paths:
             digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:12]
 
@@ -137,7 +132,10 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
     parser.add_argument(
-        "--seed", type=int, default=0, help="which sample of flights (0: that of the page in docs)"
+        "--seed",
+        type=int,
+        default=plan.PAGE,
+        help=f"which sample of flights (default, that of the page in docs: {plan.PAGE})",
     )
     parser.add_argument("--flights", type=int, help="at most so many of each kind")
     parser.add_argument(
@@ -146,7 +144,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--cache", type=Path, default=CACHE, help="results, a JSON line a flight")
     parser.add_argument("--keep", action="store_true", help="keep results of other versions of the sources")
     parser.add_argument(
-        "--page", type=Path, help="written once all flights are done (of seed 0: docs/diagnosis.md)"
+        "--page", type=Path, help="written once all flights are done (default sample: docs/diagnosis.md)"
     )
     parser.add_argument("--table", action="store_true", help="fly nothing: print the page of what is there")
     options = parser.parse_args(arguments)
@@ -170,7 +168,7 @@ def main(arguments: Sequence[str]) -> int:
     lines = list(finished(read(options.cache), everything, accepted).values())
     text = table.page(lines, complete=len(lines) == len(everything), sample=options.seed)
     print(text)
-    page = options.page or (PAGE if options.seed == 0 else None)
+    page = options.page or (PAGE if options.seed == plan.PAGE else None)
     if page is not None and len(lines) == len(everything) and not options.table:
         page.write_text(text, "utf-8")
         print(f"written: {page}", file=sys.stderr)

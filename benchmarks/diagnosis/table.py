@@ -24,7 +24,7 @@ def page(lines: Sequence[Line], *, complete: bool, sample: int = 0) -> str:
     introduction = _INTRODUCTION + (_NOT_INDEPENDENT if sample == 0 else _sample(sample))
     sections = [introduction + note, _targets(lines), _peers(lines), _groups(lines), _calibration(lines)]
     sections += [_effects(lines), _outside(lines), _failures(lines), _conditions(lines, sample)]
-    sections += [CAMPAIGNS.read_text("utf-8")] if sample == 0 else []
+    sections += [CAMPAIGNS.read_text("utf-8")] if sample == plan.PAGE else []
     return "\n".join(sections).rstrip() + "\n"
 
 
@@ -50,7 +50,8 @@ these flights.
 
 
 def _sample(sample: int) -> str:
-    return f"\n**A sample of its own** (`--seed {sample}`): no flight of it is one that the method was chosen on.\n"
+    text = f"\n**A sample of its own** (`--seed {sample}`): none of its flights had been looked at when the code"
+    return text + " was last changed.\n"
 
 
 def _percent(s: Share) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -243,3 +245,21 @@ def test_the_page_depends_on_the_lines_alone() -> None:
     assert "1 of 2 (50 %" in text
     assert "worst 1.5000" in text
     assert "crash: ValueError: no" in text
+
+
+def test_the_digest_of_the_sources_sees_every_room_that_a_diagnosis_loads(tmp_path: Path) -> None:
+    loaded = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            "import sys, benchmarks.diagnosis.fly; print(*{m.split('.')[1] for m in sys.modules"
+            " if m.startswith('ragg_runtime.')})",
+        ],
+        cwd=command.ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
+    assert set(loaded) - {"wording"} <= set(command.ROOMS)
+    with pytest.raises(FileNotFoundError, match=r"generated/manifest\.json"):
+        command.source_digest(tmp_path)
