@@ -31,8 +31,19 @@ CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
 PAGE = ROOT / "docs" / "diagnosis.md"
 
 ROOMS = (
-    "base diagnosis evidence fit flight instrument lack_of_fit model model_dir plausibility reference signals"
-).split()
+    "base",
+    "diagnosis",
+    "evidence",
+    "fit",
+    "flight",
+    "instrument",
+    "lack_of_fit",
+    "model",
+    "model_dir",
+    "plausibility",
+    "reference",
+    "signals",
+)
 """Of the runtime: what the result of a flight depends on; a change elsewhere (reports, commands) flies nothing anew."""
 
 SOURCES = (

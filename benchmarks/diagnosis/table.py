@@ -50,7 +50,9 @@ these flights.
 
 
 def _sample(sample: int) -> str:
-    text = f"\n**A sample of its own** (`--seed {sample}`): none of its flights had been looked at when the code"
+    text = (
+        f"\n**A sample of its own** (`--seed {sample}`): none of its flights had been looked at when the code"
+    )
     return text + " was last changed.\n"
 
 

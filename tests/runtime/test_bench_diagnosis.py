@@ -192,7 +192,7 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
     asked.clear()
     assert command.main([*arguments, "--only", "two", "--only", "outside"]) == 0
     assert sorted(asked) == ["outside/000", "outside/001", "two/001"]
-    specs = plan.specs(["two"], 2)
+    specs = plan.specs(["two"], 2, plan.PAGE)
     lines = [json.loads(x) for x in cache.read_text().splitlines() if x.endswith("}")]
     source = lines[0]["source"]
     assert set(command.finished(iter(lines), specs, source)) == {"two/000", "two/001"}
