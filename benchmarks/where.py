@@ -32,7 +32,7 @@ STEPS = (
     "evidence.steps:best_step",
     "evidence.selection:choose",
     "diagnosis.strong:_strongest",
-    "diagnosis.strong:_score",
+    "diagnosis.contenders:left",
     "diagnosis.confirm:confirmed",
     "lack_of_fit.omnibus:search",
     "diagnosis.line_rival:line_rival",

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.impossible import impossible
-from ragg_runtime.diagnosis.strong import Extend, Stage
+from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field

@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
 from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
+from ragg_runtime.diagnosis.contenders import Extend
+from ragg_runtime.diagnosis.contradiction import contradiction
 from ragg_runtime.diagnosis.credence import weighed, with_probability
 from ragg_runtime.diagnosis.doubts import spoiled, too_loud
 from ragg_runtime.diagnosis.explained import Explained, explained
@@ -36,7 +38,7 @@ from ragg_runtime.diagnosis.ranking import (
     staged,
 )
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.diagnosis.strong import Extend, Stage, Taken
+from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
@@ -91,11 +93,12 @@ def diagnose_fitted(
     """As :func:`diagnose`, on flights that are already fitted; ``limits`` as for ``next_motion.proposals``."""
     output = _output_effects(f, flights)
     first = Stage.of(f)
-    steps, last = strong.taken(first, extend)
+    apart = contradiction(first)
+    steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
     c = confirmed(last, extend)
     chosen = [*(t.effect for t in steps), *c.choice.chosen]
     left = _left(steps, last, c)
-    end = _end(last.fitted, c)
+    end = _end(last.fitted, c, apart)
     verdict, found = _verdict(left, end, chosen, output)
     by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
     whitened = sum(s.square for s in left.remainder.searches)
@@ -201,7 +204,7 @@ class _End:
     noisy: str | None
 
 
-def _end(f: Fitted, c: Confirmed) -> _End:
+def _end(f: Fitted, c: Confirmed, apart: str | None) -> _End:
     given = [n for e in c.choice.chosen for n, _ in c.field.candidates[e]]
     target = f if c.final is None else c.final
     v = f.vector(f.coefficients(given)[0], given) if c.final is None else np.zeros(target.size)
@@ -216,7 +219,7 @@ def _end(f: Fitted, c: Confirmed) -> _End:
         noise_floor=fitted_.noise_floor(target),
         explained=output_explained,
         complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
-        doubt=spoiled(target, output_explained),
+        doubt=apart or spoiled(target, output_explained),
         noisy=too_loud(target),
     )
 

@@ -12,15 +12,14 @@ have decided between them: then the other one is followed to its end, too, and t
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from types import MappingProxyType
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis import contenders
+from ragg_runtime.diagnosis.contenders import Extend, Left
 from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
@@ -28,14 +27,9 @@ from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.fitted import Fitted, calibrated, fit
-from ragg_runtime.fit.off_sheet import as_said, room_taken
-from ragg_runtime.fit.prepared_flight import to_nominal
+from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.off_sheet import QUIET
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
-from ragg_runtime.fit.switching import certain
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
-from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -64,15 +58,6 @@ LIKE = 0.1
 """Share of what a strong effect explains that another one explains alone, from which what is left of the first looks like it."""
 
 
-class Extend(Protocol):
-    """Derives a model with further effects; with ``candidates`` also the signatures of the rest.
-
-    Given by the caller: this package cannot derive.
-    """
-
-    def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
-
-
 @dataclass(frozen=True)
 class Stage:
     """What is known with some effects in the model: the field of the rest, the flights fitted, and what is chosen."""
@@ -88,6 +73,11 @@ class Stage:
         field, fitted, instants = with_steps(f)
         choice = selection.choose(field, beside=least is not None, least=least or {})
         return Stage(field, fitted, instants, choice)
+
+    def without_choice(self) -> Stage:
+        """The same, none of the effects being what is missing."""
+        choice = replace(self.choice, chosen=(), blocks={}, conditional=self.choice.tests, chi2=0.0)
+        return replace(self, choice=choice)
 
     @property
     def strong(self) -> bool:
@@ -151,9 +141,11 @@ def _followed(
     """One strong effect after the other from a stage on, the first of them that of ``begin``, whose others are open."""
     found = list(before)
     while stage.strong and len(found) < selection.MOST:
-        found.append(_in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend))
+        one = _in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend)
+        if one is None:
+            return found, stage.without_choice()
         begin = ()
-        found = _needed(found, first.fitted, extend)
+        found = _needed([*found, one], first.fitted, extend)
         stage = Stage.of(found[-1].after, _may_be_left(found, first))
     return found, stage
 
@@ -176,8 +168,8 @@ def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
     found, last = end
     blocks, noise = _blocks(end), last.fitted.calibration.noise
     inside = {e for _, e, _ in blocks}
-    contenders = [[e for e in t.open if e not in inside] for t in found]
-    if not any(contenders) or len(blocks) < 2:
+    undecided = [[e for e in t.open if e not in inside] for t in found]
+    if not any(undecided) or len(blocks) < 2:
         return end
     most = _left(end, blocks, noise, first, extend) + INDISTINGUISHABLE
 
@@ -186,7 +178,7 @@ def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
         swapped = [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]]
         return _left(end, swapped, noise, first, extend) < most
 
-    rivals = [{e for e in some if equal(n, e)} for n, some in enumerate(contenders)]
+    rivals = [{e for e in some if equal(n, e)} for n, some in enumerate(undecided)]
     return [
         replace(t, rivals=tuple(sorted({*t.rivals, *own}))) for t, own in zip(found, rivals, strict=True)
     ], last
@@ -202,11 +194,12 @@ def _blocks(end: End) -> list[Block]:
 def _left(end: End, blocks: Sequence[Block], noise: Sequence[Noise], first: Stage, extend: Extend) -> float:
     """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
     f = first.fitted
-    charge = sum(_charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
+    charged = sum(contenders.charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
     held = frozenset(label for s, e, which in blocks for label in _others(s.field, e, which))
     instants = dict(first.instants) | dict(end[1].instants)
     instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
-    return _score(f, noise, held, _derived(f, [e for _, e, _ in blocks], instants, extend)) + charge
+    extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
+    return contenders.left(f, noise, held, extended).chi2 + charged
 
 
 def _others(field: Field, effect: str, which: Sequence[int]) -> list[str]:
@@ -226,20 +219,32 @@ def _may_be_left(strong: Sequence[Taken], first: Stage) -> dict[str, float]:
     return least
 
 
-def _strongest(stage: Stage, extend: Extend) -> Taken:
-    """The effect that explains most once it is in the model, of those that are possible at the size that they then have."""
-    f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
+def _strongest(stage: Stage, extend: Extend) -> Taken | None:
+    """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
 
-    @functools.cache
+    ``None`` where an impossible one leaves but noise and no other comes near it: what is missing acts as it does, and is none of
+    the catalogue. Nor is one of several of which none comes to an optimum.
+    """
+    f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
+    fits: dict[str, Left] = {}
+
     def score(e: str) -> float:
-        held = frozenset(_others(stage.field, e, tests[e].which))
-        return _score(f, f.calibration.noise, held, _derived(f, [e], stage.instants, extend))
+        if e not in fits:
+            held = frozenset(_others(stage.field, e, tests[e].which))
+            extended = contenders.derived(f, [e], stage.instants, extend)
+            ceiling = min((x.ceiling for x in fits.values()), default=np.inf)
+            fits[e] = contenders.left(f, f.calibration.noise, held, extended, ceiling)
+        return fits[e].chi2
 
     while True:
         effect, rivals, undecided = _best(stage, tests, score)
+        if fits and not any(x.arrived for x in fits.values()):
+            return None
         found = replace(_in_model(stage, effect, undecided, extend), rivals=rivals)
         if len(tests) == 1 or not impossible(found.after, (effect,)):
             return found
+        if found.after.calibration.excess <= QUIET and not (rivals or undecided):
+            return None
         tests.pop(effect)
 
 
@@ -255,7 +260,7 @@ def _best(
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
     near = sorted(near, key=lambda e: (tests[e].log_p, e))
     rows = stage.fitted.calibration.rows
-    charge = {e: _charge(stage.field.P[:, list(tests[e].which)], rows) for e in near}
+    charge = {e: contenders.charge(stage.field.P[:, list(tests[e].which)], rows) for e in near}
     tried = near[:CONTENDERS]
     left = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e] + charge[e], e))
@@ -277,7 +282,7 @@ def _best(
 def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Extend) -> Taken:
     """An effect of a stage derived into the model, and everything fitted anew."""
     f = stage.fitted
-    model, instrument = _derived(f, [effect], stage.instants, extend, candidates=True)
+    model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
     return Taken(
         effect=effect,
         test=stage.choice.tests[effect],
@@ -300,60 +305,6 @@ def _as_sure(a: Test, b: Test) -> bool:
     return a.log_p < b.log_p + selection.AS_SURE
 
 
-def _charge(columns: Array, rows: int) -> float:
-    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction that
-    the record sees; of one that it does not, by which the evidence with a prior of unit width is lower, ln(1 + s^2).
-
-    Otherwise an effect would lose to a twin for coefficients of which the record says nothing (the third angle of a turn,
-    weak combinations of four accelerometers).
-    """
-    s = np.linalg.svd(columns, compute_uv=False)
-    return float(np.sum(np.where(s < 1.0, np.log1p(s**2), np.log(rows))))
-
-
-def _derived(
-    f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
-) -> tuple[Model, Instrument]:
-    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
-    model = extend(f.model, ids, candidates=candidates)
-    steps = tuple(
-        EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
-        for e in ids
-        if e in instants
-    )
-    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
-
-
-def _score(
-    f: Fitted, noise: Sequence[Noise], held: frozenset[str], derived: tuple[Model, Instrument]
-) -> float:
-    """Chi-square that a nonlinear fit leaves with effects in the model, without what their coefficients are charged.
-
-    Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
-    the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
-    which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
-    """
-    model, instrument = derived
-    observations = certain(model, instrument, f.observations)
-    instrument, c = calibrated(model, instrument, observations, noise=noise)
-    others = [n for n, q in enumerate(c.columns) if q.label in held]
-    x = -to_nominal(model, instrument, c)
-    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
-    if others:
-        # of a Gaussian: the variances once some of its variables are given
-        C = c.covariance[:, others]
-        given = np.linalg.solve(C[others], C.T)
-        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
-        x -= x[others] @ given
-        known += float(np.sum(given * C.T)) - len(others)
-    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
-    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
-    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
-    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
-    tails = float(np.sum(np.log1p(own**2) - own**2))
-    return c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c)
-
-
 def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
     """Those taken without any that the later ones have made superfluous; the model is fitted anew without it."""
     last = found[-1].after
@@ -361,7 +312,9 @@ def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
         if significance(last.calibration, t.effect) > np.log(selection.FURTHER):
             kept = [k for k in found if k is not t]
             instants = {k.effect: k.instant for k in kept if k.instant is not None}
-            model, instrument = _derived(first, [k.effect for k in kept], instants, extend, candidates=True)
+            model, instrument = contenders.derived(
+                first, [k.effect for k in kept], instants, extend, candidates=True
+            )
             fitted = fit(model, instrument, first.observations)
             return _needed([*kept[:-1], replace(kept[-1], after=fitted)], first, extend)
     return found

@@ -236,8 +236,9 @@ def fit(
     start: Array | None = None,
     noise: Sequence[Noise] | None = None,
     unweighted: bool = False,
+    ceiling: float = np.inf,
 ) -> Calibration:
-    """Least squares on all flights at once, from the nominal values or from ``start``.
+    """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``.
 
     First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
     estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
@@ -255,7 +256,7 @@ def fit(
         lines = float(np.mean([n.line_power for n in noise]))
         loud = loud or some.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
     if not loud:
-        found = minimise(lambda at: task.at(at, noise), x)
+        found = minimise(lambda at: task.at(at, noise), x, ceiling=ceiling)
         return _calibration(task, found, noise)
     return _loud(whole, x, noise, fixed=unweighted)
 

@@ -15,11 +15,12 @@ import pytest
 import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
+from ragg_runtime.diagnosis import contenders, strong
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import with_steps
-from ragg_runtime.diagnosis.strong import Stage, _charge
+from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.evidence.random_effects import Variance
 from ragg_runtime.evidence.selection import Field, choose
 from ragg_runtime.fit import calibrate
@@ -87,6 +88,30 @@ def test_a_twin_that_takes_some_of_another_effect_does_not_displace_the_right_on
     assert d.found == (first.effect, "imu-acceleration-scale") == (first.effect, second.effect)
 
 
+def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # V_1 feels the disc's spin through omega_z; at this size that is nothing of the catalogue, and nothing else comes near it
+    tried: list[list[str]] = []
+
+    def scored(*arguments: Any) -> contenders.Left:
+        tried.append([e.id for e in arguments[3][0].effects])
+        return left(*arguments)
+
+    left = contenders.left
+    monkeypatch.setattr(contenders, "left", scored)
+    s = scenario(57, duration=300.0)
+    run = s.simulate()
+    flight = run.flight()
+    term = 0.02 * flight.channels["omega_z"] / np.std(flight.channels["omega_z"])
+    d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": flight.outputs["G_out"] + term}))
+    assert ["disc-spin"] in tried
+    assert len(tried) <= strong.CONTENDERS
+    assert (d.verdict, d.found) == ("unexplained", ())
+    first = d.remainder.searches[0].terms[0].term
+    assert (first.harmonic, first.product) == ("const", "omega_z")
+
+
 def test_what_a_strong_effect_leaves_names_none_that_is_like_it() -> None:
     T = np.diag([100.0, 100.0, 100.0, 20.0])  # base, lag, arm-stretch, residual
     T[1:3, 3] = 30.0, 1.0
@@ -100,7 +125,7 @@ def test_what_a_strong_effect_leaves_names_none_that_is_like_it() -> None:
 
 def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
     columns = np.linalg.qr(np.random.default_rng(3).standard_normal((50, 3)))[0] * [1e6, 7.0, 0.1]
-    charge = _charge(columns, 10_000)
+    charge = contenders.charge(columns, 10_000)
     assert charge == pytest.approx(2 * np.log(10_000) + np.log(1.01))  # of those that are seen BIC's
 
 
@@ -208,8 +233,8 @@ def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
 def never_arrives(monkeypatch: pytest.MonkeyPatch) -> None:
     found = calibrate.minimise
 
-    def stopped(*arguments: Any) -> Any:
-        return dataclasses.replace(found(*arguments), converged=False, reason="it was stopped")
+    def stopped(*arguments: Any, **options: Any) -> Any:
+        return dataclasses.replace(found(*arguments, **options), converged=False, reason="it was stopped")
 
     monkeypatch.setattr(calibrate, "minimise", stopped)
 

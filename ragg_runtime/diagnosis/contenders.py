@@ -1,0 +1,117 @@
+"""Effects as contenders: derived into the model of some flights and fitted nonlinearly, and what they leave."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit.fitted import Fitted, calibrated
+from ragg_runtime.fit.off_sheet import QUIET, as_said, room_taken
+from ragg_runtime.fit.prepared_flight import to_nominal
+from ragg_runtime.fit.switching import certain
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument
+from ragg_runtime.instrument.units import RawQuantity
+from ragg_runtime.model.model import Model
+from ragg_runtime.signals.noise_spectrum import Noise
+
+Array = NDArray[np.float64]
+
+HOPELESS = 2.0
+"""Times the chi-square of a contender that leaves but noise, above which another one is given up."""
+
+
+class Extend(Protocol):
+    """Derives a model with further effects; with ``candidates`` also the signatures of the rest.
+
+    Given by the caller: this package cannot derive.
+    """
+
+    def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
+
+
+def charge(columns: Array, rows: int) -> float:
+    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction that
+    the record sees; of one that it does not, by which the evidence with a prior of unit width is lower, ln(1 + s^2).
+
+    Otherwise an effect would lose to a twin for coefficients of which the record says nothing (the third angle of a turn,
+    weak combinations of four accelerometers).
+    """
+    s = np.linalg.svd(columns, compute_uv=False)
+    return float(np.sum(np.where(s < 1.0, np.log1p(s**2), np.log(rows))))
+
+
+def derived(
+    f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
+) -> tuple[Model, Instrument]:
+    """The model of some flights with further effects in it, and the sheet, as sure as it says, with the instants of steps."""
+    model = extend(f.model, ids, candidates=candidates)
+    steps = tuple(
+        EffectSetting(e, MappingProxyType({"t_step": RawQuantity(instants[e], "s")}))
+        for e in ids
+        if e in instants
+    )
+    return model, replace(as_said(f.instrument), effects=(*f.instrument.effects, *steps))
+
+
+@dataclass(frozen=True)
+class Left:
+    """What effects in the model leave.
+
+    Attributes
+    ----------
+    chi2
+        Chi-square, with what the parameters cost.
+    ceiling
+        The one that other contenders must come below; infinite unless but noise is left, with the sheet as sure as it says.
+    arrived
+        Whether the fit came to an optimum.
+    """
+
+    chi2: float
+    ceiling: float
+    arrived: bool
+
+
+def left(
+    f: Fitted,
+    noise: Sequence[Noise],
+    held: frozenset[str],
+    extended: tuple[Model, Instrument],
+    ceiling: float = np.inf,
+) -> Left:
+    """What a nonlinear fit leaves with effects in the model, without what their coefficients are charged.
+
+    Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
+    the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
+    which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
+    A fit that does not get below ``ceiling`` may have ended early.
+    """
+    model, sheet = extended
+    observations = certain(model, sheet, f.observations)
+    instrument, c = calibrated(model, sheet, observations, noise=noise, ceiling=ceiling)
+    others = [n for n, q in enumerate(c.columns) if q.label in held]
+    x = -to_nominal(model, instrument, c)
+    cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
+    if others:
+        # of a Gaussian: the variances once some of its variables are given
+        C = c.covariance[:, others]
+        given = np.linalg.solve(C[others], C.T)
+        cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
+        x -= x[others] @ given
+        known += float(np.sum(given * C.T)) - len(others)
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
+    own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
+    # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
+    # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
+    tails = float(np.sum(np.log1p(own**2) - own**2))
+    noise_alone = c.excess <= QUIET and instrument is sheet
+    return Left(
+        chi2=c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c),
+        ceiling=HOPELESS * c.chi2 if noise_alone else np.inf,
+        arrived=c.converged,
+    )
