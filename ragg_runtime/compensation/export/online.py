@@ -40,7 +40,7 @@ def online_values(c: Contents) -> str:
             *(f"    {float(x):.17g}," for x in c.p),
             "};",
             "",
-            "/* Row of the chain's derivatives, member (-1: all), place, scale (0: not of this output), the sheet's value from the point on. */",
+            "/* Row of the derivatives, member (-1: all), place, scale (0: none of this output), the sheet's value from POINT on. */",
             "static const struct { int row, member, place; double scale, sheet; }",
             "    FITTED[ONLINE_OUTPUTS][FITTED_PARAMETERS] = {",
             *(line for rows in fitted for line in _block([*rows, *[_NONE] * (most - len(rows))])),
