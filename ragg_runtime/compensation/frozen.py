@@ -319,11 +319,14 @@ def looked(
 
     ``c`` is the saved calibration with the noise of these observations.
     """
-    # of the observation, not of the flight: the disc's angle counts from its beginning
-    stretches = [o.part(rows) for o in observations for rows in _stretches(len(o.record.time))]
-    if len(stretches) > len(observations):
-        observations, c = stretches, calibration(saved, model, instrument, stretches)
-    return changed(about(model, instrument, observations, c), root(saved, model, instrument))
+    stretches, noise = [], []
+    for o, own in zip(observations, c.noise, strict=True):
+        # of the observation, not of the flight: the disc's angle counts from its beginning
+        found = [o.part(rows) for rows in _stretches(len(o.record.time))]
+        stretches += found
+        noise += [own] * len(found)
+    f = about(model, instrument, stretches, replace(c, noise=tuple(noise)), candidates=False)
+    return changed(f, root(saved, model, instrument))
 
 
 def _stretches(samples: int) -> list[slice]:
