@@ -132,7 +132,7 @@ class Picker:
             every = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
             return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * every)))]
         there = self.usable[first:last]
-        count = np.count_nonzero(there)
+        count = int(np.count_nonzero(there))
         return _places(there, np.linspace(0, count - 1, min(most, count)).astype(np.intp)) + first
 
     def pick(
@@ -203,7 +203,7 @@ class Picker:
     @cached_property
     def even(self) -> tuple[float, float]:
         """First instant, s, and interval, s, of the steady clock that the file's instants follow."""
-        count = np.count_nonzero(self.flight.valid)
+        count = int(np.count_nonzero(self.flight.valid))
         k = _places(self.flight.valid, np.arange(0, count, max(1, count // 65536)))
         time = self.flight.time[k]
         step, first = (float(c) for c in np.polyfit(k, time, 1))
