@@ -25,8 +25,9 @@ def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(N,): the samples at the end of the sensor's range, if it was reached."""
     usable = valid & np.isfinite(values)
     found = saturation.clipped(values, usable)
-    below = np.where(usable & ~found, np.abs(values), 0.0)
-    top = float(np.max(below))
-    if top == 0.0 or np.sum(found) < LATTICE * np.sum(below >= top * (1 - 1e-12)):
-        return np.zeros(len(values), dtype=np.bool_)
+    below = usable & ~found
+    top = saturation.largest(values, below)
+    edge = sum(np.count_nonzero(size >= top * (1 - 1e-12)) for _, size in saturation.sizes(values, below))
+    if top == 0.0 or np.count_nonzero(found) < LATTICE * edge:
+        found[:] = False
     return found

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,10 @@ CLIPPED = 5
 """Samples at one and the same extreme value that make a saturated output."""
 
 
+PART = 1 << 18
+"""Samples that are looked at together."""
+
+
 def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Of an output (N,), V; the noise, V, does not matter."""
     return bool(np.any(clipped(values, valid)))
@@ -19,11 +25,24 @@ def present(values: Array, valid: NDArray[np.bool_], noise: float) -> bool:
 
 def clipped(values: Array, valid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(N,): the samples of an output that stand at its extreme value, if many of them do."""
-    size = np.abs(np.where(valid, values, 0.0))
-    top = float(np.max(size))
-    at = size >= top * (1 - 1e-12)
+    at = np.zeros(len(values), dtype=np.bool_)
+    top = largest(values, valid)
+    for rows, size in sizes(values, valid):
+        at[rows] = size >= top * (1 - 1e-12)
     # a short record at coarse quantisation may repeat its maximum: neighbours at the top tell a clip
-    neighbours = int(np.sum(at[1:] & at[:-1]))
-    if top == 0.0 or np.sum(at) < CLIPPED or neighbours < 2:
-        return np.zeros(len(values), dtype=np.bool_)
-    return np.asarray(at)
+    neighbours = np.count_nonzero(at[1:] & at[:-1])
+    if top == 0.0 or np.count_nonzero(at) < CLIPPED or neighbours < 2:
+        at[:] = False
+    return at
+
+
+def largest(values: Array, valid: NDArray[np.bool_]) -> float:
+    """The largest absolute value."""
+    return float(np.max([np.max(size) for _, size in sizes(values, valid)], initial=0.0))
+
+
+def sizes(values: Array, valid: NDArray[np.bool_]) -> Iterator[tuple[slice, Array]]:
+    """Rows and their absolute values, 0 where not valid, part by part: what lies on disk need not fit into memory."""
+    for start in range(0, len(values), PART):
+        rows = slice(start, start + PART)
+        yield rows, np.abs(np.where(valid[rows], values[rows], 0.0))

@@ -195,10 +195,9 @@ def export(model_dir: Path, folder: Path, form: str | None) -> None:
             expected="--c, --numpy, --json or --harmonics",
             remedy="see: ragg export --help",
         )
-    m = load(model_dir)
-    for place in after.export(m, folder, form):
+    exported = after.contents(load(model_dir))
+    for place in after.written(exported, folder, form):
         click.echo(f"written: {place}")
-    exported = after.contents(m)
     click.echo("\n".join([f"with {exported.origin}", *exported.limits()]))
 
 

@@ -95,7 +95,7 @@ def prepared(
         root = frozen.root(saved, model, instrument)
         stretches = [schedule.whole(c, root, len(o.record.time)) for o in observations]
         settled, validity = saved.converged, dict(saved.validity)
-        change = frozen.looked(model, instrument, flights, saved, c)
+        change = frozen.looked(model, instrument, observations, saved, c)
     else:
         f = fit(model, instrument, observations)
         c, settled = f.calibration, f.calibration.converged

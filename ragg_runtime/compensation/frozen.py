@@ -313,22 +313,26 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
 
 
 def looked(
-    model: Model, instrument: Instrument, flights: Sequence[Flight], saved: Saved, c: Calibration
+    model: Model, instrument: Instrument, observations: Sequence[Observation], saved: Saved, c: Calibration
 ) -> Change:
-    """The step from frozen parameters to what flights say, of long ones to what some stretches of them say.
+    """The step from frozen parameters to what observations say, of long ones to what some stretches of them say.
 
-    ``c`` is the saved calibration with the noise of these flights.
+    ``c`` is the saved calibration with the noise of these observations.
     """
-    stretches = [
-        x.part(s.rows)
-        for x in flights
-        for s in spread(segments(len(x.time), LOOKED), STRETCHES)
-        if len(x.time) > STRETCHES * LOOKED
-    ] or flights
-    observations = observations_of(stretches, instrument)
-    if stretches is not flights:
-        c = calibration(saved, model, instrument, observations)
-    return changed(about(model, instrument, observations, c), root(saved, model, instrument))
+    stretches, noise = [], []
+    for o, own in zip(observations, c.noise, strict=True):
+        # of the observation, not of the flight: the disc's angle counts from its beginning
+        found = [o.part(rows) for rows in _stretches(len(o.record.time))]
+        stretches += found
+        noise += [own] * len(found)
+    f = about(model, instrument, stretches, replace(c, noise=tuple(noise)), candidates=False)
+    return changed(f, root(saved, model, instrument))
+
+
+def _stretches(samples: int) -> list[slice]:
+    if samples <= STRETCHES * LOOKED:
+        return [slice(0, samples)]
+    return [s.rows for s in spread(segments(samples, LOOKED), STRETCHES)]
 
 
 def changed(f: Fitted, root: Array) -> Change:

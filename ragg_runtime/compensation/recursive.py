@@ -3,8 +3,8 @@
 A filter is of one output. The states are the fitted parameters of its accelerometers (steps from a point p, in their
 scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo per root second. What is
 kept is the triangle R and the right-hand side z of R x = z, so that a sample is one more row, turned into them; nothing is ever
-inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The same
-steps, in the same order, are those of the exported C.
+inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The exported
+C is the same filter to rounding, a sample at a time.
 """
 
 from __future__ import annotations
@@ -171,10 +171,10 @@ class Online:
         if kept == 1.0:
             return
         n = len(self.columns)
-        sheet = np.zeros((n, n + 3))
-        sheet[:, :n] = np.sqrt(1.0 - kept) * np.eye(n)
-        sheet[:, -1] = np.sqrt(1.0 - kept) * self.to_nominal
-        self.R = _triangle(np.vstack([np.sqrt(kept) * self.R, sheet]))[: n + 2]
+        before = np.diag([1.0] * n + [1.0 / UNKNOWN_EO] * 2)
+        known = np.column_stack([before, np.append(self.to_nominal, np.zeros(2))])
+        whole = np.vstack([np.sqrt(kept) * self.R, np.sqrt(1.0 - kept) * known])
+        self.R = _triangle(whole)[: n + 2]
 
     def gradient(self) -> tuple[float, float, float, float]:
         """inline, cross, and their standard deviations, Eo, whatever the parameters may be."""

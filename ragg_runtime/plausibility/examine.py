@@ -105,7 +105,8 @@ def _saturated(p: Picker) -> list[str]:
     if p.output.name not in p.flight.outputs:
         return []
     G = p.flight.outputs[p.output.name]
-    clipped = int(np.sum(p.flight.valid & np.isfinite(G) & ~p.usable))
+    clipped = np.count_nonzero(p.flight.valid & np.isfinite(G) & ~p.usable)
+    let_go(G)
     if not clipped or p.recorded.separate:
         return []
     top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))

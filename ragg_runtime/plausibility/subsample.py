@@ -127,14 +127,13 @@ class Picker:
 
     def rows(self, first: int = 0, last: int | None = None, most: int = MOST) -> Index:
         """At most ``most`` usable rows of a stretch; neighbours where only the channels are recorded."""
-        there = (
-            self._there if first == 0 and last is None else np.flatnonzero(self.usable[first:last]) + first
-        )
         if self.recorded.demodulated:
             whole = np.arange(first, len(self.usable) if last is None else last)
             every = len(self.usable) / max(float(np.sum(self.usable)), 1.0)
             return whole[: max(most, len(self.taps) + max(2 * len(self.taps), round(WANTED * every)))]
-        return np.asarray(there[np.linspace(0, len(there) - 1, min(most, len(there))).astype(np.intp)])
+        there = self.usable[first:last]
+        count = int(np.count_nonzero(there))
+        return _places(there, np.linspace(0, count - 1, min(most, count)).astype(np.intp)) + first
 
     def pick(
         self,
@@ -202,14 +201,10 @@ class Picker:
         )
 
     @cached_property
-    def _there(self) -> Index:
-        return np.flatnonzero(self.usable)
-
-    @cached_property
     def even(self) -> tuple[float, float]:
         """First instant, s, and interval, s, of the steady clock that the file's instants follow."""
-        k = np.flatnonzero(self.flight.valid)
-        k = k[:: max(1, len(k) // 65536)]
+        count = int(np.count_nonzero(self.flight.valid))
+        k = _places(self.flight.valid, np.arange(0, count, max(1, count // 65536)))
         time = self.flight.time[k]
         step, first = (float(c) for c in np.polyfit(k, time, 1))
         scatter = float(np.std(time - first - step * k))
@@ -232,6 +227,17 @@ class Picker:
 
 CHUNK = 1 << 16
 """Rows of a whole flight that are looked at at a time."""
+
+
+def _places(there: Mask, which: Index) -> Index:
+    """Where some of a mask's marks stand, counted among the marks, in order: an index of all would be eight times the mask."""
+    found, before = [np.empty(0, dtype=np.intp)], 0
+    for start in range(0, len(there), CHUNK):
+        here = np.flatnonzero(there[start : start + CHUNK])
+        first, last = np.searchsorted(which, (before, before + len(here)))
+        found.append(here[which[first:last] - before] + start)
+        before += len(here)
+    return np.concatenate(found)
 
 
 def _picked(column: Array, rows: Index) -> Array:
@@ -258,13 +264,16 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
     own = instrument.layout.outputs[place].name
     if own in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[own], usable)
+    let_go(*flight.outputs.values())
     derived = {}
     for name in inputs:
         if name in SPIN:
             disc = instrument.layout.discs[instrument.layout.outputs[place].disc]
             encoder = flight.channels.get(disc.angle_column)
             degree = spin_degree(encoder, flight.rate)
-            derived[name] = spin(name, encoder, len(flight), flight.rate, disc.spin_frequency, degree)
+            samples = 1 if encoder is None else len(flight)  # without an encoder it is a constant
+            one = spin(name, encoder, samples, flight.rate, disc.spin_frequency, degree)
+            derived[name] = np.broadcast_to(one, len(flight))
             continue
         order = 2 if name.startswith("d2_") else 1
         base = name.removeprefix("d2_").removeprefix("d_")

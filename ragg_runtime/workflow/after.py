@@ -260,9 +260,14 @@ def _chain(m: Loaded) -> str:
 
 def export(m: Loaded, folder: Path, form: str) -> list[Path]:
     """Write the model into a folder, as ``c``, ``numpy``, ``json`` or ``harmonics``; the files."""
+    return written(contents(m), folder, form)
+
+
+def written(c: Contents, folder: Path, form: str) -> list[Path]:
+    """Write what is exported into a folder; the files."""
     if form not in FORMS:
         raise UserError("unknown form of export", found=repr(form), expected=", ".join(FORMS))
-    return write_folder(folder, FORMS[form](contents(m)))
+    return write_folder(folder, FORMS[form](c))
 
 
 def _harmonics(c: Contents) -> Mapping[str, str]:

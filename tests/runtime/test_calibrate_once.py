@@ -120,6 +120,16 @@ def test_what_is_compensated_by_a_calibration_that_does_not_hold_says_so(
     assert "does NOT hold" in c["notes"][0]
 
 
+def test_stretches_of_a_long_flight_do_not_contradict_a_calibration_that_holds(
+    kept: tuple[Any, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without an encoder the disc's angle counts from the flight's beginning, not from a stretch's."""
+    monkeypatch.setattr(frozen, "LOOKED", 500)
+    c = after.compensate(loop.load(kept[0]), [flights()[1]], "frozen").as_json()
+    assert c["frozen"]["holds"] is True
+    assert "notes" not in c
+
+
 def test_chi_square_is_one_a_direction_if_nothing_changed() -> None:
     """Over several pairs of flights of unchanged instruments the statistic has its mean."""
     total, directions = 0.0, 0

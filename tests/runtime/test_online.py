@@ -134,15 +134,17 @@ def samples(o: Observation, G: Array) -> str:
     return table({f"{n} [{SI_UNITS[n]}]": x for n, x in columns.items()})
 
 
-@pytest.mark.parametrize("walk", [0.0, 1.0])
-def test_the_c_takes_the_same_steps(walk: float, exported: tuple[Path, Path, Path]) -> None:
+@pytest.mark.parametrize(("walk", "gap"), [(0.0, 0.0), (1.0, 0.0), (1.0, 1e6)])
+def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path, Path, Path]) -> None:
+    """Also beyond a gap so long that nothing of what the flight said is left."""
     model, folder, two = exported
     m = loop.load(model)
     x = after.read_for_compensation(m, [two])[0].part(slice(0, 3000))
     o = observe(x, m.instrument)
     valid = o.record.valid.copy()
     valid[500:700] = False
-    o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid))
+    time = o.record.time + np.where(np.arange(3000) < 1500, 0.0, gap)
+    o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid, time=time))
     c = after.contents(m)
     sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
     done = subprocess.run(

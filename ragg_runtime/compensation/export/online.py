@@ -40,8 +40,8 @@ def online_values(c: Contents) -> str:
             *(f"    {float(x):.17g}," for x in c.p),
             "};",
             "",
-            "/* Row of the chain's derivatives, accelerometer (-1: all, -2: none), place, scale, the sheet's value from the point on. */",
-            "static const struct { int row, accelerometer, place; double scale, sheet; }",
+            "/* Row of the derivatives, member (-1: all), place, scale (0: none of this output), the sheet's value from POINT on. */",
+            "static const struct { int row, member, place; double scale, sheet; }",
             "    FITTED[ONLINE_OUTPUTS][FITTED_PARAMETERS] = {",
             *(line for rows in fitted for line in _block([*rows, *[_NONE] * (most - len(rows))])),
             "};",
@@ -62,7 +62,7 @@ def online_values(c: Contents) -> str:
     )
 
 
-_NONE = "{0, -2, 0, 0.0, 0.0},"
+_NONE = "{0, -1, 0, 0.0, 0.0},"
 
 
 def _outputs(outputs: Sequence[tuple[int, Out]]) -> list[str]:
@@ -108,10 +108,11 @@ def _fitted(c: Contents, place: int) -> list[str]:
     columns = base_columns(c.model, c.instrument)
     rows = {name: k for k, (name, _) in enumerate(c.chain.ROWS)}
     nominal = vector(c.model, c.instrument)
+    members = c.outputs()[place].members
     found = []
     for k in own_columns([q for q, _ in columns], c.instrument, place):
         q, at = columns[k]
-        j = -1 if q.accelerometer is None else q.accelerometer - 1
+        j = -1 if q.accelerometer is None else members.index(q.accelerometer - 1)
         sheet = float((nominal[at] - c.p[at]) / q.scale)
         found.append(f"{{{rows[q.name]}, {j}, {at}, {q.scale:.17g}, {sheet:.17g}}}, /* {comment(q.label)} */")
     return found

@@ -89,7 +89,8 @@ def crossings(tracks: Sequence[Track | None]) -> list[Crossing]:
     for k, (i, first) in enumerate(placed):
         rest = slice(k + 1, None)
         near = np.all((low[k] <= high[rest]) & (low[rest] <= high[k]), axis=1)
-        for m in k + 1 + np.flatnonzero(near & (steep(k)[rest] >= STEEPEST)):
+        others = k + 1 + np.flatnonzero(near)
+        for m in others[steep(k, others) >= STEEPEST]:
             j, second = placed[m]
             for a, b in _meeting(boxes[k], boxes[m]):
                 found += _crossed(i, j, first, second, a * _CHUNK, b * _CHUNK)
@@ -135,14 +136,18 @@ def repeats(
     placed = [(k, t) for k, t in enumerate(tracks) if t is not None]
     steep = _angles([t for _, t in placed])
     east, north, half, width = np.array([t.box for _, t in placed]).reshape(-1, 4).T
+    reach = 1.06 * (half + width) + BESIDE  # with it two circles meet wherever the boxes below do
     found = []
     for k, (i, first) in enumerate(placed):
+        e, n = east[k + 1 :] - east[k], north[k + 1 :] - north[k]
+        others = k + 1 + np.flatnonzero(np.hypot(e, n) <= reach[k] + reach[k + 1 :])
+        angle = steep(k, others)
         # What _shared asks for cannot be where the boxes are further from each other, along the first or across it.
-        s, c, turn = np.sin(first.direction), np.cos(first.direction), np.sin(steep(k))
-        e, n = east - east[k], north - north[k]
-        near = np.abs(e * s + n * c) <= 1.0 + half[k] + half + width * turn
-        near &= np.abs(e * c - n * s) <= 1.0 + BESIDE + width[k] + width + half * turn
-        for m in k + 1 + np.flatnonzero((near & (steep(k) <= STEEPEST))[k + 1 :]):
+        s, c, turn = np.sin(first.direction), np.cos(first.direction), np.sin(angle)
+        e, n = east[others] - east[k], north[others] - north[k]
+        near = np.abs(e * s + n * c) <= 1.0 + half[k] + half[others] + width[others] * turn
+        near &= np.abs(e * c - n * s) <= 1.0 + BESIDE + width[k] + width[others] + half[others] * turn
+        for m in others[near & (angle <= STEEPEST)]:
             j, second = placed[m]
             shared = _shared(first, second)
             if shared is not None:
@@ -192,10 +197,10 @@ def _crossed(i: int, j: int, first: Track, second: Track, a: int, b: int) -> lis
     ]
 
 
-def _angles(placed: Sequence[Track]) -> Callable[[int], Array]:
-    """Of a track's number: the angles, rad up to a right one, that it makes with each."""
+def _angles(placed: Sequence[Track]) -> Callable[[int, NDArray[np.intp]], Array]:
+    """Of a track's number: the angles, rad up to a right one, that it makes with others."""
     direction = np.array([t.direction for t in placed])
-    return lambda k: np.abs(np.arcsin(np.sin(direction[k] - direction)))
+    return lambda k, others: np.abs(np.arcsin(np.sin(direction[k] - direction[others])))
 
 
 def _difference(lines: Sequence[SurveyLine], c: Crossing, name: str) -> float:

@@ -48,13 +48,11 @@ def crossovers(
     ends = np.array([_ends(t) for _, t in placed]).reshape(-1, 4)
     for i, track in placed:
         line = lines[i]
-        meet = _meet(ends, _ends(track))
+        own = _ends(track)
+        near = np.flatnonzero(_beside(ends, own))
+        meet = near[_meet(ends[near], own)]
         bearing = _bearing(track)
-        met = [
-            (placed[k][0], intersection(track, placed[k][1], bearing))
-            for k in np.flatnonzero(meet)
-            if placed[k][0] != i
-        ]
+        met = [(placed[k][0], intersection(track, placed[k][1], bearing)) for k in meet if placed[k][0] != i]
         for name in channels:
             d = np.array([_difference(line, lines[j], name, places) for j, places in met])
             d = d[np.isfinite(d)]
@@ -111,6 +109,13 @@ def _ends(t: Track) -> Array:
     return np.array([t.east[0], t.north[0], t.east[-1], t.north[-1]])
 
 
+def _beside(controls: Array, traverse: Array) -> NDArray[np.bool_]:
+    """(n,): whether the upright boxes about the ends overlap, to a metre; where they do not no lines meet."""
+    a, b = (f(controls[:, :2], controls[:, 2:]) for f in (np.minimum, np.maximum))
+    c, d = (f(traverse[:2], traverse[2:]) for f in (np.minimum, np.maximum))
+    return np.asarray(((a <= d + 1.0) & (c <= b + 1.0)).all(axis=1))
+
+
 def _meet(controls: Array, traverse: Array) -> NDArray[np.bool_]:
     """(n,): whether the straight lines between the ends (n, 4) meet the one between the ends (4,)."""
 
@@ -128,7 +133,8 @@ def groups(lines: Sequence[SurveyLine], found: Sequence[Repeat]) -> list[list[in
     n = len(lines)
     joined = csr_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
     _, labels = connected_components(joined, directed=False)
-    sets = [np.flatnonzero(labels == k).tolist() for k in range(int(labels.max(initial=-1)) + 1)]
+    order = np.argsort(labels, kind="stable")
+    sets = [s.tolist() for s in np.split(order, np.cumsum(np.bincount(labels))[:-1])]
     return [s for s in sets if len(s) > 1]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, insort
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
@@ -110,7 +111,7 @@ def read_lines(paths: Sequence[Path], mapping: Mapped | None = None) -> Read:
     """The lines of all files; a line that cannot be used does not hinder the others."""
     lines: list[SurveyLine] = []
     refused: list[tuple[str, UserError]] = []
-    before: dict[Any, list[tuple[float, SurveyLine]]] = {}
+    before: dict[Any, list[tuple[float, int, SurveyLine]]] = {}
     notes: dict[str, None] = {}
     for path in paths:
         sources = open_sources(path, mapping, lenient=True)
@@ -152,21 +153,21 @@ def _still(lines: Sequence[SurveyLine]) -> Iterator[str]:
             yield f"{n} has no values, or one value alone, on {still} of {len(lines)} lines"
 
 
-def _check_new(line: SurveyLine, before: dict[Any, list[tuple[float, SurveyLine]]]) -> None:
+def _check_new(line: SurveyLine, before: dict[Any, list[tuple[float, int, SurveyLine]]]) -> None:
     """UserError if the same line was read before: it would agree with itself, and count twice.
 
-    ``before``: (length, gradients) -> lines, each with the size of its first gradient, by which most are told apart.
+    ``before``: (length, gradients) -> lines, by the size of their first gradient, by which most are told apart.
     """
     size = _size(line.channels[line.gradients[0]])
-    alike = before.setdefault((len(line), line.gradients), [])
-    for of_other, other in alike:
-        if abs(size - of_other) <= 2.0 * SAME * size and _same(line, other):
+    alike, room = before.setdefault((len(line), line.gradients), []), 2.0 * SAME * size
+    for _, _, other in alike[bisect_left(alike, (size - room,)) : bisect_left(alike, (size + room, np.inf))]:
+        if _same(line, other):
             raise UserError(
                 f"the same record as line {other.name} of {other.flight}: it would count twice",
                 where=f"line {line.name} of {line.flight}",
                 remedy="give each line once",
             )
-    alike.append((size, line))
+    insort(alike, (size, len(alike), line))
 
 
 def _same(line: SurveyLine, other: SurveyLine) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import butter, detrend, sosfilt, sosfiltfilt, welch
@@ -51,9 +53,7 @@ def band_pass(values: Array, rate: float, low: float, high: float) -> Array | No
     high = min(high, 0.45 * rate)
     if whole is None or high <= 1.2 * low or len(whole) < 64:
         return None
-    return np.asarray(
-        sosfiltfilt(butter(4, (low, high), "band", fs=rate, output="sos"), whole - np.mean(whole))
-    )
+    return np.asarray(sosfiltfilt(_sections(4, low, high, rate), whole - np.mean(whole)))
 
 
 def causal_band(values: Array, rate: float, low: float, high: float, order: int) -> Array | None:
@@ -61,7 +61,12 @@ def causal_band(values: Array, rate: float, low: float, high: float, order: int)
     if not 0 < low < high < rate / 2:
         return None
     # In sections: of one polynomial of twelfth order rounding makes 1e15 times the figure at 16 Hz, and at 1 Hz 1e-8 of it.
-    return np.asarray(sosfilt(butter(order, (low, high), "band", fs=rate, output="sos"), values))
+    return np.asarray(sosfilt(_sections(order, low, high, rate), values))
+
+
+@lru_cache(maxsize=256)  # of every line the same: to make it takes ten times as long as to use it
+def _sections(order: int, low: float, high: float, rate: float) -> Array:
+    return np.asarray(butter(order, (low, high), "band", fs=rate, output="sos"))
 
 
 def rolling_std(values: Array, window: int) -> Array:

@@ -1,73 +1,54 @@
-/* See online.h. The steps and their order are those of ragg_runtime.compensation.recursive (ragg). */
+/* See online.h. The filter is that of ragg_runtime.compensation.recursive (ragg), the gradient before the parameters. */
 #include "chain.h"
 
 #include "online.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { FITTED_N = FITTED_PARAMETERS, STATES = RAGG_ONLINE_STATES, WIDTH = RAGG_ONLINE_WIDTH };
+enum { INLINE = 0, CROSS = 1, PARAMETER_0 = 2, END = PARAMETER_0 + FITTED_PARAMETERS };
+enum { STATES = RAGG_ONLINE_STATES, WIDTH = RAGG_ONLINE_WIDTH };
 
 static const double UPDATE = 0.25;     /* s; the gradient takes a step of its walk */
 static const double FADE = 10.0;       /* s; the parameters forget a step */
 static const double STEEPER = 2.0;     /* walk of inline over that of cross */
 static const double UNKNOWN_EO = 1e4;  /* of the gradient before anything is known */
+static const double LEAST = 1e-100;    /* information that may be left of a state: what divides by it stays a number */
 
-/* Turn row and into, both zero before column first, so that row vanishes there; four columns at a time, for vectors. */
-static void turn(double *restrict into, double *restrict row, int first) {
-    if (row[first] == 0.0) {
-        return;
-    }
-    const double length = sqrt(into[first] * into[first] + row[first] * row[first]);
-    const double once = 1.0 / length, c = into[first] * once, s = row[first] * once;
-    for (int k = first / 4 * 4; k < WIDTH; k += 4) {
-        for (int m = k; m < k + 4; ++m) {
-            const double x = into[m], y = row[m];
-            into[m] = c * x + s * y;
-            row[m] = c * y - s * x;
+/* One more row of the least squares, of a right-hand side of this variance, with zeros before column first: rotations without
+ * roots (Gentleman, J. Inst. Math. Appl. 12 (1973) 329) turn it into the triangle, two of its rows at a time. */
+static void fold(ragg_online *o, double *restrict row, double variance, int first) {
+    for (int i = first / 2 * 2; i < STATES; i += 2) {
+        double *restrict U = o->U[i], *restrict next = o->U[i + 1], *D = o->D + i;
+        const double x[2] = {row[i], row[i + 1] - row[i] * U[i + 1]};
+        double step[2];
+        for (int n = 0; n < 2; ++n) {
+            const double share = x[n] / D[n];
+            D[n] += x[n] * x[n] / variance;
+            variance += share * x[n];
+            step[n] = share / variance;
+        }
+        for (int k = i; k < WIDTH; ++k) { /* of vectors, if nothing else is in it */
+            const double y = row[k] - x[0] * U[k], z = y - x[1] * next[k];
+            U[k] += step[0] * y;
+            next[k] += step[1] * z;
+            row[k] = z;
         }
     }
-    row[first] = 0.0;
 }
 
-/* One more row of the least squares. */
-static void fold(ragg_online *o, double row[WIDTH], int first) {
-    for (int i = first; i < STATES; ++i) {
-        turn(o->R[i], row, i);
-    }
-}
-
-/* g' = g + w, w of variance walk^2 t (inline STEEPER times the walk): w is eliminated, column by column, from the last row up, so that the triangle stays. */
+/* g' = g + w, w of variance walk^2 t (inline STEEPER times the walk): the gradient stands before the parameters, so that its
+ * two rows alone change. */
 static void walk(ragg_online *o, double t) {
-    double own[2][WIDTH] = {{0.0}}, coupled[STATES][2], pivot[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
-    for (int k = 0; k < 2; ++k) {
-        pivot[k][k] = 1.0 / ((k == 0 ? STEEPER : 1.0) * o->walk * sqrt(t));
+    const double cross = o->walk * o->walk * t, inline_ = STEEPER * STEEPER * cross;
+    double *D = o->D, *restrict into = o->U[0], *restrict from = o->U[1];
+    const double kept = 1.0 / (1.0 + cross * D[1]), coupling = into[1], share = coupling * cross * D[1] * kept;
+    for (int k = 1; k < WIDTH; ++k) {
+        into[k] -= share * from[k];
     }
-    for (int i = 0; i < STATES; ++i) {
-        for (int k = 0; k < 2; ++k) {
-            coupled[i][k] = -o->R[i][FITTED_N + k];
-        }
-    }
-    for (int k = 0; k < 2; ++k) {
-        for (int i = STATES - 1; i >= 0; --i) {
-            if (coupled[i][k] == 0.0) {
-                continue;
-            }
-            const double length = sqrt(pivot[k][k] * pivot[k][k] + coupled[i][k] * coupled[i][k]);
-            const double c = pivot[k][k] / length, s = coupled[i][k] / length;
-            for (int m = k; m < 2; ++m) {
-                const double x = pivot[k][m], y = coupled[i][m];
-                pivot[k][m] = c * x + s * y;
-                coupled[i][m] = c * y - s * x;
-            }
-            double *restrict into = own[k], *restrict row = o->R[i];
-            for (int m = i; m < WIDTH; ++m) {
-                const double x = into[m], y = row[m];
-                into[m] = c * x + s * y;
-                row[m] = c * y - s * x;
-            }
-        }
-    }
+    D[0] = 1.0 / (1.0 / D[0] + inline_ + coupling * coupling * cross * kept);
+    D[1] *= kept;
 }
 
 /* What flights said fades; what the sheet says comes back. */
@@ -77,34 +58,36 @@ static void fade(ragg_online *o, double t) {
         return;
     }
     for (int i = 0; i < STATES; ++i) {
-        for (int k = i; k < WIDTH; ++k) {
-            o->R[i][k] *= sqrt(kept);
-        }
+        o->D[i] = o->D[i] * kept + LEAST;
     }
-    for (int i = 0; i < FITTED_N; ++i) {
+    for (int i = 0; i < END; ++i) {
         double row[WIDTH] = {0.0};
-        row[i] = sqrt(1.0 - kept);
-        row[STATES] = sqrt(1.0 - kept) * FITTED[o->output][i].sheet;
-        fold(o, row, i);
+        row[i] = i < PARAMETER_0 ? 1.0 / UNKNOWN_EO : 1.0;
+        row[STATES] = i < PARAMETER_0 ? 0.0 : FITTED[o->output][i - PARAMETER_0].sheet;
+        fold(o, row, 1.0 / (1.0 - kept), i);
     }
 }
 
 void ragg_online_start(ragg_online *o, int output, double noise, double walk_, double forget) {
     memset(o, 0, sizeof *o);
     o->output = output, o->noise = noise, o->walk = walk_, o->forget = forget;
-    for (int i = 0; i < FITTED_N; ++i) {
-        for (int k = i; k < FITTED_N; ++k) {
-            o->R[i][k] = START[output][i * FITTED_N - i * (i - 1) / 2 + k - i];
-        }
-        o->R[i][STATES] = START_AT_SHEET ? FITTED[output][i].sheet : 0.0;
+    for (int i = 0; i < STATES; ++i) {
+        o->U[i][i] = 1.0;
+        o->D[i] = i < PARAMETER_0 ? 1.0 / (UNKNOWN_EO * UNKNOWN_EO) : 1.0;
     }
-    for (int i = FITTED_N; i < STATES; ++i) {
-        o->R[i][i] = 1.0 / UNKNOWN_EO;
+    const double *root = START[output];
+    for (int i = PARAMETER_0; i < END; ++i) {
+        const double first = *root;
+        o->D[i] = first * first;
+        for (int k = i; k < END; ++k) {
+            o->U[i][k] = *root++ / first;
+        }
+        o->U[i][STATES] = START_AT_SHEET ? FITTED[output][i - PARAMETER_0].sheet : 0.0;
     }
 }
 
 /* The sample as a row; 0 where something in it is no number. */
-static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G, double row[WIDTH]) {
+static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G, double *restrict row) {
     const double *series[ONLINE_INPUTS], *encoder = isnan(angle) ? NULL : &angle;
     const int output = o->output;
     enum { MEMBERS = sizeof MEMBER[0] / sizeof MEMBER[0][0] };
@@ -116,33 +99,31 @@ static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS]
     for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
         ragg_chain_derivatives((size_t)MEMBER[output][m].j, 1, &t, series, POINT, encoder, D[m]);
     }
-    for (int n = 0; n < FITTED_N; ++n) {
-        const int own = FITTED[output][n].accelerometer, k = FITTED[output][n].row;
-        row[n] = 0.0;
-        for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
-            if (own == -1 || own == MEMBER[output][m].j) {
-                row[n] += MEMBER[output][m].sign * FITTED[output][n].scale * D[m][k];
-            }
+    for (int n = 0; n < FITTED_PARAMETERS; ++n) {
+        const int own = FITTED[output][n].member, k = FITTED[output][n].row;
+        double sum = 0.0;
+        for (int m = own < 0 ? 0 : own; m < (own < 0 ? ONLINE_OUTPUT[output].members : own + 1); ++m) {
+            sum += MEMBER[output][m].sign * FITTED[output][n].scale * D[m][k];
         }
+        row[PARAMETER_0 + n] = sum;
     }
     const double turns = POINT[SPIN[output]] * t;
     const double phi = encoder ? angle : 6.283185307179586 * (turns - rint(turns));
     const double carrier = 2.0 * phi + ONLINE_OUTPUT[output].phase;
-    row[FITTED_N] = 0.5 * ONLINE_OUTPUT[output].scale_factor * sin(carrier);
-    row[FITTED_N + 1] = -ONLINE_OUTPUT[output].scale_factor * cos(carrier);
+    row[INLINE] = 0.5 * ONLINE_OUTPUT[output].scale_factor * sin(carrier);
+    row[CROSS] = -ONLINE_OUTPUT[output].scale_factor * cos(carrier);
     row[STATES] = G - predicted;
-    for (int k = STATES + 1; k < WIDTH; ++k) {
-        row[k] = 0.0;
-    }
     int whole = 1;
     for (int k = 0; k < WIDTH; ++k) {
-        row[k] /= o->noise;
-        whole = whole && isfinite(row[k]);
+        whole &= fabs(row[k]) <= DBL_MAX;
     }
     return whole;
 }
 
 int ragg_online_step(ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G) {
+    if (!isfinite(t)) {
+        return 0;
+    }
     const double dt = o->begun ? t - o->before : 0.0;
     int stepped = 0;
     o->begun = 1, o->before = t;
@@ -158,34 +139,39 @@ int ragg_online_step(ragg_online *o, double t, const double in[ONLINE_INPUTS], d
         fade(o, o->faded);
         o->faded = 0.0;
     }
-    double row[WIDTH];
+    double row[WIDTH] = {0.0};
     if (row_of(o, t, in, angle, G, row)) {
-        fold(o, row, 0);
+        fold(o, row, o->noise * o->noise, 0);
     }
     return stepped;
 }
 
 ragg_gradient ragg_online_gradient(const ragg_online *o) {
-    const double a = o->R[FITTED_N][FITTED_N], b = o->R[FITTED_N][FITTED_N + 1], c = o->R[FITTED_N + 1][FITTED_N + 1];
-    ragg_gradient g;
-    g.cross_Eo = o->R[FITTED_N + 1][STATES] / c;
-    g.inline_Eo = (o->R[FITTED_N][STATES] - b * g.cross_Eo) / a;
-    g.cross_std = 1.0 / fabs(c);
-    g.inline_std = sqrt(1.0 / (a * a) + (b / (a * c)) * (b / (a * c)));
+    /* Rows of the inverse of the triangle, of inline and of cross: what they leave of the right-hand side is the state, and their
+     * squares over D are its variance. */
+    double one[WIDTH] = {[INLINE] = 1.0}, other[WIDTH] = {[CROSS] = 1.0}, square[2] = {0.0, 0.0};
+    for (int i = 0; i < STATES; ++i) {
+        const double a = one[i], b = other[i];
+        square[0] += a * a / o->D[i];
+        square[1] += b * b / o->D[i];
+        for (int k = i; k < WIDTH; ++k) {
+            one[k] -= a * o->U[i][k];
+            other[k] -= b * o->U[i][k];
+        }
+    }
+    const ragg_gradient g = {-one[STATES], -other[STATES], sqrt(square[0]), sqrt(square[1])};
     return g;
 }
 
 void ragg_online_parameters(const ragg_online *o, double p[ONLINE_PARAMETERS]) {
-    double x[STATES];
-    for (int i = STATES - 1; i >= 0; --i) {
-        double sum = o->R[i][STATES];
-        for (int k = i + 1; k < STATES; ++k) {
-            sum -= o->R[i][k] * x[k];
-        }
-        x[i] = sum / o->R[i][i];
-    }
+    double x[END];
     memcpy(p, POINT, sizeof POINT);
-    for (int n = 0; n < FITTED_N; ++n) {
-        p[FITTED[o->output][n].place] += x[n] * FITTED[o->output][n].scale;
+    for (int i = END - 1; i >= PARAMETER_0; --i) {
+        x[i] = o->U[i][STATES];
+        for (int k = i + 1; k < END; ++k) {
+            x[i] -= o->U[i][k] * x[k];
+        }
+        const int n = i - PARAMETER_0;
+        p[FITTED[o->output][n].place] += x[i] * FITTED[o->output][n].scale;
     }
 }

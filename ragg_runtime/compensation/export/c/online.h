@@ -8,12 +8,13 @@
 #include "online_values.h"
 
 enum {
-    RAGG_ONLINE_STATES = FITTED_PARAMETERS + 2,
-    RAGG_ONLINE_WIDTH = (RAGG_ONLINE_STATES + 4) / 4 * 4 /* and the right-hand side; zeros up to a multiple of four */
+    RAGG_ONLINE_STATES = (FITTED_PARAMETERS + 3) / 2 * 2, /* an even number: the last may be one that nothing depends on */
+    RAGG_ONLINE_WIDTH = (RAGG_ONLINE_STATES + 4) / 4 * 4  /* and the right-hand side; zeros up to a multiple of four, for vectors */
 };
 
 typedef struct {
-    double R[RAGG_ONLINE_STATES][RAGG_ONLINE_WIDTH]; /* upper triangle, and the right-hand side */
+    double U[RAGG_ONLINE_STATES][RAGG_ONLINE_WIDTH]; /* upper triangle, ones on its diagonal, and the right-hand side */
+    double D[RAGG_ONLINE_STATES];                    /* the information is U^T D U; first the gradient's, inline and cross */
     double noise, walk, forget;
     double before, waited, faded;
     int begun, output;

@@ -18,7 +18,8 @@
 const char *const ragg_program = "ragg_online";
 
 static ragg_online filters[ONLINE_OUTPUTS];
-static int there[ONLINE_OUTPUTS], stepped[ONLINE_OUTPUTS];
+static ragg_gradient latest[ONLINE_OUTPUTS];
+static int there[ONLINE_OUTPUTS], gradient[INPUTS]; /* outputs that are recorded; inputs that are recorded gradients */
 
 /* Take sample i, at t s since the first; whether the gradient has taken a step. */
 static int take(const ragg_record *r, size_t i, double t) {
@@ -31,12 +32,14 @@ static int take(const ragg_record *r, size_t i, double t) {
         const double *in[INPUTS], *angle = ragg_inputs(r, which, i, in);
         double x[ONLINE_INPUTS];
         for (size_t k = 0; k < INPUTS; ++k) {
-            x[k] = INPUT[k].column != DISC_ANGLE && strncmp(COLUMN[INPUT[k].column].name, "Gamma_", 6) == 0 ? 0.0 : *in[k];
+            x[k] = gradient[k] ? 0.0 : *in[k];
         }
         double G = r->column[FIRST_OUTPUT + (int)which][i];
         G = angle && isnan(*angle) ? (double)NAN : G;
-        stepped[n] = ragg_online_step(&filters[n], t, x, angle ? *angle : (double)NAN, G);
-        any |= stepped[n];
+        if (ragg_online_step(&filters[n], t, x, angle ? *angle : (double)NAN, G)) {
+            latest[n] = ragg_online_gradient(&filters[n]);
+            any = 1;
+        }
     }
     return any;
 }
@@ -56,7 +59,7 @@ static void tell(double t) {
     printf("%.17g", t);
     for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
         if (there[n]) {
-            const ragg_gradient g = ragg_online_gradient(&filters[n]);
+            const ragg_gradient g = latest[n];
             printf(",%.17g,%.17g,%.17g,%.17g", g.inline_Eo, g.cross_Eo, g.inline_std, g.cross_std);
         }
     }
@@ -70,6 +73,9 @@ int main(int count, char **arguments) {
     }
     static ragg_record r;
     ragg_read(&r, stdin, 1);
+    for (size_t k = 0; k < INPUTS; ++k) {
+        gradient[k] = INPUT[k].column != DISC_ANGLE && strncmp(COLUMN[INPUT[k].column].name, "Gamma_", 6) == 0;
+    }
     int any = 0;
     for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
         there[n] = r.there[FIRST_OUTPUT + ONLINE_OUTPUT[n].which];
