@@ -250,7 +250,7 @@ def _outside(lines: Sequence[Line]) -> str:
         "relaxations of the forces that turn with the disc, terms that come and go, and lines in the spectrum were written into the\n"
         "dictionary together with terms of this table that they find, or because one of them had been missed. Of these the table\n"
         "says that the search works, not what it would do with physics that nobody thought of. And three have become effects of the\n"
-        "catalogue since they were written down (bias jump, spin rate off, d^2 f_i/dt^2): to name those is counted as wrong all the same.\n\n"
+        "catalogue since they were written down (bias jump, spin rate off, d^2 f_i/dt^2): naming those counts as wrong nonetheless.\n\n"
         + _table(["term", "strength with mimics", "verdict", "strongest terms named (sigmas)"], rows)
     )
 
