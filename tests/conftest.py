@@ -23,7 +23,13 @@ _cache = os.environ.setdefault("RAGG_TESTS_CACHE", f"{_home}/cache")
 os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": _cache}
 
 
-FORKING = ("test_hostile_files.py", "test_flight_files.py", "test_faults.py", "test_fuzz.py")
+FORKING = (
+    "test_hostile_files.py",
+    "test_file_formats.py",
+    "test_flight_files.py",
+    "test_faults.py",
+    "test_fuzz.py",
+)
 """Files that fork again and again, which takes twice as long in a process that has derived and fitted a thousand models: these
 are begun while it is small."""
 
