@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 
 import sympy as sp
 
@@ -83,11 +83,15 @@ class Program:
     assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
     outputs: tuple[tuple[str, sp.Expr], ...]
 
-    def inputs(self) -> list[sp.Symbol]:
+    def inputs(self) -> tuple[sp.Symbol, ...]:
         """Symbols that are read but never assigned, by name."""
+        return self._inputs
+
+    @cached_property
+    def _inputs(self) -> tuple[sp.Symbol, ...]:
         assigned = {s for s, _ in self.assignments}
         read = {s for _, e in (*self.assignments, *self.outputs) for s in symbols(e)}
-        return sorted(read - assigned, key=lambda s: s.name)
+        return tuple(sorted(read - assigned, key=lambda s: s.name))
 
 
 @dataclass(frozen=True)

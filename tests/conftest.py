@@ -23,6 +23,16 @@ _cache = os.environ.setdefault("RAGG_TESTS_CACHE", f"{_home}/cache")
 os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": _cache}
 
 
+FORKING = (
+    "test_hostile_files.py",
+    "test_file_formats.py",
+    "test_flight_files.py",
+    "test_faults.py",
+    "test_fuzz.py",
+)
+"""Files that fork again and again, which takes twice as long in a process that has derived and fitted a thousand models: these
+are begun while it is small."""
+
 DEAREST = (
     "test_studio_browser.py",
     "test_bad_input_messages.py",
@@ -35,13 +45,13 @@ DEAREST = (
     "test_plausibility_mistakes.py",
     "test_current_folder.py",
 )
-"""Files that take half a minute and more, the longest first. They are begun first: what one worker begins last the others
+"""Files that take half a minute and more, the longest first. They are begun next: what one worker begins last the others
 wait for."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The dearest files first, each whole."""
-    rank = {name: k for k, name in enumerate(DEAREST)}
+    """Files that fork and the dearest first, each whole."""
+    rank = {name: k for k, name in enumerate((*FORKING, *DEAREST))}
     items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
 
 

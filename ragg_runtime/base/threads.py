@@ -88,6 +88,12 @@ def stretches(length: int, most: int) -> list[slice]:
     return [slice(k, min(k + most, length)) for k in range(0, length, most)]
 
 
+@functools.cache
+def _libraries() -> threadpoolctl.ThreadpoolController:
+    """Those of linear algebra. To look for them takes as long as a small fit; all are there once this module is."""
+    return threadpoolctl.ThreadpoolController()
+
+
 def one_thread(function: Callable[P, R]) -> Callable[P, R]:
     """Let linear algebra run in one thread while ``function`` does.
 
@@ -97,7 +103,7 @@ def one_thread(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:
-        with threadpoolctl.threadpool_limits(limits=1):
+        with _libraries().limit(limits=1):
             return function(*args, **kwargs)
 
     return wrapped

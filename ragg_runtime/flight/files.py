@@ -25,7 +25,7 @@ from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.flight.spool import spooled
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
-from ragg_runtime.instrument.units import Units, units
+from ragg_runtime.instrument.units import units
 
 IN_MEMORY = 48 << 20
 """Most memory, bytes, that the columns of a flight may take; those of a longer one are laid down on disk."""
@@ -343,7 +343,7 @@ def _taken(names: Sequence[str], waiting: deque[Batch], rows: int) -> Batch:
 
 
 def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[tuple[Column, Array]]:
-    known = Units(1.0) if g0 is None else units(g0)
+    known = units(1.0 if g0 is None else g0)
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
     blanked = flight.outputs or flight.channels

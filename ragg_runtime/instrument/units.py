@@ -39,6 +39,7 @@ _ANGLES = frozenset(
 )
 _CYCLES = frozenset(("hertz", "counts_per_second"))
 
+_OF_G = {unit: n == 1 for n, table in enumerate((FACTORS, FACTORS_OF_G)) for unit, _ in table}
 # pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not
 # know ("m;s"): only products and quotients of names with small exponents reach it.
 _TOKEN = re.compile(
@@ -66,6 +67,7 @@ class Units:
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
         self._usual = {**FACTORS, **FACTORS_OF_G} if self.g0 == G0 else FACTORS
+        self._of_g = dict(_OF_G)
         self._parsed: dict[str, Any] = {}
         self._stems: dict[str, str | None] = {}
 
@@ -137,6 +139,8 @@ class Units:
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
         """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
+        if unit == si_unit and (unit, si_unit) in self._usual:
+            return value
         source, target = self.parse(si_unit), self.parse(unit, where)
         self._same_dimension(target, unit, source, si_unit, where)
         if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
@@ -153,7 +157,9 @@ class Units:
 
     def uses_g(self, unit: str, where: str | None = None) -> bool:
         """Whether ``unit`` is made with g."""
-        return self._counts(self.parse(unit, where), frozenset(("standard_g",)))
+        if unit not in self._of_g:
+            self._of_g[unit] = self._counts(self.parse(unit, where), frozenset(("standard_g",)))
+        return self._of_g[unit]
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""

@@ -232,14 +232,17 @@ def test_did_you_mean() -> None:
 
 def test_usual_units_are_what_pint_makes_of_them() -> None:
     quick, pint_alone = Units(9.8), Units(9.8)
-    pint_alone._usual = {}
+    pint_alone._usual, pint_alone._of_g = {}, {}
     values = np.random.default_rng(3).normal(size=50) * 1e3
     for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
         assert np.array_equal(quick.to_si(values, unit, si_unit), pint_alone.to_si(values, unit, si_unit)), (
             unit
         )
         assert quick.to_si(0.3, unit, si_unit) == pint_alone.to_si(0.3, unit, si_unit), unit
-        assert pint_alone.uses_g(unit) == ((unit, si_unit) in FACTORS_OF_G), unit
+        assert quick.uses_g(unit) == pint_alone.uses_g(unit) == ((unit, si_unit) in FACTORS_OF_G), unit
+        if unit == si_unit:
+            assert quick.from_si(values, si_unit, unit) is pint_alone.from_si(values, si_unit, unit) is values
+    assert "_registry" not in vars(quick)
     for unit, base in BASE.items():
         found = pint_alone._registry.get_base_units(pint_alone.parse(unit))[1]
         assert (f"{found:~C}" or "1") == base, unit
