@@ -158,9 +158,10 @@ def _better(a: End, b: End, first: Stage, extend: Extend) -> bool:
     sizes = [len(_blocks(end)) for end in (a, b)]
     trusted = TRUNCATED**2 * max(t.test.chi2 for found, _ in (a, b) for t in found)
     noise = min((last.fitted.calibration.noise for _, last in (a, b)), key=calibrate.loudness)
-    left = [_left(end, _blocks(end), noise, first, extend) for end in (a, b)]
+    now = _left(b, _blocks(b), noise, first, extend)
+    other = _left(a, _blocks(a), noise, first, extend, now.ceiling)
     room = max(trusted, INDISTINGUISHABLE) if sizes[0] < sizes[1] else -INDISTINGUISHABLE
-    return left[0] < left[1] + room
+    return other.chi2 < now.chi2 + room
 
 
 def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
@@ -171,12 +172,12 @@ def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
     undecided = [[e for e in t.open if e not in inside] for t in found]
     if not any(undecided) or len(blocks) < 2:
         return end
-    most = _left(end, blocks, noise, first, extend) + INDISTINGUISHABLE
+    now = _left(end, blocks, noise, first, extend)
 
     def equal(n: int, e: str) -> bool:
         t = found[n]
         swapped = [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]]
-        return _left(end, swapped, noise, first, extend) < most
+        return _left(end, swapped, noise, first, extend, now.ceiling).chi2 < now.chi2 + INDISTINGUISHABLE
 
     rivals = [{e for e in some if equal(n, e)} for n, some in enumerate(undecided)]
     return [
@@ -191,7 +192,14 @@ def _blocks(end: End) -> list[Block]:
     return [*strong, *((last, e, last.choice.blocks[e]) for e in last.choice.chosen)]
 
 
-def _left(end: End, blocks: Sequence[Block], noise: Sequence[Noise], first: Stage, extend: Extend) -> float:
+def _left(
+    end: End,
+    blocks: Sequence[Block],
+    noise: Sequence[Noise],
+    first: Stage,
+    extend: Extend,
+    ceiling: float = np.inf,
+) -> Left:
     """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
     f = first.fitted
     charged = sum(contenders.charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
@@ -199,7 +207,8 @@ def _left(end: End, blocks: Sequence[Block], noise: Sequence[Noise], first: Stag
     instants = dict(first.instants) | dict(end[1].instants)
     instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
     extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
-    return contenders.left(f, noise, held, extended).chi2 + charged
+    found = contenders.left(f, noise, held, extended, ceiling)
+    return replace(found, chi2=found.chi2 + charged)
 
 
 def _others(field: Field, effect: str, which: Sequence[int]) -> list[str]:
