@@ -86,15 +86,20 @@ def headline(d: Diagnosis) -> str:
         )
     if d.complaint is not None:
         return f"Nothing can be said: {numbers.clean(d.complaint)}."
+    left = (
+        ", and the best of the known effects leave a significant remainder"
+        if any(s.terms for s in d.remainder.searches)
+        else ""
+    )
     return (
         f"Something is missing that no known effect accounts for: {before} Eo remain where the noise is"
-        f" {noise} Eo, and the best of the known effects leave a significant remainder."
+        f" {noise} Eo{left}."
     )
 
 
 def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
     """What the verdict rests on; ``sizes`` says where those stand that this record would show."""
-    said = []
+    said = [] if d.remark is None else [f"Note: {numbers.clean(d.remark)}."]
     for r in d.ranking:
         if r.effect in d.found:
             clear = [x for x in _headlines(r) if abs(x.z) > CLEAR]
@@ -109,7 +114,7 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
             said.append(
                 f"This record cannot tell {main} from {numbers.listed(others, 'or')}: treat them as one finding."
             )
-    if d.verdict == "unexplained" and d.ranking and claimed(d, d.ranking[0]):
+    if d.verdict == "unexplained" and d.remark is None and d.ranking and claimed(d, d.ranking[0]):
         best = d.ranking[0]
         said.append(
             f"Of the known effects, {numbers.clean(best.effect)} comes nearest ({numbers.number(d.after.rms_Eo)} Eo with"

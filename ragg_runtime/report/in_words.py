@@ -176,9 +176,10 @@ def diagnosed(d: Diagnosis, then: str) -> str:
             if r.indistinguishable_from:
                 lines.append(f"  this record cannot tell it from: {', '.join(r.indistinguishable_from)}")
     if d.verdict == "unexplained":
-        terms: Any = d.as_json()["unexplained"]
-        lines.append("\n  what is left (harmonic x motion term):")
-        for t in terms["terms"]:
+        left: Any = d.as_json()["unexplained"]
+        if left["terms"]:
+            lines.append("\n  what is left (harmonic x motion term):")
+        for t in left["terms"]:
             lines.append(
                 f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
                 f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
