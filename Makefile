@@ -15,7 +15,8 @@ help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 # What builds the project (setuptools) is in the lock too: --no-build-isolation takes it from there. Byte code is made on all
-# cores; pip makes it on one, and of the packages' own tests, a third of it, as well.
+# cores; pip makes it on one, and of the packages' own tests, a third of it, as well. What does not
+# compile (templates of old Python) is never run.
 $(STAMP): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.x")'
 	$(PYTHON) -m venv $(VENV)

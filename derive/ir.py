@@ -199,7 +199,7 @@ def chain(
     parameters = (*instrument_parameters(layout), *effect_parameters(effects, layout.size))
     known = {p.name for p in parameters}
     reserved = known | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}
-    read = {s.name for program in (value, derivatives) for s in program.inputs()}
+    read = {s.name for program in (value, derivatives) for s in program.inputs}
     extra = sorted(read - reserved)
     return Chain(
         name=name,

@@ -83,12 +83,9 @@ class Program:
     assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
     outputs: tuple[tuple[str, sp.Expr], ...]
 
+    @cached_property
     def inputs(self) -> tuple[sp.Symbol, ...]:
         """Symbols that are read but never assigned, by name."""
-        return self._inputs
-
-    @cached_property
-    def _inputs(self) -> tuple[sp.Symbol, ...]:
         assigned = {s for s, _ in self.assignments}
         read = {s for _, e in (*self.assignments, *self.outputs) for s in symbols(e)}
         return tuple(sorted(read - assigned, key=lambda s: s.name))

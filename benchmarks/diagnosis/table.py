@@ -50,10 +50,10 @@ these flights.
 
 
 def _sample(sample: int) -> str:
-    text = (
-        f"\n**A sample of its own** (`--seed {sample}`): none of its flights had been looked at when the code"
+    return (
+        f"\n**A sample of its own** (`--seed {sample}`): none of its flights had been looked at when the code that is"
+        " judged here was written.\n"
     )
-    return text + " was last changed.\n"
 
 
 def _percent(s: Share) -> str:

@@ -45,5 +45,5 @@ def _c_name(name: str) -> str:
 
 
 def _program_inputs(program: Program, among: list[str]) -> list[str]:
-    read = {s.name for s in program.inputs()}
+    read = {s.name for s in program.inputs}
     return [n for n in among if n in read]

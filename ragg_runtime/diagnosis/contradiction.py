@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ragg_runtime.diagnosis.strong import Stage
-from ragg_runtime.fit.fitted import Fitted, fit
+from ragg_runtime.fit.fitted import Fitted, calibrated
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import QUIET
 
@@ -47,4 +47,4 @@ def contradiction(first: Stage) -> str | None:
 
 def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
     """Whether the model leaves but noise of some of the observations."""
-    return fit(f.model, f.instrument, observations, candidates=False).calibration.excess <= QUIET
+    return calibrated(f.model, f.instrument, observations)[1].excess <= QUIET

@@ -116,7 +116,7 @@ class Taken:
 
 
 End = tuple[list[Taken], Stage]
-"""The strong effects, and the stage at which nothing strong is left."""
+"""The strong effects, and the stage at which nothing strong is left, or nothing of the catalogue is what is missing."""
 
 Block = tuple[Stage, str, tuple[int, ...]]
 """An effect, the stage whose field has its columns, and those of them that its test needs."""

@@ -238,7 +238,8 @@ def fit(
     unweighted: bool = False,
     ceiling: float = np.inf,
 ) -> Calibration:
-    """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``.
+    """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``,
+    where the noise is given.
 
     First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
     estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left

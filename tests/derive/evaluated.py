@@ -40,7 +40,7 @@ class Evaluated:
 
 def evaluated(program: Program) -> Evaluated:
     """Compile a straight-line program with SymPy's NumPy printer."""
-    inputs = program.inputs()
+    inputs = program.inputs
     outputs = [e for _, e in program.outputs]
     function = sp.lambdify(inputs, outputs, "numpy", cse=lambda _: (list(program.assignments), outputs))
     return Evaluated(program, tuple(s.name for s in inputs), function)

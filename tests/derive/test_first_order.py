@@ -31,7 +31,7 @@ def test_signatures_are_the_derivatives_of_the_whole_model_at_neutral_values(kin
     short = ir.chain((), "s", "", candidates=effects, kinematics=kinematics).derivatives
     whole = ir.chain(effects, "w", "", kinematics=kinematics).derivatives
     rng = np.random.default_rng(1)
-    names = sorted({s.name for program in (short, whole) for s in program.inputs()})
+    names = sorted({s.name for program in (short, whole) for s in program.inputs})
     values = {n: rng.normal(size=5) for n in names}
     values |= {s.name: np.full(5, float(v)) for s, v in neutral_values(effects).items()}
     found, expected = evaluated(short)(values), evaluated(whole)(values)

@@ -3,25 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from typing import Any
 
 import pytest
 
 from ragg_runtime.diagnosis import contenders
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
-from ragg_runtime.model import model as load
-from ragg_runtime.model_dir import derive as extend
 from ragg_runtime.reference.scenario import Scenario, scenario
-
-
-def diagnosed(s: Scenario, flights: Sequence[Flight]) -> Diagnosis:
-    def extended(m: load.Model, ids: Sequence[str], /, *, candidates: bool = False) -> load.Model:
-        return extend.with_effects(s.sheet, m, ids, candidates=candidates)
-
-    return diagnose(load.packaged(), s.sheet, list(flights), extended)
+from tests.runtime.diagnosed import diagnosed
 
 
 def flown(s: Scenario, name: str, hidden: dict[str, Any] | None = None) -> Flight:
@@ -32,7 +21,7 @@ def test_flights_of_two_instruments_are_told_apart_at_once(monkeypatch: pytest.M
     monkeypatch.setattr(contenders, "left", lambda *arguments: pytest.fail("no effect is to be tried"))
     one, other, third = (scenario(k, duration=150.0) for k in (57, 58, 59))
     again = dataclasses.replace(third, instrument=one.instrument)
-    d = diagnosed(one, [flown(one, "monday"), flown(other, "tuesday"), flown(again, "friday")])
+    d = diagnosed(one, flown(one, "monday"), flown(other, "tuesday"), flown(again, "friday"))
     assert (d.verdict, d.found) == ("unexplained", ())
     assert d.remark is not None
     assert "contradict each other" in d.remark
@@ -43,5 +32,5 @@ def test_a_strong_effect_between_flights_is_no_contradiction() -> None:
     one, other = (scenario(k, duration=150.0) for k in (57, 58))
     other = dataclasses.replace(other, instrument=one.instrument)
     hidden = {"pressure-bias": {"dK0_dp": [1e-8, 0.0, 0.0, -2e-9]}}
-    d = diagnosed(one, [flown(one, "low", hidden), flown(other, "high", hidden)])
+    d = diagnosed(one, flown(one, "low", hidden), flown(other, "high", hidden))
     assert (d.verdict, d.found) == ("missing-effect", ("pressure-bias",))

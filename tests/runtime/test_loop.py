@@ -15,7 +15,6 @@ from commands import ragg
 
 from derive.expression import ExpressionError, from_expression
 from ragg_runtime.diagnosis.comparison import compare, nominal_residual
-from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
@@ -27,6 +26,7 @@ from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_spectrum import estimate
 from ragg_runtime.workflow import loop
+from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
 ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
@@ -35,13 +35,6 @@ ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cros
 def flown(seed: int, effects: dict[str, Any] | None = None, **options: Any) -> tuple[Scenario, Flight]:
     s = scenario(seed, duration=600.0, **options)
     return s, s.simulate(effects or {}).flight()
-
-
-def diagnosed(s: Scenario, *flights: Flight) -> Diagnosis:
-    def extended(model: load.Model, ids: Any, /, *, candidates: bool = False) -> load.Model:
-        return derive.with_effects(s.sheet, model, ids, candidates=candidates)
-
-    return diagnose(load.packaged(), s.sheet, flights, extended)
 
 
 def claimed(d: Diagnosis) -> set[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -17,8 +16,6 @@ from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
 from ragg_runtime.diagnosis import contenders, strong
 from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.evidence.random_effects import Variance
@@ -27,23 +24,15 @@ from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.flight import Flight
 from ragg_runtime.flight.files import write_flight
 from ragg_runtime.lack_of_fit.dictionary import Term
 from ragg_runtime.lack_of_fit.omnibus import Found, Omnibus
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model import model as load
-from ragg_runtime.model_dir import derive as extend
 from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
-
-
-def diagnosed(s: Scenario, flight: Flight) -> Diagnosis:
-    def extended(m: load.Model, ids: Sequence[str], /, *, candidates: bool = False) -> load.Model:
-        return extend.with_effects(s.sheet, m, ids, candidates=candidates)
-
-    return diagnose(load.packaged(), s.sheet, [flight], extended)
 
 
 STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {

@@ -47,7 +47,7 @@ def layout_harmonics(m: LayoutHarmonics) -> dict[str, str]:
             read={
                 s.name for e in (*(e for _, e in m.place), *(e for *_, e in basis)) for s in e.free_symbols
             },
-            of_axes={s.name for s in m.axes.inputs()},
+            of_axes={s.name for s in m.axes.inputs},
         )
     }
 

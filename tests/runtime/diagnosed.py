@@ -1,0 +1,19 @@
+"""A diagnosis of simulated flights under their sheet, with all that the catalogue can derive."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ragg_runtime.diagnosis.diagnose import diagnose
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.flight import Flight
+from ragg_runtime.model import model as load
+from ragg_runtime.model_dir import derive
+from ragg_runtime.reference.scenario import Scenario
+
+
+def diagnosed(s: Scenario, *flights: Flight) -> Diagnosis:
+    def extended(model: load.Model, ids: Sequence[str], /, *, candidates: bool = False) -> load.Model:
+        return derive.with_effects(s.sheet, model, ids, candidates=candidates)
+
+    return diagnose(load.packaged(), s.sheet, flights, extended)
