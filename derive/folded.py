@@ -44,7 +44,7 @@ from derive.symbols import (
     Parameter,
     symbol,
 )
-from derive.tape import Program, Tape, simplify
+from derive.tape import Program, Tape, settled
 
 DIRECTIONS = "rtz"
 """Radial, tangential and axial direction of A1."""
@@ -263,4 +263,4 @@ def _numbers(
         turned += stages.spin_gradient(motion._replace(omega=spin.T * motion.omega), RECORDED_SPIN)
     outputs = zip(_names(layout), (*(spin.T * motion.a), *turned), strict=True)
     wanted = [x for x, u in zip(outputs, used, strict=True) if u]
-    return simplify(tape.assignments, wanted, {})
+    return settled(tape.assignments, {}).program(wanted)

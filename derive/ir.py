@@ -23,7 +23,7 @@ from derive.layout import Layout, instrument_parameters
 from derive.propagation import COEFFICIENT_PARAMETERS, Collected, monomial, motion_numbers
 from derive.stages import PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, INSTRUMENT, MOTION, Channel, Parameter, column_of
-from derive.tape import Program, simplify
+from derive.tape import Program, settled
 
 
 @dataclass(frozen=True)
@@ -183,8 +183,9 @@ def chain(
         [*effects, *candidates], order, kinematics=kinematics, layout=layout, candidates=candidates
     )
     neutral = dict(layout.common) | {e.symbol(q): _neutral(e, q) for e in candidates for q in e.parameters}
-    value = simplify(a.tape.assignments, [("V", a.voltage)], neutral)
-    by = a.tape.derivatives(a.voltage)
+    at = settled(a.tape.assignments, neutral)
+    value = at.program([("V", a.voltage)])
+    at, by = a.tape.derivatives(a.voltage, at)
     if candidates:
         named = [
             (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in candidates for q in e.parameters if q.fitted
@@ -195,7 +196,7 @@ def chain(
             (e.symbol(q), f"{e.id}.{q.name}", q.shared) for e in effects for q in e.parameters if q.fitted
         ]
     outputs = [(n, by(s)) for s, n, _ in named]
-    derivatives = simplify(a.tape.assignments, outputs, neutral)
+    derivatives = at.program(outputs)
     parameters = (*instrument_parameters(layout), *effect_parameters(effects, layout.size))
     known = {p.name for p in parameters}
     reserved = known | {"cos_phi", "sin_phi", "time", *layout.constants} | {c.name for c in MOTION}

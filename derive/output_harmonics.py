@@ -27,7 +27,7 @@ from derive.layout import AXES, HEIGHT, TURN, Layout, instrument_parameters
 from derive.propagation import MOTION_NUMBERS, gradient_in_motion_numbers, motion_numbers
 from derive.stages import Kinematics, Order
 from derive.symbols import COS_PHI, MOTION, SECOND_ORDER, SIN_PHI, Channel, Parameter, symbol
-from derive.tape import Program, Tape, simplify
+from derive.tape import Program, Tape, settled
 
 _DIRECTIONS = "rtz"
 
@@ -231,7 +231,7 @@ def _along_axes(layout: Layout) -> Program:
     turned = AXES.T * gradient * AXES
     outputs = [(f"{n}_{'xyz'[k]}", e[k]) for n, e in vectors for k in range(3)]
     outputs += [(f"Gamma_{'xyz'[i]}{'xyz'[k]}", turned[i, k]) for i in range(3) for k in range(i, 3)]
-    return simplify((), outputs, dict(layout.common))
+    return settled((), dict(layout.common)).program(outputs)
 
 
 _PAPER: Sequence[tuple[str, tuple[int, ...]]] = (

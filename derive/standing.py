@@ -16,7 +16,7 @@ from derive.harmonics import NotHarmonic
 from derive.layout import AXES, Layout
 from derive.stages import Order
 from derive.symbols import COS_PHI, SIN_PHI, symbol
-from derive.tape import Program, Tape, simplify
+from derive.tape import Program, Tape, settled
 
 Monomial = tuple[int, ...]
 """Powers of the motion numbers."""
@@ -63,7 +63,7 @@ def standing(numbers: Sequence[str], order: Order, layout: Layout) -> Standing:
     monomials = sorted((m for m, (n, _) in zip(found, outputs, strict=True) if n in kept), key=_reading)
     at = dict(zip(found, outputs, strict=True))
     return Standing(
-        tuple(monomials), simplify(tape.assignments, [at[m] for m in monomials], dict(layout.common))
+        tuple(monomials), settled(tape.assignments, dict(layout.common)).program([at[m] for m in monomials])
     )
 
 

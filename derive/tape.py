@@ -7,8 +7,8 @@ whereas differentiating the expanded output costs minutes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 
 import sympy as sp
@@ -141,6 +141,8 @@ class Tape:
             if self.degree(d, about.small) > about.most:
                 continue
             rate = self._rate_of(s, base, about)
+            if rate == 0:
+                continue
             room = about.most - self.degree(rate, about.small)
             terms.append(self._up_to(d, room, about.small) * rate)
         return sp.Add(*terms)
@@ -179,41 +181,71 @@ class Tape:
             self._rates[s, about] = self.let(f"rate_{s.name}", self.rate(self._values[s], base, about))
         return self._rates[s, about]
 
-    def derivatives(self, output: sp.Expr, prefix: str = "bar") -> Callable[[sp.Symbol], sp.Expr]:
-        """Record the reverse accumulation of ``output``; returns the derivative by any input symbol."""
+    def derivatives(self, output: sp.Expr, at: Settled, prefix: str = "bar") -> tuple[Settled, ByInput]:
+        """Record the reverse accumulation of ``output`` where some symbols have values (``at``).
+
+        The values are put into every slope before it is used: what vanishes there is never multiplied out. Returns the
+        tape settled with what was recorded, and the derivative by any input symbol.
+        """
         adjoint: dict[sp.Symbol, list[sp.Expr]] = {}
 
         def scatter(e: sp.Expr, seed: sp.Expr) -> None:
             for s, d in partials(e).items():
-                adjoint.setdefault(s, []).append(seed * d)
+                if (slope := at.put(d)) != 0:
+                    adjoint.setdefault(s, []).append(seed * slope)
 
         scatter(output, sp.Integer(1))
-        for s, e in list(reversed(self.assignments)):
-            if s in adjoint:
-                scatter(e, self.let(f"{prefix}_{s.name}", sp.Add(*adjoint[s])))
-        return lambda s: sp.Add(*adjoint.get(s, []))
+        forward = len(self.assignments)
+        for s, e in self.assignments[forward - 1 :: -1]:
+            if s in adjoint and (seed := sp.Add(*adjoint[s])) != 0:
+                scatter(e, self.let(f"{prefix}_{s.name}", seed))
+        both = replace(at, assignments=(*at.assignments, *self.assignments[forward:]))
+        return both, lambda s: sp.Add(*adjoint.get(s, []))
 
 
-def simplify(
-    assignments: Iterable[tuple[sp.Symbol, sp.Expr]],
-    outputs: Iterable[tuple[str, sp.Expr]],
-    values: Mapping[sp.Symbol, sp.Expr],
-) -> Program:
-    """Put ``values`` in, propagate what became constant, share subexpressions, drop what nobody reads."""
-    known: dict[sp.Symbol, sp.Expr] = dict(values)
+ByInput = Callable[[sp.Symbol], sp.Expr]
+
+
+@dataclass(frozen=True)
+class Settled:
+    """Assignments in which some symbols have values: ``known`` are these, and what became constant or another's name."""
+
+    known: Mapping[sp.Symbol, sp.Expr]
+    assignments: tuple[tuple[sp.Symbol, sp.Expr], ...]
+    _put: dict[sp.Expr, sp.Expr] = field(default_factory=dict, repr=False, compare=False)
+
+    def put(self, e: sp.Expr) -> sp.Expr:
+        """An expression with what is known put in; parts that expressions share are looked up."""
+        if self.known.keys().isdisjoint(symbols(e)):
+            return e
+        if e not in self._put:
+            self._put[e] = self.known[e] if e in self.known else e.func(*map(self.put, e.args))
+        return self._put[e]
+
+    def program(self, outputs: Iterable[tuple[str, sp.Expr]]) -> Program:
+        """Share subexpressions, drop what nobody reads."""
+        final = [(name, self.put(sp.sympify(e, strict=True))) for name, e in outputs]
+        return _share(_live(self.assignments, final), final)
+
+
+def settled(
+    assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp.Symbol, sp.Expr]
+) -> Settled:
+    """Put ``values`` in and propagate what became constant."""
+    known = dict(values)
     kept: list[tuple[sp.Symbol, sp.Expr]] = []
+    whole = Settled(known, ())
     for s, e in assignments:
-        e = e if known.keys().isdisjoint(symbols(e)) else e.xreplace(known)
-        if e.is_Atom or (-e).is_Atom:
-            known[s] = e
+        value = whole.put(e)
+        if value.is_Atom or (-value).is_Atom:
+            known[s] = value
         else:
-            kept.append((s, e))
-    final = [(name, sp.sympify(e, strict=True).xreplace(known)) for name, e in outputs]
-    return _share(_live(kept, final), final)
+            kept.append((s, value))
+    return replace(whole, assignments=tuple(kept))
 
 
 def _live(
-    assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
+    assignments: Sequence[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]
 ) -> list[tuple[sp.Symbol, sp.Expr]]:
     needed = {s for _, e in outputs for s in symbols(e)}
     kept = []
