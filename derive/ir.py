@@ -257,8 +257,8 @@ def _counted(e: sp.Expr) -> int:
     return int(sp.count_ops(e))
 
 
-def manifest_of_model(m: Harmonic | Chain | Folded) -> Mapping[str, object]:
-    """What a user of the generated code has to know: inputs, parameters, outputs, cost."""
+def manifest_of_model(m: Harmonic | Chain | Folded, *, counted: bool) -> Mapping[str, object]:
+    """What a user of the generated code has to know: inputs, parameters, outputs; ``counted``: its cost, a tenth of a derivation."""
     outputs: dict[str, list[str]] = {}
     if isinstance(m, Harmonic):
         outputs = {"amplitudes": [name for name, _ in m.amplitudes]}
@@ -271,7 +271,7 @@ def manifest_of_model(m: Harmonic | Chain | Folded) -> Mapping[str, object]:
             {"name": q.name, "unit": q.unit, "size": q.size, "meaning": q.meaning} for q in m.parameters
         ],
         **outputs,
-        "operations": operations(m),
+        **({"operations": operations(m)} if counted else {}),
     }
 
 

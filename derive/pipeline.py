@@ -140,7 +140,8 @@ def _derive(
             parts.append(t.paper(*equations))
     files = joined(parts)
     every = [*candidates, *(e for e in effects if e not in candidates)]
-    whole = _complete(form, files, effects, every, [*harmonics, *forms, *chains], below)
+    models: list[ir.Harmonic | ir.Chain | Folded] = [*harmonics, *forms, *chains]
+    whole = _complete(form, files, effects, every, models, below, packaged=packaged)
     signatures = [] if packaged else [_c.chain(x, packaged=True) for x in chains if x.name == "signatures"]
     return whole | {f"{FITS}/{n.rpartition('/')[2]}": text for c in signatures for n, text in c.items()}
 
@@ -185,6 +186,8 @@ def _complete(
     candidates: Sequence[Effect],
     models: Sequence[ir.Harmonic | ir.Chain | Folded],
     below: Sequence[str],
+    *,
+    packaged: bool,
 ) -> dict[str, str]:
     """Add the package file and the manifest, which names everything that was derived, what is ``below`` too."""
     files["__init__.py"] = _numpy.package_file([m.name for m in models])
@@ -196,7 +199,7 @@ def _complete(
         **({} if form == PAPERS else {"form": _told(form)}),
         "effects": [e.id for e in effects],
         "files": sorted([*files, *below, "manifest.json"]),
-        "models": {m.name: ir.manifest_of_model(m) for m in models},
+        "models": {m.name: ir.manifest_of_model(m, counted=packaged) for m in models},
         "catalogue": [ir.manifest_of_effect(e) for e in candidates],
     }
     files["manifest.json"] = manifest_text(manifest)

@@ -15,7 +15,19 @@ from derive.layout import HEIGHT, TURN
 from derive.symbols import INSTRUMENT, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 
-class _NumPy(NumPyPrinter):
+@cache
+def _terms(e: sp.Expr) -> list[sp.Expr]:
+    return list(e.as_ordered_terms())
+
+
+class _InOrder:
+    """Sums in SymPy's order, which takes long to find and is the same in every language."""
+
+    def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        return _terms(e)
+
+
+class _NumPy(_InOrder, NumPyPrinter):
     def __init__(self) -> None:
         super().__init__({"fully_qualified_modules": False})
 
@@ -43,7 +55,7 @@ class _NumPy(NumPyPrinter):
         return fqn.replace("numpy.", "np.")
 
 
-class _C(C99CodePrinter):
+class _C(_InOrder, C99CodePrinter):
     def _print_Pow(self, e: sp.Pow) -> str:
         if e.exp.is_Integer and 2 <= e.exp <= 6:
             base = self.parenthesize(e.base, sp.printing.precedence.PRECEDENCE["Mul"] + 1)
