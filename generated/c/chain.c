@@ -392,3 +392,217 @@ void ragg_chain_derivatives(size_t j, size_t n, const double *t, const double *c
         }
     }
 }
+
+#ifndef RAGG_SERIES_ALONE /* fits want series alone, and the compiler's time counts */
+/* The accelerometers are what stands side by side in vectors here, not the samples. */
+void ragg_chain_sample(size_t first, size_t count, const double *t, const double *const *in, const double *restrict p,
+                       const double *angle, double *restrict out_V, double *restrict out_D) {
+    const size_t at = 0, i = 0;
+    double cosine[BLOCK], sine[BLOCK];
+    turning(at, 1, t, p[1], angle, cosine, sine);
+    const double time = *t, cos_phi = *cosine, sin_phi = *sine;
+    (void)i, (void)time;
+    const double a_x = *in[0];
+    const double a_y = *in[1];
+    const double a_z = *in[2];
+    const double omega_x = *in[3];
+    const double omega_y = *in[4];
+    const double omega_z = *in[5];
+    const double omegadot_x = *in[6];
+    const double omegadot_y = *in[7];
+    const double omegadot_z = *in[8];
+    const double Gamma_xx = *in[9];
+    const double Gamma_xy = *in[10];
+    const double Gamma_xz = *in[11];
+    const double Gamma_yy = *in[12];
+    const double Gamma_yz = *in[13];
+    const double Gamma_zz = *in[14];
+    for (size_t k = 0; k < 4; ++k) {
+        const size_t j = k;
+        const double radius = p[0];
+        const double dR = p[2 + j];
+        const double beta_x = p[6 + j];
+        const double beta_z = p[10 + j];
+        const double vartheta_y = p[18 + j];
+        const double vartheta_z = p[22 + j];
+        const double K0 = p[26 + j];
+        const double K1 = p[30 + j];
+        const double K2 = p[34 + j];
+        const double K4 = p[38 + j];
+        const double K5 = p[42 + j];
+        const double K6 = p[46 + j];
+        const double K7 = p[50 + j];
+        const double K8 = p[54 + j];
+        const double k_VI = p[58 + j];
+        const double cos_j = COS_J[j];
+        (void)cos_j;
+        const double sin_j = SIN_J[j];
+        (void)sin_j;
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double M_xx = -Gamma_xx - x0 - x1;
+        const double M_xy = FMA(omega_x, omega_y, -Gamma_xy - omegadot_z);
+        const double M_xz = FMA(omega_x, omega_z, -Gamma_xz + omegadot_y);
+        const double M_yx = FMA(omega_x, omega_y, -Gamma_xy + omegadot_z);
+        const double x2 = (omega_x*omega_x);
+        const double M_yy = -Gamma_yy - x1 - x2;
+        const double M_yz = FMA(omega_y, omega_z, -Gamma_yz - omegadot_x);
+        const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
+        const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
+        const double M_zz = -Gamma_zz - x0 - x2;
+        const double cos_psi = FMA(-sin_j, sin_phi, cos_j*cos_phi);
+        const double sin_psi = FMA(cos_phi, sin_j, cos_j*sin_phi);
+        const double x3 = dR + radius;
+        const double f_disc_r_x = x3;
+        const double f_disc_r_y = beta_z*x3;
+        const double f_disc_r_z = beta_x*x3;
+        const double f_disc_tau_zy = -beta_x*beta_z;
+        const double f_r_x = FMA(-f_disc_r_y, sin_psi, cos_psi*f_disc_r_x);
+        const double f_r_y = FMA(f_disc_r_x, sin_psi, cos_psi*f_disc_r_y);
+        const double x4 = FMA(beta_z, cos_psi, sin_psi);
+        const double f_tau_xx = -x4;
+        const double x5 = FMA(-beta_z, sin_psi, cos_psi);
+        const double f_tau_xy = x5;
+        const double f_tau_yx = x5;
+        const double f_tau_yy = x4;
+        const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
+        const double f_tau_zy = FMA(-beta_x, sin_psi, cos_psi*f_disc_tau_zy);
+        const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
+        const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
+        const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
+        const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
+        const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
+        const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
+        const double q_disc_r_x = x3;
+        const double q_r_x = cos_psi*q_disc_r_x;
+        const double q_r_y = q_disc_r_x*sin_psi;
+        const double q_f_x = FMA(M_xy, q_r_y, FMA(M_xx, q_r_x, a_x));
+        const double q_f_y = FMA(M_yy, q_r_y, FMA(M_yx, q_r_x, a_y));
+        const double q_f_z = FMA(M_zy, q_r_y, FMA(M_zx, q_r_x, a_z));
+        const double q_f_xj = FMA(-q_f_x, sin_psi, cos_psi*q_f_y);
+        const double q_f_yj = FMA(q_f_y, sin_psi, cos_psi*q_f_x);
+        const double i_sensed = FMA(-K8, q_f_yj*q_f_z, FMA(K7, q_f_z*q_f_z, FMA(K6, q_f_xj*q_f_yj, FMA(K5, q_f_yj*q_f_yj, FMA(-K4, q_f_xj*q_f_z, FMA(K2, q_f_xj*q_f_xj, K0 + f_f_i))))));
+        const double V = K1*i_sensed*k_VI;
+
+        out_V[k] = V;
+    }
+    for (size_t k = 0; k < 4; ++k) {
+        const size_t j = k;
+        const double radius = p[0];
+        const double dR = p[2 + j];
+        const double beta_x = p[6 + j];
+        const double beta_z = p[10 + j];
+        const double vartheta_y = p[18 + j];
+        const double vartheta_z = p[22 + j];
+        const double K0 = p[26 + j];
+        const double K1 = p[30 + j];
+        const double K2 = p[34 + j];
+        const double K4 = p[38 + j];
+        const double K5 = p[42 + j];
+        const double K6 = p[46 + j];
+        const double K7 = p[50 + j];
+        const double K8 = p[54 + j];
+        const double k_VI = p[58 + j];
+        const double cos_j = COS_J[j];
+        (void)cos_j;
+        const double sin_j = SIN_J[j];
+        (void)sin_j;
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double M_xx = -Gamma_xx - x0 - x1;
+        const double M_xy = FMA(omega_x, omega_y, -Gamma_xy - omegadot_z);
+        const double M_xz = FMA(omega_x, omega_z, -Gamma_xz + omegadot_y);
+        const double M_yx = FMA(omega_x, omega_y, -Gamma_xy + omegadot_z);
+        const double x2 = (omega_x*omega_x);
+        const double M_yy = -Gamma_yy - x1 - x2;
+        const double M_yz = FMA(omega_y, omega_z, -Gamma_yz - omegadot_x);
+        const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
+        const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
+        const double M_zz = -Gamma_zz - x0 - x2;
+        const double cos_psi = FMA(-sin_j, sin_phi, cos_j*cos_phi);
+        const double sin_psi = FMA(cos_phi, sin_j, cos_j*sin_phi);
+        const double x3 = dR + radius;
+        const double f_disc_r_x = x3;
+        const double f_disc_r_y = beta_z*x3;
+        const double f_disc_r_z = beta_x*x3;
+        const double f_disc_tau_zy = -beta_x*beta_z;
+        const double f_r_x = FMA(-f_disc_r_y, sin_psi, cos_psi*f_disc_r_x);
+        const double f_r_y = FMA(f_disc_r_x, sin_psi, cos_psi*f_disc_r_y);
+        const double x4 = FMA(beta_z, cos_psi, sin_psi);
+        const double f_tau_xx = -x4;
+        const double x5 = FMA(-beta_z, sin_psi, cos_psi);
+        const double f_tau_xy = x5;
+        const double f_tau_yx = x5;
+        const double f_tau_yy = x4;
+        const double f_tau_zx = FMA(-f_disc_tau_zy, sin_psi, -beta_x*cos_psi);
+        const double f_tau_zy = FMA(-beta_x, sin_psi, cos_psi*f_disc_tau_zy);
+        const double f_f_x = FMA(M_xz, f_disc_r_z, FMA(M_xy, f_r_y, FMA(M_xx, f_r_x, a_x)));
+        const double f_f_y = FMA(M_yz, f_disc_r_z, FMA(M_yy, f_r_y, FMA(M_yx, f_r_x, a_y)));
+        const double f_f_z = FMA(M_zz, f_disc_r_z, FMA(M_zy, f_r_y, FMA(M_zx, f_r_x, a_z)));
+        const double f_f_xj = FMA(f_f_y, f_tau_xy, f_f_x*f_tau_xx);
+        const double f_f_yj = FMA(f_f_y, f_tau_yy, FMA(-beta_x, f_f_z, f_f_x*f_tau_yx));
+        const double f_f_zj = FMA(f_f_y, f_tau_zy, FMA(f_f_x, f_tau_zx, -f_f_z));
+        const double f_f_i = FMA(-f_f_zj, vartheta_y, FMA(f_f_yj, vartheta_z, f_f_xj));
+        const double q_disc_r_x = x3;
+        const double q_r_x = cos_psi*q_disc_r_x;
+        const double q_r_y = q_disc_r_x*sin_psi;
+        const double q_f_x = FMA(M_xy, q_r_y, FMA(M_xx, q_r_x, a_x));
+        const double q_f_y = FMA(M_yy, q_r_y, FMA(M_yx, q_r_x, a_y));
+        const double q_f_z = FMA(M_zy, q_r_y, FMA(M_zx, q_r_x, a_z));
+        const double q_f_xj = FMA(-q_f_x, sin_psi, cos_psi*q_f_y);
+        const double q_f_yj = FMA(q_f_y, sin_psi, cos_psi*q_f_x);
+        const double x10 = K4*q_f_z;
+        const double x11 = K8*q_f_z;
+        const double x6 = K6*q_f_xj;
+        const double x7 = (q_f_xj*q_f_xj);
+        const double x8 = (q_f_yj*q_f_yj);
+        const double x9 = (q_f_z*q_f_z);
+        const double i_sensed = FMA(q_f_yj, x6, FMA(-q_f_yj, x11, FMA(-q_f_xj, x10, FMA(K7, x9, FMA(K5, x8, FMA(K2, x7, K0 + f_f_i))))));
+        const double bar_i_sensed = K1*k_VI;
+        const double bar_q_f_yj = bar_i_sensed*(FMA(2.0, K5*q_f_yj, -x11 + x6));
+        const double bar_q_f_xj = bar_i_sensed*(FMA(K6, q_f_yj, FMA(2.0, K2*q_f_xj, -x10)));
+        const double bar_q_f_z = bar_i_sensed*(FMA(-K8, q_f_yj, FMA(-K4, q_f_xj, 2.0*K7*q_f_z)));
+        const double bar_q_f_y = FMA(bar_q_f_yj, sin_psi, bar_q_f_xj*cos_psi);
+        const double bar_q_f_x = FMA(-bar_q_f_xj, sin_psi, bar_q_f_yj*cos_psi);
+        const double bar_q_r_y = FMA(M_zy, bar_q_f_z, FMA(M_yy, bar_q_f_y, M_xy*bar_q_f_x));
+        const double bar_q_r_x = FMA(M_zx, bar_q_f_z, FMA(M_yx, bar_q_f_y, M_xx*bar_q_f_x));
+        const double bar_q_disc_r_x = FMA(bar_q_r_y, sin_psi, bar_q_r_x*cos_psi);
+        const double bar_f_f_zj = -bar_i_sensed*vartheta_y;
+        const double bar_f_f_yj = bar_i_sensed*vartheta_z;
+        const double bar_f_f_z = FMA(-bar_f_f_yj, beta_x, -bar_f_f_zj);
+        const double bar_f_f_y = FMA(bar_i_sensed, f_tau_xy, FMA(bar_f_f_zj, f_tau_zy, bar_f_f_yj*f_tau_yy));
+        const double bar_f_f_x = FMA(bar_i_sensed, f_tau_xx, FMA(bar_f_f_zj, f_tau_zx, bar_f_f_yj*f_tau_yx));
+        const double bar_f_tau_zy = bar_f_f_zj*f_f_y;
+        const double bar_f_tau_zx = bar_f_f_zj*f_f_x;
+        const double bar_f_tau_yy = bar_f_f_yj*f_f_y;
+        const double bar_f_tau_yx = bar_f_f_yj*f_f_x;
+        const double bar_f_tau_xy = bar_i_sensed*f_f_y;
+        const double bar_f_tau_xx = bar_i_sensed*f_f_x;
+        const double bar_f_r_y = FMA(M_zy, bar_f_f_z, FMA(M_yy, bar_f_f_y, M_xy*bar_f_f_x));
+        const double bar_f_r_x = FMA(M_zx, bar_f_f_z, FMA(M_yx, bar_f_f_y, M_xx*bar_f_f_x));
+        const double bar_f_disc_tau_zy = FMA(-bar_f_tau_zx, sin_psi, bar_f_tau_zy*cos_psi);
+        const double bar_f_disc_r_z = FMA(M_zz, bar_f_f_z, FMA(M_yz, bar_f_f_y, M_xz*bar_f_f_x));
+        const double bar_f_disc_r_y = FMA(-bar_f_r_x, sin_psi, bar_f_r_y*cos_psi);
+        const double bar_f_disc_r_x = FMA(bar_f_r_y, sin_psi, bar_f_r_x*cos_psi);
+        const double x12 = bar_i_sensed*q_f_xj;
+
+        out_D[0 * 4 + k] = FMA(bar_f_disc_r_z, beta_x, FMA(bar_f_disc_r_y, beta_z, bar_f_disc_r_x + bar_q_disc_r_x)); /* dR */
+        out_D[1 * 4 + k] = FMA(-bar_f_tau_zy, sin_psi, FMA(-bar_f_tau_zx, cos_psi, FMA(-bar_f_f_yj, f_f_z, FMA(-bar_f_disc_tau_zy, beta_z, bar_f_disc_r_z*x3)))); /* beta_x */
+        out_D[2 * 4 + k] = FMA(bar_f_tau_yy, cos_psi, FMA(-bar_f_tau_yx, sin_psi, FMA(-bar_f_tau_xy, sin_psi, FMA(-bar_f_tau_xx, cos_psi, FMA(-bar_f_disc_tau_zy, beta_x, bar_f_disc_r_y*x3))))); /* beta_z */
+        out_D[3 * 4 + k] = 0.0; /* vartheta_x */
+        out_D[4 * 4 + k] = -bar_i_sensed*f_f_zj; /* vartheta_y */
+        out_D[5 * 4 + k] = bar_i_sensed*f_f_yj; /* vartheta_z */
+        out_D[6 * 4 + k] = bar_i_sensed; /* K0 */
+        out_D[7 * 4 + k] = i_sensed*k_VI; /* K1 */
+        out_D[8 * 4 + k] = bar_i_sensed*x7; /* K2 */
+        out_D[9 * 4 + k] = -q_f_z*x12; /* K4 */
+        out_D[10 * 4 + k] = bar_i_sensed*x8; /* K5 */
+        out_D[11 * 4 + k] = q_f_yj*x12; /* K6 */
+        out_D[12 * 4 + k] = bar_i_sensed*x9; /* K7 */
+        out_D[13 * 4 + k] = -bar_i_sensed*q_f_yj*q_f_z; /* K8 */
+        out_D[14 * 4 + k] = K1*i_sensed; /* k_VI */
+    }
+    (void)first, (void)count;
+}
+#endif

@@ -14,7 +14,7 @@ from derive.chain import accelerometer
 from derive.effect import Effect
 from derive.stages import Kinematics, Order
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, symbol
-from derive.tape import Program, simplify
+from derive.tape import Program, settled
 from ragg_runtime.instrument.units import units
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
 def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
     a = accelerometer(effects, order, kinematics=kinematics)
-    return evaluated(simplify(a.tape.assignments, [("V", a.voltage)], {}))
+    return evaluated(settled(a.tape.assignments, {}).program([("V", a.voltage)]))
 
 
 @lru_cache
@@ -65,19 +65,19 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     Derived as candidates, as signatures are in use; ``test_first_order.py`` holds that to the derivatives of the whole model.
     """
     a = accelerometer(effects, order, candidates=effects)
-    by = a.tape.derivatives(a.voltage)
+    at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, neutral_values(effects)))
     rows = [(e.symbol(q).name, by(e.symbol(q))) for e in effects for q in e.parameters if q.fitted]
-    return evaluated(simplify(a.tape.assignments, [("V", a.voltage), *rows], neutral_values(effects)))
+    return evaluated(at.program([("V", a.voltage), *rows]))
 
 
 @lru_cache
 def base_derivatives(order: Order) -> Evaluated:
     """dV/d(parameter) of the paper's instrument, by parameter name."""
     a = accelerometer((), order)
-    by = a.tape.derivatives(a.voltage)
+    at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
     gamma = [f"Gamma_{k}" for k in ("xx", "xy", "xz", "yy", "yz", "zz")]
     names = [q.name for q in ACCELEROMETER] + gamma
-    return evaluated(simplify(a.tape.assignments, [(n, by(symbol(n))) for n in names], {}))
+    return evaluated(at.program([(n, by(symbol(n))) for n in names]))
 
 
 def si(unit: str) -> float:

@@ -20,7 +20,7 @@ from derive.effect import Effect, EffectParameter
 from derive.effects import catalogue
 from derive.stages import EXACT, PAPER, Kinematics, Order
 from derive.symbols import ACCELEROMETER, DISC, MOTION
-from derive.tape import simplify
+from derive.tape import settled
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.units import units
@@ -476,8 +476,8 @@ def test_derivatives_hold_where_the_effect_is_strong(effect: Effect) -> None:
     fitted = [q for q in effect.parameters if q.fitted]
     channels = _nothing()[0]
     a = accelerometer((effect,), PAPER)
-    by = a.tape.derivatives(a.voltage)
-    rows = evaluated(simplify(a.tape.assignments, [(q.name, by(effect.symbol(q))) for q in fitted], {}))
+    at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
+    rows = evaluated(at.program([(q.name, by(effect.symbol(q))) for q in fitted]))
     at = {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
     for q in fitted:
         name = effect.symbol(q).name

@@ -82,20 +82,18 @@ def _outputs(outputs: Sequence[tuple[int, Out]]) -> list[str]:
 
 
 def _members(c: Contents, outputs: Sequence[Out]) -> list[str]:
-    paper = c.instrument.layout.like_paper
     most = max(len(o.members) for o in outputs)
-    call = (
-        "((void)(which), ragg_chain_output(1, t, in, p, angle, G))"
-        if paper
-        else "ragg_chain_output(which, 1, t, in, p, angle, G)"
-    )
+    spans = [(min(o.members), max(o.members) + 1 - min(o.members)) for o in outputs]
     pairs = ([f"{{{j}, {s}.0}}" for j, s in zip(o.members, o.signs, strict=True)] for o in outputs)
     return [
-        f"#define PREDICT(which, t, in, p, angle, G) {call}",
-        "",
         "/* Accelerometers of an output and their signs. */",
         f"static const struct {{ int j; double sign; }} MEMBER[ONLINE_OUTPUTS][{most}] = {{",
         *(f"    {{{', '.join(x)}}}," for x in pairs),
+        "};",
+        "/* The accelerometers that it is among. */",
+        f"enum {{ ACCELEROMETERS = {max(count for _, count in spans)} }};",
+        "static const struct { int first, count; } SPAN[ONLINE_OUTPUTS] = {",
+        *(f"    {{{first}, {count}}}," for first, count in spans),
         "};",
         "/* Parameter that is the rate of its disc. */",
         f"static const int SPIN[ONLINE_OUTPUTS] = {{{', '.join(str(o.spin) for o in outputs)}}};",

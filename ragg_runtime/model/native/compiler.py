@@ -32,7 +32,7 @@ from ragg_runtime.base.ownership import belongs_to_user
 VARIABLE = "RAGG_NATIVE"
 """``off``: never compile."""
 
-COMMON = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
+COMMON = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-DRAGG_SERIES_ALONE")
 """No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where
 products are fused; so a sample has the same bits wherever it stands, and with whatever effort it was compiled."""
 

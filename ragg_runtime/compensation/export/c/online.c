@@ -90,20 +90,20 @@ void ragg_online_start(ragg_online *o, int output, double noise, double walk_, d
 static int row_of(const ragg_online *o, double t, const double in[ONLINE_INPUTS], double angle, double G, double *restrict row) {
     const double *series[ONLINE_INPUTS], *encoder = isnan(angle) ? NULL : &angle;
     const int output = o->output;
-    enum { MEMBERS = sizeof MEMBER[0] / sizeof MEMBER[0][0] };
-    double predicted, D[MEMBERS][RAGG_CHAIN_ROWS];
+    const int first = SPAN[output].first, count = SPAN[output].count;
+    double predicted = 0.0, V[ACCELEROMETERS], D[RAGG_CHAIN_ROWS * ACCELEROMETERS];
     for (int k = 0; k < ONLINE_INPUTS; ++k) {
         series[k] = in + k;
     }
-    PREDICT((size_t)ONLINE_OUTPUT[output].which, &t, series, POINT, encoder, &predicted);
+    ragg_chain_sample((size_t)first, (size_t)count, &t, series, POINT, encoder, V, D);
     for (int m = 0; m < ONLINE_OUTPUT[output].members; ++m) {
-        ragg_chain_derivatives((size_t)MEMBER[output][m].j, 1, &t, series, POINT, encoder, D[m]);
+        predicted += MEMBER[output][m].sign * V[MEMBER[output][m].j - first];
     }
     for (int n = 0; n < FITTED_PARAMETERS; ++n) {
         const int own = FITTED[output][n].member, k = FITTED[output][n].row;
         double sum = 0.0;
         for (int m = own < 0 ? 0 : own; m < (own < 0 ? ONLINE_OUTPUT[output].members : own + 1); ++m) {
-            sum += MEMBER[output][m].sign * FITTED[output][n].scale * D[m][k];
+            sum += MEMBER[output][m].sign * FITTED[output][n].scale * D[k * count + MEMBER[output][m].j - first];
         }
         row[PARAMETER_0 + n] = sum;
     }
