@@ -56,8 +56,8 @@ class _Part:
         return placed(self.outputs[m].rest, self.valid)
 
 
-def estimate_noise(at: Point, o: Observation) -> Noise:
-    """Noise of each output from what no column (base, candidate, unknown gradient) explains."""
+def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS) -> Noise:
+    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments."""
     if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
             "the record is too short to estimate its noise",
@@ -66,13 +66,13 @@ def estimate_noise(at: Point, o: Observation) -> Noise:
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
-    parts = _parts(at, o, None)
+    parts = _parts(at, o, None, most)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
     rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
     apart = combinations.telling(rests, o.signs)
     if apart is not None:
-        parts = _parts(at, o, apart)
+        parts = _parts(at, o, apart, most)
     noise = _of_level(parts, o, Level())
     level = _level(parts, o, noise)
     if level.parts:
@@ -155,7 +155,7 @@ def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
     return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
 
 
-def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
+def _parts(at: Point, o: Observation, apart: Array | None, most: int) -> list[_Part]:
     """What is left of segments that are spread over the flight, of the series as they are or in combinations."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
@@ -181,9 +181,7 @@ def _parts(at: Point, o: Observation, apart: Array | None) -> list[_Part]:
     unwhitened = white_noise(o.record.rate, len(o.series))
     if apart is not None:
         unwhitened = replace(unwhitened, combinations=apart)
-    enough = [
-        s for s in spread(flight_segments(o), NOISE_SEGMENTS) if np.sum(o.record.valid[s.rows]) >= SHORTEST
-    ]
+    enough = [s for s in spread(flight_segments(o), most) if np.sum(o.record.valid[s.rows]) >= SHORTEST]
     return list(passed(at, o, unwhitened, part, chosen=enough))
 
 
