@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from itertools import count
 
 import sympy as sp
-from sympy.core.sorting import ordered
-from sympy.simplify.cse_main import opt_cse
 
+from derive.sharing import common
 from derive.symbols import is_taken, symbol
 
 
@@ -260,7 +258,7 @@ def _live(
 def _share(assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]) -> Program:
     """Common subexpressions, each assigned just before its first use."""
     expressions = [e for _, e in assignments] + [e for _, e in outputs]
-    shared, reduced = _common(expressions)
+    shared, reduced = common(expressions)
     pending = dict(shared)
     placed: list[tuple[sp.Symbol, sp.Expr]] = []
 
@@ -278,63 +276,3 @@ def _share(assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str
     for e in tail:
         place(e)
     return Program(tuple(placed), tuple((n, e) for (n, _), e in zip(outputs, tail, strict=True)))
-
-
-Shared = list[tuple[sp.Symbol, sp.Expr]]
-
-
-def _common(expressions: Sequence[sp.Expr]) -> tuple[Shared, list[sp.Expr]]:
-    """Common subexpressions x0, x1 ... in order of use, and what is left: ``sympy.cse`` in canonical order, to the letter.
-
-    SymPy finds what sums and products have in common; walking the trees is done here, in half the time: our expressions are
-    commuting scalars, and the order of what a sum or product is made of is looked up.
-    """
-    common = opt_cse(expressions)
-    seen: set[sp.Expr] = set()
-    repeated: set[sp.Expr] = set()
-    taken: set[str] = set()
-
-    def find(e: sp.Expr) -> None:
-        if isinstance(e, int) or not e.args:  # SymPy notes a quotient with an exponent of Python's
-            if isinstance(e, sp.Symbol):
-                taken.add(e.name)
-        elif e in seen:
-            repeated.add(e)
-        else:
-            seen.add(e)
-            for part in common.get(e, e).args:
-                find(part)
-
-    for e in expressions:
-        find(e)
-    names = (s for n in count() if (s := symbol(f"x{n}")).name not in taken)
-    shared: Shared = []
-    names_of: dict[sp.Expr, sp.Symbol] = {}
-
-    def rebuilt(e: sp.Expr) -> sp.Expr:
-        if isinstance(e, int) or not e.args:
-            return e
-        if e in names_of:
-            return names_of[e]
-        made = common.get(e, e)
-        parts = in_order(made)
-        new = [rebuilt(part) for part in parts]
-        same = isinstance(made, sp.Basic) and all(a is b for a, b in zip(new, parts, strict=True))
-        value = made if same else made.func(*new)
-        if e not in repeated:
-            return value
-        names_of[e] = next(names)
-        shared.append((names_of[e], value))
-        return names_of[e]
-
-    return shared, [rebuilt(e) for e in expressions]
-
-
-def in_order(e: sp.Expr) -> Sequence[sp.Expr]:
-    """What an expression is made of, in SymPy's canonical order, a sign of a product apart."""
-    return _in_order(e) if isinstance(e, (sp.Add, sp.Mul)) else e.args
-
-
-@cache
-def _in_order(e: sp.Expr) -> tuple[sp.Expr, ...]:
-    return tuple(ordered(e.args_cnc()[0] if e.is_Mul else e.args))
