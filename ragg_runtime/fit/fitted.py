@@ -162,9 +162,15 @@ class Fitted:
         return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
     @cached_property
+    def _fitted_part(self) -> Array:
+        """Triangle of all flights over the blocks on which a held-out fit is made, without the prior."""
+        return fold([t[b] for t in self.triangles for b in FITTED_BLOCKS])
+
+    @cached_property
     def data(self) -> Array:
         """Triangle of all flights, without the prior."""
-        return fold([t[b] for t in self.triangles for b in range(BLOCKS)])
+        others = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
+        return fold([self._fitted_part, *(t[b] for t in self.triangles for b in others)])
 
     @cached_property
     def whole(self) -> Array:
@@ -174,7 +180,7 @@ class Fitted:
     @cached_property
     def half(self) -> Array:
         """The same over the blocks on which a held-out fit is made."""
-        return fold([*(t[b] for t in self.triangles for b in FITTED_BLOCKS), self._prior])
+        return fold([self._fitted_part, self._prior])
 
     @property
     def _prior(self) -> Array:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from importlib import resources
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
@@ -48,7 +49,9 @@ class Catalogue:
 
 def effects() -> Catalogue:
     """The packaged catalogue (``ragg effects``)."""
-    text = resources.files("generated").joinpath("manifest.json").read_text("utf-8")
+    found = find_spec("generated")  # `resources` would import the models, and NumPy for them
+    assert found is not None and found.origin is not None
+    text = Path(found.origin).with_name("manifest.json").read_text("utf-8")
     return Catalogue(entries=tuple(json.loads(text)["catalogue"]))
 
 
