@@ -44,7 +44,7 @@ def program(p: Array) -> Program:
 
     from derive.chain import accelerometer
     from derive.symbols import ACCELEROMETER, COS_J, QUARTER_TURNS, SIGNS, SIN_J, symbol
-    from derive.tape import simplify
+    from derive.tape import settled
 
     a = accelerometer()
     total, assignments = sp.Integer(0), []
@@ -63,7 +63,7 @@ def program(p: Array) -> Program:
             own[s] = symbol(f"{s.name}_{j + 1}")
             assignments.append((own[s], e.xreplace(own)))
         total += sign * a.voltage.xreplace(own)
-    found = simplify(assignments, [("G", total)], {})
+    found = settled(assignments, {}).program([("G", total)])
     return [*((s.name, e) for s, e in found.assignments), *found.outputs]
 
 

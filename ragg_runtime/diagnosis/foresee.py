@@ -18,7 +18,7 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence.selection import Field, field_of
 from ragg_runtime.fit import unknown_gradient
-from ragg_runtime.fit.fitted import FITTED_BLOCKS, Fitted
+from ragg_runtime.fit.fitted import HELD_OUT_BLOCKS, Fitted
 from ragg_runtime.fit.observation import as_output
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import BLOCKS, ROWS
@@ -125,12 +125,11 @@ def coefficients(f: Fitted, field: Field, effects: Sequence[str], *, held_out: b
 @one_thread
 def foreseen(f: Fitted, known: Unwhitened, field: Field, effects: Sequence[str]) -> Foreseen:
     """The error that the flights would leave with these effects in the model."""
-    scored = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
     chi2, rank = field.joint([columns_of(field, [e]) for e in effects]) if effects else (0.0, 0)
     return Foreseen(
         effects=tuple(effects),
         rms_Eo=known.rms(coefficients(f, field, effects), range(BLOCKS)) / f.k_ggi,
-        holdout_Eo=known.rms(coefficients(f, field, effects, held_out=True), scored) / f.k_ggi,
+        holdout_Eo=known.rms(coefficients(f, field, effects, held_out=True), HELD_OUT_BLOCKS) / f.k_ggi,
         chi2=chi2,
         rank=rank,
     )

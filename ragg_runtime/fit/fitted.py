@@ -32,8 +32,8 @@ from ragg_runtime.signals.noise_spectrum import Noise
 Array = NDArray[np.float64]
 
 FITTED_BLOCKS = tuple(b for b in range(BLOCKS) if (b // 4) % 2 == 0)
+HELD_OUT_BLOCKS = tuple(b for b in range(BLOCKS) if b not in FITTED_BLOCKS)
 """Blocks of time on which a held-out fit is made; the others, in turn with them, score it."""
-
 
 FREE = 1e-3
 """Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
@@ -84,7 +84,7 @@ def _counted(piece: Piece, V: Array, further: Callable[[Piece], Array] | None) -
     scored = np.zeros(len(r.time), dtype=np.bool_)
     for b, rows in piece.segment.blocks:
         here = slice(rows.start - piece.segment.rows.start, rows.stop - piece.segment.rows.start)
-        scored[here] = b not in FITTED_BLOCKS
+        scored[here] = b in HELD_OUT_BLOCKS
         v = r.valid[here]
         squares[b] = np.sum(e[:, here][:, v] ** 2, axis=1)
         samples[b] = np.sum(v)
@@ -163,14 +163,12 @@ class Fitted:
 
     @cached_property
     def _fitted_part(self) -> Array:
-        """Triangle of all flights over the blocks on which a held-out fit is made, without the prior."""
         return fold([t[b] for t in self.triangles for b in FITTED_BLOCKS])
 
     @cached_property
     def data(self) -> Array:
         """Triangle of all flights, without the prior."""
-        others = [b for b in range(BLOCKS) if b not in FITTED_BLOCKS]
-        return fold([self._fitted_part, *(t[b] for t in self.triangles for b in others)])
+        return fold([self._fitted_part, *(t[b] for t in self.triangles for b in HELD_OUT_BLOCKS)])
 
     @cached_property
     def whole(self) -> Array:
@@ -199,8 +197,7 @@ class Fitted:
 
         With ``held_out`` only the blocks of :data:`FITTED_BLOCKS` are fitted. The null biases take the residual's mean.
         """
-        T = self.half if held_out else self.whole
-        n = self.n_base
+        T, n = self.half if held_out else self.whole, self.n_base
         picked = [*range(n), *(n + k for k in extra)]
         k = len(picked)
         # the base columns are triangular already: what the extra ones leave below them is all that is new
@@ -232,8 +229,7 @@ class Fitted:
         found = []
         for x in self.prepared:
             lean, w = x.for_residuals(v[None], self.n_base)
-            parts = lean.each(partial(_left, w), whitened=False)
-            found.append(np.concatenate([*parts]))
+            found.append(np.concatenate([*lean.each(partial(_left, w), whitened=False)]))
         return found
 
     def score(
