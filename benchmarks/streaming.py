@@ -148,7 +148,7 @@ def _coloured(m: Loaded) -> list[Row]:
     n = X.shape[1]
     psd = f.prepared[0].noise.models[0].psd(np.fft.rfftfreq(2 * n, 1 / 16.0))
     sigma = toeplitz(np.fft.irfft(psd)[:n] * 8.0)
-    whole = _processor_time(sm.GLS(y, X[: f.n_base].T, sigma=sigma).fit)
+    whole = _processor_time(lambda: sm.GLS(y, X[: f.n_base].T, sigma=sigma).fit())  # its root of sigma, too
     streamed = _processor_time(lambda: prepared_flight.blocks(f.prepared[0].released()))
     return [
         Row("statsmodels GLS, base columns alone", whole, "s", f"{n} rows; an hour at 100 Hz needs 1 TB"),
