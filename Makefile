@@ -66,7 +66,7 @@ $(RIVALS): requirements.lock pyproject.toml
 	    || echo "$$name cannot be installed here"; done
 	@touch $@
 
-bench: $(RIVALS)  ## measure speed, as ratios within one run (below 10 minutes; docs/benchmarks.md)
+bench: $(RIVALS)  ## measure speed, as ratios within one run (10 to 20 minutes; docs/benchmarks.md)
 	.venv-bench/bin/python -m benchmarks
 
 # The other methods want older versions of the numerical packages than the lock: an environment of their own.

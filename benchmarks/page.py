@@ -58,7 +58,7 @@ def page(everything: Mapping[str, Any], titles: Mapping[str, str], last: Mapping
     lines = [
         "# Benchmarks",
         "",
-        "Written by `make bench` (all of them, below 10 minutes; numbers also in `build/bench.json`).",
+        "Written by `make bench` (all of them, 10 to 20 minutes; numbers also in `build/bench.json`).",
         "One alone: `python -m benchmarks NAME`. Medians, with lower and upper quartile; rivals are timed in",
         "turn with us, in one process, and ratios are taken round by round. The last column is the change of a ratio",
         "since the last run that was committed (`benchmarks/last.json`, renewed by `python -m benchmarks --keep`).",
