@@ -12,7 +12,7 @@ To add one, write ``benchmarks/<name>.py``::
 Nothing has to be registered. ``python -m benchmarks [NAME ...]`` runs all benchmarks or those named, each in a
 process of its own (so import heavy things inside ``run``; ``ENVIRONMENT``, a mapping, adds to the
 environment of that process), prints tables, and keeps ``build/bench.json``; a run of all of them writes
-``docs/benchmarks.md`` too. All together must stay below 10 minutes (``make bench``).
+``docs/benchmarks.md`` too. All together take 10 to 20 minutes (``make bench``).
 
 What a row should be: a time or a rate, with its spread, and beside it the *ratio to something fixed, measured
 interleaved in the same run* (``timing.interleaved``): a peer, or ``timing.fixed_peer``. Ratios (unit "x") are
