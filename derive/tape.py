@@ -106,6 +106,9 @@ class About:
 
 EVERYTHING = About()
 
+ByInput = Callable[[sp.Symbol], sp.Expr]
+"""The derivative by an input symbol."""
+
 
 @dataclass
 class Tape:
@@ -202,9 +205,6 @@ class Tape:
                 scatter(e, self.let(f"{prefix}_{s.name}", seed))
         both = replace(at, assignments=(*at.assignments, *self.assignments[forward:]))
         return both, lambda s: sp.Add(*adjoint.get(s, []))
-
-
-ByInput = Callable[[sp.Symbol], sp.Expr]
 
 
 @dataclass(frozen=True)

@@ -16,14 +16,14 @@ from derive.symbols import INSTRUMENT, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 
 @cache
-def _terms(e: sp.Expr) -> list[sp.Expr]:
-    return list(e.as_ordered_terms())
+def _terms(e: sp.Expr) -> tuple[sp.Expr, ...]:
+    return tuple(e.as_ordered_terms())
 
 
 class _InOrder:
     """Sums in SymPy's order, which takes long to find and is the same in every language."""
 
-    def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+    def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> tuple[sp.Expr, ...]:
         return _terms(e)
 
 

@@ -43,7 +43,7 @@ LOOKED, STRETCHES = 8000, 4
 """Samples, and number, of the stretches of a long flight that say whether a calibration holds: seconds of work, where
 the whole flight would take longer than it takes to compensate it."""
 
-NOISE_SEGMENTS = 4
+HEARD = 4
 """Most segments of a flight of which the noise is estimated. Half of what a fit listens to takes half of the time, which is most of
 what a million samples take, and tells the standard deviation of what passes the low-pass to 2 % at 100 Hz."""
 
@@ -142,7 +142,7 @@ def calibration(
     columns = base_columns(model, instrument)
     half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
-    noise: list[Noise] = [estimate_noise(at, o, NOISE_SEGMENTS) for o in observations]
+    noise: list[Noise] = [estimate_noise(at, o, HEARD) for o in observations]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),

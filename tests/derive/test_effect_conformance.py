@@ -476,8 +476,8 @@ def test_derivatives_hold_where_the_effect_is_strong(effect: Effect) -> None:
     fitted = [q for q in effect.parameters if q.fitted]
     channels = _nothing()[0]
     a = accelerometer((effect,), PAPER)
-    at, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
-    rows = evaluated(at.program([(q.name, by(effect.symbol(q))) for q in fitted]))
+    whole, by = a.tape.derivatives(a.voltage, settled(a.tape.assignments, {}))
+    rows = evaluated(whole.program([(q.name, by(effect.symbol(q))) for q in fitted]))
     at = {effect.symbol(q).name: reach(effect, q, 3e-3) for q in fitted}
     for q in fitted:
         name = effect.symbol(q).name

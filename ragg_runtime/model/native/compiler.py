@@ -34,7 +34,8 @@ VARIABLE = "RAGG_NATIVE"
 
 COMMON = ("-std=c17", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared", "-DRAGG_SERIES_ALONE")
 """No -ffast-math: it gains nothing and costs exactness. Contraction is off because the code says itself where
-products are fused; so a sample has the same bits wherever it stands, and with whatever effort it was compiled."""
+products are fused; so a sample has the same bits wherever it stands, and with whatever effort it was compiled. What a chain
+offers for single instants is left out: nobody calls it here."""
 
 THOROUGH, QUICK = "-O3", "-O1"
 
