@@ -174,7 +174,7 @@ def harmonic_errors(f: Fitted, coefficients: Array) -> list[dict[str, object]]:
             continue
         counted += 1
         squares, samples = dict.fromkeys(total, 0.0), 0
-        lean, v = x.for_residuals(coefficients[None], f.n_base)
+        lean, v = x.for_residuals(coefficients[None])
         tail = np.empty((len(total), 0))
 
         def mix(piece: Piece, v: Array = v, k_ggi: float = k_ggi) -> Array:

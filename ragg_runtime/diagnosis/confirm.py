@@ -115,17 +115,19 @@ def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
 
 def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Variance]]:
     """What is left once ``given`` columns are projected out, and the sums of random effects, in one pass."""
-    places = _random_columns(f)
-
-    def variances(piece: Piece, y: Array) -> dict[str, Variance]:
-        return {e: Variance.of(piece, place, y) for e, place in places.items()}
-
+    random = _random_columns(f)
     searches, counted = [], []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        found, more = omnibus.search(x, prepared_flight.projector(triangles, f.n_base, given), variances)
+        taken = prepared_flight.projector(triangles, f.n_base, given)
+        lean, projector, places = taken.lean(x, list(random.values()))
+
+        def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:
+            return {e: Variance.of(piece, k, y) for e, k in zip(random, places, strict=True)}
+
+        found, more = omnibus.search(lean, projector, variances)
         searches.append(found)
         counted += more
-    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in places}
+    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in random}
 
 
 def _random_columns(f: Fitted) -> dict[str, int]:

@@ -48,7 +48,7 @@ def heat(
     prepared: PreparedFlight, triangles: Sequence[Array], n_base: int, given: Sequence[int] = ()
 ) -> Heat:
     """The scores of all terms once base and ``given`` candidate columns are projected out, in one pass."""
-    projector = prepared_flight.projector(triangles, n_base, given)
+    prepared, projector, _ = prepared_flight.projector(triangles, n_base, given).lean(prepared)
     scores = Scores(prepared, projector)
 
     def own(piece: Piece) -> Sums:

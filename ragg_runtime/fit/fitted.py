@@ -228,7 +228,7 @@ class Fitted:
         """The same with the coefficients of all columns, (size,)."""
         found = []
         for x in self.prepared:
-            lean, w = x.for_residuals(v[None], self.n_base)
+            lean, w = x.for_residuals(v[None])
             found.append(np.concatenate([*lean.each(partial(_left, w), whitened=False)]))
         return found
 
@@ -246,7 +246,7 @@ class Fitted:
             r = x.observation.record
             tally = Tally(k, 2, r.rate, turning=r.turning)
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
-            lean, W = x.for_residuals(V, self.n_base)
+            lean, W = x.for_residuals(V)
 
             def counted(piece: Piece, W: Array = W) -> _Counted:
                 return _counted(piece, W, further)

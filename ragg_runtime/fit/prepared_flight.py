@@ -60,11 +60,26 @@ class PreparedFlight:
         self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
         return map(work, self._kept)
 
-    def for_residuals(self, v: Array, n_base: int) -> tuple[PreparedFlight, Array]:
-        """What yields residuals for coefficients v (k, size) at least cost: without candidates if none is used."""
-        if self._kept or np.any(v[:, n_base:]):
-            return self, v
-        return replace(self, at=replace(self.at, with_candidates=False), _kept=[]), v[:, :n_base]
+    def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
+        """What makes the base's columns and those at ``places`` among all at least cost, and where it puts the latter: all of
+        them where they are kept.
+        """
+        if self._kept:
+            return self, list(places)
+        n = len(self.at.base)
+        further = sorted({k - n for k in places if k >= n})
+        known = range(len(self.at.candidates)) if self.at.only is None else self.at.only
+        at = replace(self.at, with_candidates=bool(further), only=tuple(known[k] for k in further))
+        return replace(self, at=at, _kept=[]), [k if k < n else n + further.index(k - n) for k in places]
+
+    def for_residuals(self, v: Array) -> tuple[PreparedFlight, Array]:
+        """What yields residuals for coefficients v (k, size) at least cost, and these coefficients of its columns."""
+        n = len(self.at.base)
+        places = [*range(n), *(n + np.flatnonzero(np.any(v[:, n:], axis=0)))]
+        lean, own = self.lean(places)
+        w = np.zeros((len(v), v.shape[1] if lean is self else len(places)))
+        w[:, own] = v[:, places]
+        return lean, w
 
     def with_steps(
         self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
@@ -170,6 +185,14 @@ class Projector:
     def left(self, piece: Piece, Q: Array) -> Array:
         """(rows,): the whitened residual less its components along the basis."""
         return np.asarray(piece.white[-1] - Q @ self.along)
+
+    def lean(
+        self, x: PreparedFlight, further: Sequence[int] = ()
+    ) -> tuple[PreparedFlight, Projector, list[int]]:
+        """What makes the columns that are taken, and ``further`` ones, at least cost, with the places of both in it."""
+        x, places = x.lean([*self.taken, *further])
+        k = len(self.taken)
+        return x, replace(self, taken=np.array(places[:k], dtype=np.intp)), places[k:]
 
 
 def projector(triangles: Sequence[Array], n_base: int, given: Sequence[int]) -> Projector:

@@ -48,8 +48,8 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""
     found = []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
-        projector = prepared_flight.projector(triangles, f.n_base, given)
-        found.append(omnibus.search(x, projector, lambda piece, y: None)[0])
+        lean, projector, _ = prepared_flight.projector(triangles, f.n_base, given).lean(x)
+        found.append(omnibus.search(lean, projector, lambda piece, y: None)[0])
     return Remainder(tuple(found))
 
 
