@@ -20,10 +20,9 @@ from ragg_runtime.compensation.schedule import Stretch
 from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import fit
-from ragg_runtime.fit.noise import spread
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import finite
-from ragg_runtime.fit.segments import ROWS, Segment
+from ragg_runtime.fit.segments import ROWS, Segment, spread
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees

@@ -22,10 +22,10 @@ from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import base_columns
 from ragg_runtime.fit.fitted import Fitted, about
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import estimate_noise, spread
+from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import Error
-from ragg_runtime.fit.segments import segments
+from ragg_runtime.fit.segments import segments, spread
 from ragg_runtime.fit.square_root import join
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument

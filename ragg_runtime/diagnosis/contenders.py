@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Protocol
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.fit.fitted import Fitted, calibrated
 from ragg_runtime.fit.off_sheet import QUIET, as_said, room_taken
+from ragg_runtime.fit.passes import excerpt
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -23,6 +24,11 @@ Array = NDArray[np.float64]
 
 HOPELESS = 2.0
 """Times the chi-square of a contender that leaves but noise, above which another one is given up."""
+
+
+APART = 100.0
+"""Chi-square by which a contender must leave more than another one of an excerpt to be out of the contest (10 sigma): of two that
+are alike the coefficients fit so much of the noise that one may be ahead by a dozen or two."""
 
 
 class Extend(Protocol):
@@ -115,3 +121,47 @@ def left(
         ceiling=HOPELESS * c.chi2 if noise_alone else np.inf,
         arrived=c.converged,
     )
+
+
+@dataclass(frozen=True)
+class Contest:
+    """What contenders leave of some flights, each fitted once; of long ones first an excerpt, then all for those that are near.
+
+    Attributes
+    ----------
+    f
+        The flights fitted without them.
+    entered
+        Of a contender, what of it is ``held``, and its model and sheet: as for :func:`left`.
+    """
+
+    f: Fitted
+    entered: Callable[[str], tuple[frozenset[str], tuple[Model, Instrument]]]
+    _of_all: dict[str, Left] = field(default_factory=dict)
+    _of_some: dict[str, Left] = field(default_factory=dict)
+
+    @property
+    def arrived(self) -> bool:
+        """Whether any fit came to an optimum, or none was made."""
+        made = self._of_some | self._of_all
+        return not made or any(x.arrived for x in made.values())
+
+    def left(self, ids: Sequence[str]) -> dict[str, float]:
+        """Chi-square that each leaves of all; of those that the excerpt puts out of the contest what it says of them."""
+        shorter = tuple(excerpt(o) for o in self.f.observations)
+        share = sum(int(np.sum(o.record.valid)) for o in shorter) / sum(
+            int(np.sum(o.record.valid)) for o in self.f.observations
+        )
+        if share == 1.0:
+            return {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids}
+        some = replace(self.f, observations=shorter)
+        rough = {e: self._fitted(e, some, self._of_some).chi2 for e in ids}
+        least = min(rough.values())
+        near = {e: self._fitted(e, self.f, self._of_all).chi2 for e in ids if rough[e] < least + APART}
+        return {e: min(near.values()) + (x - least) / share for e, x in rough.items()} | near
+
+    def _fitted(self, e: str, f: Fitted, fits: dict[str, Left]) -> Left:
+        if e not in fits:
+            ceiling = min((x.ceiling for x in fits.values()), default=np.inf)
+            fits[e] = left(f, f.calibration.noise, *self.entered(e), ceiling)
+        return fits[e]

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis import contenders
-from ragg_runtime.diagnosis.contenders import Extend, Left
+from ragg_runtime.diagnosis.contenders import Contest, Extend, Left
 from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
@@ -30,6 +30,8 @@ from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.off_sheet import QUIET
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -235,19 +237,15 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
     the catalogue. Nor is one of several of which none comes to an optimum.
     """
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
-    fits: dict[str, Left] = {}
 
-    def score(e: str) -> float:
-        if e not in fits:
-            held = frozenset(_others(stage.field, e, tests[e].which))
-            extended = contenders.derived(f, [e], stage.instants, extend)
-            ceiling = min((x.ceiling for x in fits.values()), default=np.inf)
-            fits[e] = contenders.left(f, f.calibration.noise, held, extended, ceiling)
-        return fits[e].chi2
+    def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
+        held = frozenset(_others(stage.field, e, tests[e].which))
+        return held, contenders.derived(f, [e], stage.instants, extend)
 
+    contest = Contest(f, entered)
     while True:
-        effect, rivals, undecided = _best(stage, tests, score)
-        if fits and not any(x.arrived for x in fits.values()):
+        effect, rivals, undecided = _best(stage, tests, contest.left)
+        if not contest.arrived:
             return None
         found = replace(_in_model(stage, effect, undecided, extend), rivals=rivals)
         if len(tests) == 1 or not impossible(found.after, (effect,)):
@@ -258,7 +256,7 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
 
 
 def _best(
-    stage: Stage, tests: Mapping[str, Test], score: Callable[[str], float]
+    stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     """Of some effects the one that leaves least by its ``score``; of those that do equally well, the linear test's choice.
 
@@ -271,10 +269,11 @@ def _best(
     rows = stage.fitted.calibration.rows
     charge = {e: contenders.charge(stage.field.P[:, list(tests[e].which)], rows) for e in near}
     tried = near[:CONTENDERS]
-    left = {e: score(e) for e in tried} if len(tried) > 1 else dict.fromkeys(tried, 0.0)
+    left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
     best = min(tried, key=lambda e: (left[e] + charge[e], e))
     # effects with the same signature are all of its group, however many they are
-    left |= {e: score(e) for e in near[CONTENDERS:] if _alike(tests[e], tests[best])}
+    alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
+    left |= score(alike) if alike else {}
     equal = [e for e in left if left[e] + charge[e] < left[best] + charge[best] + INDISTINGUISHABLE]
     effect = min(equal, key=near.index)
     as_near = [

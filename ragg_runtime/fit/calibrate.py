@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import estimate_noise, spread
+from ragg_runtime.fit.noise import estimate_noise
 from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.passes import Piece, flight_segments, passed
+from ragg_runtime.fit.passes import Piece, excerpt, heard, passed
 from ragg_runtime.fit.square_root import join, with_prior
 from ragg_runtime.fit.trust_region import Linear, Minimum, minimise
 from ragg_runtime.instrument.instrument import Instrument
@@ -43,9 +43,6 @@ ROUNDS = 3
 
 FALLING = 0.9
 """Factor below which one of both must have fallen for another one."""
-
-WHITE_SEGMENTS = 4
-"""Most segments on which the first fit, with noise still taken as white, is made."""
 
 
 @dataclass(frozen=True)
@@ -155,8 +152,15 @@ class _Task:
         p[self.index] += x * self.scale
         return p
 
-    def at(self, x: Array, noise: Sequence[Noise], most: int | None = None) -> _Fall:
-        """Linearised about x; of at most ``most`` segments of every flight."""
+    def excerpt(self) -> _Task:
+        """The same of some segments of long flights; itself if none is long."""
+        shorter = [excerpt(o) for o in self.observations]
+        if all(a is b for a, b in zip(shorter, self.observations, strict=True)):
+            return self
+        return replace(self, observations=shorter)
+
+    def at(self, x: Array, noise: Sequence[Noise]) -> _Fall:
+        """Linearised about x."""
         p = self.vector(x)
         places = {o.place for o in self.observations}
         if not all(scale_factor(self.model, p, place) > 0.0 for place in places):
@@ -165,8 +169,7 @@ class _Task:
         triangles, rows = [], 0
         sums = {o.place: np.zeros(len(x) + 1) for o in self.observations}
         for o, n in zip(self.observations, noise, strict=True):
-            chosen = None if most is None else spread(flight_segments(o), most)
-            for T, count, part in passed(point, o, n, _triangle, chosen=chosen):
+            for T, count, part in passed(point, o, n, _triangle, chosen=heard(o)):
                 triangles.append(T)
                 rows += count
                 sums[o.place] += part
@@ -200,7 +203,6 @@ class _Unweighted:
     """Fits in which every sample weighs the same: the points that were tried serve for any size of the noise."""
 
     task: _Task
-    most: int | None = None
     _tried: dict[bytes, _Fall] = field(default_factory=dict)
 
     def volts(self, x: Array) -> _Fall:
@@ -210,7 +212,7 @@ class _Unweighted:
             while len(self._tried) > 1:
                 self._tried.pop(next(iter(self._tried)))
             unit = [white_noise(o.record.rate, len(o.series)) for o in self.task.observations]
-            self._tried[key] = self.task.at(x, unit, self.most)
+            self._tried[key] = self.task.at(x, unit)
         return self._tried[key]
 
     def fit(self, x: Array, size: float) -> Minimum[_Fall]:
@@ -241,22 +243,23 @@ def fit(
     """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``,
     where the noise is given.
 
-    First every sample weighs the same, as much as what a linear fit leaves says. Where that fit ends the noise is
-    estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
+    Fits begin on some segments of a long flight. First every sample weighs the same, as much as what a linear fit leaves says.
+    Where that fit ends the noise is estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
     than noise (or ``unweighted`` is asked for), unwhitened still. In the end the null biases take the
     residual's mean (``design.levelled``).
     """
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
-    loud, whole = unweighted, _Unweighted(task)
+    loud, whole, some = unweighted, _Unweighted(task), task.excerpt()
     if noise is None:
-        short = all(len(flight_segments(o)) <= WHITE_SEGMENTS for o in observations)
-        some = whole if short else _Unweighted(task, WHITE_SEGMENTS)
-        x = some.fit(x, some.promised(x)).x
+        begun = whole if some is task else _Unweighted(some)
+        x = begun.fit(x, begun.promised(x)).x
         noise = task.noise(x)
         lines = float(np.mean([n.line_power for n in noise]))
-        loud = loud or some.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
+        loud = loud or begun.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
     if not loud:
+        if start is None and some is not task:
+            x = minimise(lambda at: some.at(at, noise), x).x
         found = minimise(lambda at: task.at(at, noise), x, ceiling=ceiling)
         return _calibration(task, found, noise)
     return _loud(whole, x, noise, fixed=unweighted)

@@ -17,7 +17,7 @@ from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.segments import Segment
+from ragg_runtime.fit.segments import spread
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import combinations, noise_level
@@ -254,10 +254,3 @@ def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
         {n: np.concatenate(x) for n, x in quantities.items()},
         {e: np.concatenate(x) for e, x in rivals.items()},
     )
-
-
-def spread(found: Sequence[Segment], most: int) -> list[Segment]:
-    """At most so many of the segments, evenly spread."""
-    if len(found) <= most:
-        return list(found)
-    return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -16,7 +16,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output
-from ragg_runtime.fit.segments import ROWS, Segment, segments
+from ragg_runtime.fit.segments import ROWS, Segment, segments, spread
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
@@ -98,6 +98,26 @@ def flight_segments(o: Observation) -> list[Segment]:
     return segments(n, max(n, ROWS) if o.recorded.demodulated else ROWS)
 
 
+EXCERPT = 4
+"""Most segments of an excerpt."""
+
+
+def excerpt(o: Observation) -> Observation:
+    """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
+    found = flight_segments(o)
+    if len(found) <= EXCERPT:
+        return o
+    valid = np.zeros(len(o.record.time), dtype=np.bool_)
+    for s in spread(found, EXCERPT):
+        valid[s.rows] = o.record.valid[s.rows]
+    return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record), memo=[])
+
+
+def heard(o: Observation) -> list[Segment]:
+    """The segments of a flight that hold valid samples."""
+    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
+
+
 def passed(
     at: Point,
     o: Observation,
@@ -110,14 +130,13 @@ def passed(
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
 
-    ``chosen`` are some of the segments: then filters of more than one tap start from rest in each. If
-    ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
+    ``chosen`` are some of the segments, in order: filters take what lies between them for zeros. If ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
     ``effort`` times as long as what makes the piece.
     """
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
     found = flight_segments(o) if chosen is None else chosen
-    memory = max(len(t) for t in noise.filters) - 1 if whitened and chosen is None else 0
+    memory = max(len(t) for t in noise.filters) - 1 if whitened else 0
     tails: list[Future[Array | None]] = [Future() for _ in found]
 
     def one(k: int) -> R:
@@ -131,6 +150,7 @@ def passed(
             if k and memory:
                 tail = tails[k - 1].result()  # the segment before was begun before
                 tails[k - 1] = Future()  # its memory is free again
+                tail = _past(tail, s.rows.start - found[k - 1].rows.stop, memory)
             tails[k].set_result(_carried(tail, columns, memory))
             flat = _white(columns, heard, noise, tail, part.record, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
@@ -189,6 +209,13 @@ def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: R
         y = y / level if noise.level.parts else y
         rows.append(y if valid.all() else y[:, valid])
     return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
+
+
+def _past(tail: Array | None, gap: int, memory: int) -> Array | None:
+    """What a filter still remembers after so many zeros."""
+    if tail is None or gap >= memory:
+        return None
+    return np.pad(tail, ((0, 0), (0, 0), (0, gap)))[:, :, -memory:] if gap else tail
 
 
 def _carried(tail: Array | None, columns: Array, memory: int) -> Array | None:

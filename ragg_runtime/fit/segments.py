@@ -7,7 +7,7 @@ before is carried over, so that the division leaves no trace in any figure.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -46,6 +46,13 @@ def segments(samples: int, most: int = ROWS) -> list[Segment]:
                 waiting = []
             waiting.append((b, part))
     return [*found, _joined(waiting)]
+
+
+def spread(found: Sequence[Segment], most: int) -> list[Segment]:
+    """At most so many of the segments, evenly spread."""
+    if len(found) <= most:
+        return list(found)
+    return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
 def _parts(start: int, stop: int, most: int) -> Iterator[slice]:

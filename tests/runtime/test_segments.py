@@ -54,7 +54,7 @@ def test_the_division_leaves_no_trace(
     whole = fitted.fit(model.packaged(), s.sheet, [o], noise)
     for module in (passes, prepared_flight):
         monkeypatch.setattr(module, "ROWS", 1700)
-    monkeypatch.setattr(calibrate, "WHITE_SEGMENTS", 1000)
+    monkeypatch.setattr(passes, "EXCERPT", 1000)
     assert len(passes.flight_segments(o)) > 5
     parts = fitted.fit(model.packaged(), s.sheet, [o], noise)
     scale = np.array([c.scale for c in whole.calibration.columns])
