@@ -243,10 +243,10 @@ def fit(
     """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``,
     where the noise is given.
 
-    Fits begin on some segments of a long flight. First every sample weighs the same, as much as what a linear fit leaves says.
-    Where that fit ends the noise is estimated from what nothing explains. Then the fit goes on with every column whitened; or, where much more is left
-    than noise (or ``unweighted`` is asked for), unwhitened still. In the end the null biases take the
-    residual's mean (``design.levelled``).
+    Fits from the nominal values begin on an excerpt of a long flight. First every sample weighs the same, as much as what a
+    linear fit leaves says. Where that fit ends the noise is estimated from what nothing explains. Then the fit goes on with
+    every column whitened; or, where much more is left than noise (or ``unweighted`` is asked for), unwhitened still. In the
+    end the null biases take the residual's mean (``design.levelled``).
     """
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale

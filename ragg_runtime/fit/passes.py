@@ -130,8 +130,9 @@ def passed(
 ) -> Iterator[R]:
     """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
 
-    ``chosen`` are some of the segments, in order: filters take what lies between them for zeros. If ``whitened`` is not wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes
-    ``effort`` times as long as what makes the piece.
+    ``chosen`` are some of the segments, in order: filters take what lies between them for zeros. If ``whitened`` is not
+    wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes ``effort`` times as long as what
+    makes the piece.
     """
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
