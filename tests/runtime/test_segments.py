@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from ragg_runtime.diagnosis import comparison
+from ragg_runtime.diagnosis import comparison, contenders
+from ragg_runtime.diagnosis.contenders import Left
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import calibrate, fitted, observation, passes, prepared_flight, score
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.segments import BLOCKS, segments
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
 from ragg_runtime.lack_of_fit import remainder
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
 
@@ -138,3 +142,53 @@ def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scen
     heard = score.supported(np.ones((1, 1000), dtype=bool), gap, 101)[0]
     assert not heard[460:500].any()  # windows with more than half of the gap
     assert heard[:400].all() and heard[560:].all()
+
+
+def test_an_excerpt_tells_of_its_samples_what_the_whole_pass_tells(
+    flown: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What is not heard is left out of the pass, and nothing else is: the same misfit, slope and sums as with zeros there."""
+    s, flight = flown
+    o = observation.observe(flight, s.sheet)
+    noise = fitted.fit(model.packaged(), s.sheet, [o]).calibration.noise
+    monkeypatch.setattr(passes, "ROWS", 1700)
+    monkeypatch.setattr(passes, "EXCERPT", 3)
+    some = passes.excerpt(o)
+    heard = passes.heard(some)
+    assert len(heard) == 3 < len(passes.flight_segments(o))
+    assert heard[0].rows.start == 0 and heard[-1].rows.stop == len(flight.time)
+    assert passes.excerpt(some) is not some and passes.heard(passes.excerpt(some)) == heard
+    task = calibrate._Task.of(model.packaged(), s.sheet, [some])
+    x = np.full(len(task.index), 0.01)
+    found = task.at(x, noise)
+    monkeypatch.setattr(calibrate, "heard", lambda o: None)
+    expected = task.at(x, noise)
+    assert found.rows == expected.rows == sum(r.rows.stop - r.rows.start for r in heard)
+    assert found.cost == pytest.approx(expected.cost, rel=1e-10)
+    assert found.decrement == pytest.approx(expected.decrement, rel=1e-8)
+    for place, sums in expected.sums.items():
+        np.testing.assert_allclose(found.sums[place], sums, rtol=1e-9)
+
+
+def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
+    flown: tuple[Scenario, Flight], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The right effect, and only those fitted to everything that the excerpt left in the contest."""
+    s, flight = flown
+    short = diagnosed(s, flight)
+    for module in (passes, prepared_flight):
+        monkeypatch.setattr(module, "ROWS", 1700)
+    monkeypatch.setattr(passes, "EXCERPT", 3)
+    fitted_to: list[int] = []
+
+    def left(f: Fitted, *given: Any) -> Left:
+        fitted_to.append(int(np.sum(f.observations[0].record.valid)))
+        return original(f, *given)
+
+    original = contenders.left
+    monkeypatch.setattr(contenders, "left", left)
+    long = diagnosed(s, flight)
+    assert long.staged and long.found == short.found == ("thermal-scale",)
+    assert long.after.rms_Eo == pytest.approx(short.after.rms_Eo, rel=1e-3)
+    everything = int(np.sum(flight.valid))
+    assert fitted_to.count(everything) == 1 < len(fitted_to) - 1
