@@ -142,7 +142,7 @@ def calibration(
     columns = base_columns(model, instrument)
     half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
-    noise: list[Noise] = [estimate_noise(at, o, HEARD) for o in observations]
+    noise: list[Noise] = [estimate_noise(at, o, HEARD, slow=False) for o in observations]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,6 +87,7 @@ def refined(
     reach = max(1, length // BLOCKS)
     places = [*range(n_base), *(n_base + n for n in given), *(n_base + n for n, _ in columns)]
     moved = list(range(n_base + len(given), len(places)))
+    flights = [x.lean(places) for x in prepared]
     named = [(n - n_base, c) for n, (_, c) in zip(moved, columns, strict=True)]
     while reach > 1:
         low, high = _near(step.sample, reach, length)
@@ -93,14 +95,14 @@ def refined(
         cuts = np.array([0, *edges, length])
         triangles: list[Array | None] = [None] * (len(cuts) - 1)
 
-        def cut(piece: Piece, cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
-            X = piece.white[[*places, -1]]
+        def cut(piece: Piece, own: Sequence[int], cuts: NDArray[np.intp] = cuts) -> list[tuple[int, Array]]:
+            X = piece.white[[*own, -1]]
             which = np.searchsorted(cuts, piece.sample, side="right") - 1
             return [(int(k), triangle(X[:, which == k])) for k in np.unique(which)]
 
-        for x in prepared:
-            for own in x.each(cut):
-                for k, T in own:
+        for x, own in flights:
+            for parts in x.each(partial(cut, own=own)):
+                for k, T in parts:
                     before = triangles[k]
                     triangles[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.signals.fir import filtered
-from ragg_runtime.signals.noise_spectrum import NoiseModel, estimate
+from ragg_runtime.signals.noise_spectrum import Averages, NoiseModel, estimate
 from ragg_runtime.signals.periodogram import hann
 
 Array = NDArray[np.float64]
@@ -52,19 +52,20 @@ def quiet_estimate(
     rate: float,
     without: tuple[float, float] | None = None,
     kept: Sequence[Array] | None = None,
+    slow: Averages | None = None,
 ) -> tuple[NoiseModel, list[list[Burst]]]:
     """The spectrum of the noise from contiguous stretches of residual, bursts left out, and those of each stretch.
 
-    ``without``, ``kept``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
+    ``without``, ``kept``, ``slow``: as in :func:`ragg_runtime.signals.noise_spectrum.estimate`.
     """
-    model = estimate(residual, rate, without, kept)
+    model = estimate(residual, rate, without, kept, slow)
     bursts: list[list[Burst]] = [[] for _ in residual]
     for _ in range(ROUNDS):
         found = _bursts(residual, model)
         if [len(b) for b in found] == [len(b) for b in bursts]:
             break
         bursts = found
-        model = _estimated(residual, bursts, rate, without, kept)
+        model = _estimated(residual, bursts, rate, without, kept, slow)
     return model, bursts
 
 
@@ -74,6 +75,7 @@ def _estimated(
     rate: float,
     without: tuple[float, float] | None,
     kept: Sequence[Array] | None,
+    slow: Averages | None,
 ) -> NoiseModel:
     left, heard, total = [], 0.0, 0.0
     for e, own in zip(residual, bursts, strict=True):
@@ -84,7 +86,7 @@ def _estimated(
             e[b.start : b.stop] = weight[b.start : b.stop] = 0.0
         left.append(e)
         heard += float(np.sum(weight))
-    model = estimate(left, rate, without, kept)
+    model = estimate(left, rate, without, kept, slow)
     return NoiseModel(rate, model.log_f, model.log_psd + np.log(total / heard), model.spread)
 
 

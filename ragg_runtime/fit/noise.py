@@ -18,12 +18,21 @@ from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import spread
+from ragg_runtime.fit.slow_noise import averages
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
 from ragg_runtime.signals import combinations, noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
-from ragg_runtime.signals.noise_spectrum import LOWEST, Line, Noise, NoiseModel, white_noise, without_lines
+from ragg_runtime.signals.noise_spectrum import (
+    LOWEST,
+    Averages,
+    Line,
+    Noise,
+    NoiseModel,
+    white_noise,
+    without_lines,
+)
 from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
@@ -56,8 +65,10 @@ class _Part:
         return placed(self.outputs[m].rest, self.valid)
 
 
-def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS) -> Noise:
-    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments."""
+def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS, *, slow: bool = True) -> Noise:
+    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments;
+    ``slow``: and of all of a flight that is longer than one.
+    """
     if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
             "the record is too short to estimate its noise",
@@ -73,10 +84,11 @@ def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS) -> Noi
     apart = combinations.telling(rests, o.signs)
     if apart is not None:
         parts = _parts(at, o, apart, most)
-    noise = _of_level(parts, o, Level())
+    means = averages(at, o, _unwhitened(o, apart)) if slow else None
+    noise = _of_level(parts, o, Level(), means)
     level = _level(parts, o, noise)
     if level.parts:
-        noise = _of_level(parts, o, level)
+        noise = _of_level(parts, o, level, means)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
     loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
@@ -136,15 +148,19 @@ def _has_lines(o: Observation, p: _Part) -> bool:
     return False
 
 
-def _of_level(parts: Sequence[_Part], o: Observation, level: Level) -> Noise:
+def _of_level(
+    parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
+) -> Noise:
     """The noise's spectra and bursts, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
     loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
+    mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
     models, filters = [], []
     bursts: list[tuple[int, int, float]] = []
     for m in range(len(o.series)):
         rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
-        model, found = quiet_estimate(rest, rate, band, [p.outputs[m].kept for p in parts])
+        slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
+        model, found = quiet_estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow)
         bursts += [
             (p.rows.start + b.start, p.rows.start + b.stop, b.factor)
             for p, own in zip(parts, found, strict=True)
@@ -178,11 +194,14 @@ def _parts(at: Point, o: Observation, apart: Array | None, most: int) -> list[_P
             },
         )
 
-    unwhitened = white_noise(o.record.rate, len(o.series))
-    if apart is not None:
-        unwhitened = replace(unwhitened, combinations=apart)
     enough = [s for s in spread(flight_segments(o), most) if np.sum(o.record.valid[s.rows]) >= SHORTEST]
-    return list(passed(at, o, unwhitened, part, chosen=enough))
+    return list(passed(at, o, _unwhitened(o, apart), part, chosen=enough))
+
+
+def _unwhitened(o: Observation, apart: Array | None) -> Noise:
+    """What leaves the series as they are, or in combinations."""
+    plain = white_noise(o.record.rate, len(o.series))
+    return plain if apart is None else replace(plain, combinations=apart)
 
 
 def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:

@@ -102,6 +102,11 @@ EXCERPT = 4
 """Most segments of an excerpt."""
 
 
+def longer(o: Observation) -> bool:
+    """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
+    return len(flight_segments(o)) > 1
+
+
 def excerpt(o: Observation) -> Observation:
     """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
     found = flight_segments(o)
@@ -148,10 +153,9 @@ def passed(
         windows = unknown_gradient.windows(o, s.rows, noise)
         if whitened:
             tail = None
-            if k and memory:
-                tail = tails[k - 1].result()  # the segment before was begun before
+            if k and memory:  # the segment before was begun before
+                tail = _past(tails[k - 1].result(), s.rows.start - found[k - 1].rows.stop, memory)
                 tails[k - 1] = Future()  # its memory is free again
-                tail = _past(tail, s.rows.start - found[k - 1].rows.stop, memory)
             tails[k].set_result(_carried(tail, columns, memory))
             flat = _white(columns, heard, noise, tail, part.record, windows)
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))

@@ -98,22 +98,44 @@ class NoiseModel:
         return np.asarray(np.fft.ifft(np.exp(np.fft.fft(cepstrum))).real[:length])
 
 
+@dataclass(frozen=True)
+class Averages:
+    """What is left of a long record's means over neighbouring samples: of noise that is slower than stretches are long.
+
+    Attributes
+    ----------
+    rest, kept
+        (n,), and the share of white noise that is left at each frequency of its periodogram.
+    rate
+        How many there are a second, Hz.
+    below
+        Frequency below which they, not the stretches, tell the noise, Hz.
+    """
+
+    rest: Array
+    kept: Array
+    rate: float
+    below: float
+
+
 def estimate(
     residuals: Sequence[Array],
     rate: float,
     without: tuple[float, float] | None = None,
     kept: Sequence[Array] | None = None,
+    slow: Averages | None = None,
 ) -> NoiseModel:
     """Spectrum of the noise from contiguous stretches of residual, by Whittle fits.
 
     Frequencies ``without`` (from, to, Hz) are not looked at: there the residual has lost what is no noise. ``kept``: for
-    every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all).
+    every stretch the share of the noise that a fit has left it at each frequency of its periodogram (default: all). ``slow``: of
+    a record of which the stretches are but parts.
 
     First alpha f^-b + omega_T (paper, Eq. 53), which also says how the noise goes on below the lowest
     frequency of the record; then a smooth correction, a spline of the logarithm over log frequency, fitted
     as a gamma generalised linear model. Neither bends to a single line.
     """
-    f, p, count = _periodogram(residuals, rate, without, kept)
+    f, p, count = _periodogram(residuals, rate, without, kept, slow)
     coarse = _corrected(f, p, count, _red_and_white(f, p, count), None)
     fine = _corrected(f, p, count, _red_and_white(*_lower(f, p, count)), rate)
     # Twice the gain in log likelihood against the number of coefficients (BIC).
@@ -196,6 +218,7 @@ def _periodogram(
     rate: float,
     without: tuple[float, float] | None,
     kept: Sequence[Array] | None,
+    slow: Averages | None,
 ) -> tuple[Array, Array, Array]:
     """Frequencies, densities and numbers of averaged bins (in equal steps of log frequency).
 
@@ -212,9 +235,18 @@ def _periodogram(
         # The lowest bins are bent by the mean, the taper and the drifts that a fit takes out.
         used = np.ones(len(f), dtype=np.bool_) if without is None else (f < without[0]) | (f > without[1])
         used[:LOWEST] = used[-1:] = False
+        if slow is not None:
+            used &= f >= slow.below
         frequency.append(f[used])
         density.append(without_lines(p[used]))
         share.append(np.ones(len(f))[used] if kept is None else kept[k][used])
+    if slow is not None:
+        f, p = periodogram(slow.rest, slow.rate)
+        used = f < slow.below
+        used[:LOWEST] = False
+        frequency.append(f[used])
+        density.append(without_lines(p[used]))
+        share.append(slow.kept[used])
     f, p, left = np.concatenate(frequency), np.concatenate(density), np.concatenate(share)
     which = np.digitize(f, np.geomspace(f.min() * 0.999, f.max() * 1.001, 120))
     n, power, free, log_f = (
