@@ -12,7 +12,7 @@ import pytest
 from ragg_runtime.diagnosis import comparison, contenders
 from ragg_runtime.diagnosis.contenders import Left
 from ragg_runtime.diagnosis.diagnose import diagnose
-from ragg_runtime.evidence import selection
+from ragg_runtime.evidence import selection, steps
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import calibrate, fitted, observation, passes, prepared_flight, score
 from ragg_runtime.fit.fitted import Fitted
@@ -192,3 +192,26 @@ def test_contenders_of_a_long_flight_are_told_apart_on_an_excerpt(
     assert long.after.rms_Eo == pytest.approx(short.after.rms_Eo, rel=1e-3)
     everything = int(np.sum(flight.valid))
     assert fitted_to.count(everything) == 1 < len(fitted_to) - 1
+
+
+@pytest.mark.parametrize("seed", [73, 81])
+def test_noise_slower_than_a_segment_is_seen_and_passes_for_no_effect(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """1/f noise of a flight of sixteen segments: its density came out three to twelve times too small below one over their
+    length, and three of five effect-free flights had an effect or something left.
+    """
+    s = scenario(seed, duration=1700.0, red_corner=0.3)
+    flight = s.simulate().flight()
+    for module in (passes, prepared_flight, steps):
+        monkeypatch.setattr(module, "ROWS", 1700)
+    d = diagnosed(s, flight)
+    assert (d.verdict, d.found) == ("adequate", ())
+    (x,) = d.fitted.prepared
+    f = np.geomspace(4.0 / 1700.0, 6.0, 40)
+    assert s.noise is not None
+    slope = s.instrument.accelerometers["k_VI"] * s.instrument.accelerometers["K1"]
+    true = s.noise.psd(f) * np.sum(slope**2)
+    ratio = x.noise_psd(f) / true
+    assert np.exp(np.mean(np.log(ratio[:15]))) == pytest.approx(1.0, rel=0.25)  # slower than a segment shows
+    assert np.max(np.abs(np.log(ratio))) < np.log(2.0)
