@@ -12,6 +12,8 @@ from collections.abc import Iterator
 import pytest
 from hypothesis import settings
 
+import derive  # noqa: F401  (tells SymPy how much to remember, which must be before any test imports SymPy)
+
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 import sympy as sp
@@ -51,14 +51,14 @@ def neutral_values(effects: Sequence[Effect]) -> dict[sp.Symbol, sp.Expr]:
     return {e.symbol(q): sp.nsimplify(q.neutral) for e in effects for q in e.parameters if q.fitted}
 
 
-@lru_cache
+@cache
 def voltage(effects: tuple[Effect, ...], order: Order, kinematics: Kinematics = "platform") -> Evaluated:
     """V of the generic accelerometer with ``effects``, their parameters open."""
     a = accelerometer(effects, order, kinematics=kinematics)
     return evaluated(settled(a.tape.assignments, {}).program([("V", a.voltage)]))
 
 
-@lru_cache
+@cache
 def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     """dV/d(parameter) of all ``effects`` at their neutral values, by symbol name, and V itself.
 
@@ -70,7 +70,7 @@ def signatures(effects: tuple[Effect, ...], order: Order) -> Evaluated:
     return evaluated(at.program([("V", a.voltage), *rows]))
 
 
-@lru_cache
+@cache
 def base_derivatives(order: Order) -> Evaluated:
     """dV/d(parameter) of the paper's instrument, by parameter name."""
     a = accelerometer((), order)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -10,9 +11,15 @@ PACKAGES = ("derive", "ragg", "ragg_runtime", "benchmarks", "examples")
 LONGEST_FILE, LONGEST_FUNCTION = 400, 60
 
 
+@cache
 def sources() -> dict[str, str]:
     found = (p for package in PACKAGES for p in sorted((ROOT / package).rglob("*.py")))
     return {p.relative_to(ROOT).as_posix(): p.read_text("utf-8") for p in found}
+
+
+@cache
+def trees() -> dict[str, ast.Module]:
+    return {name: ast.parse(text) for name, text in sources().items()}
 
 
 def test_no_file_is_too_long() -> None:
@@ -22,8 +29,8 @@ def test_no_file_is_too_long() -> None:
 def test_no_function_is_too_long() -> None:
     found = [
         f"{name}: {node.name}"
-        for name, text in sources().items()
-        for node in ast.walk(ast.parse(text))
+        for name, tree in trees().items()
+        for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
         and (node.end_lineno or 0) - node.lineno >= LONGEST_FUNCTION
     ]
@@ -35,15 +42,16 @@ MOST_ROOMS, MOST_ARROWS = 20, 95
 """Packages of the runtime, and imports from one to another, ``derive`` and ``generated`` among these."""
 
 
+@cache
 def arrows() -> dict[str, list[str]]:
     """Room -> the rooms that it imports from, anywhere in its files."""
     rooms = [p.parent.name for p in sorted(RUNTIME.glob("*/__init__.py"))]
     found: dict[str, set[str]] = {room: set() for room in rooms}
-    for name, text in sources().items():
+    for name, tree in trees().items():
         top, room, *_ = name.split("/")
         if top != "ragg_runtime" or room not in found:
             continue
-        for node in ast.walk(ast.parse(text)):
+        for node in ast.walk(tree):
             modules = [a.name for a in node.names] if isinstance(node, ast.Import) else []
             if isinstance(node, ast.ImportFrom) and node.level == 0:
                 modules = [f"{node.module}.{a.name}" for a in node.names]
@@ -76,20 +84,20 @@ BY_PLACE = 4
 
 def test_records_are_built_by_keyword() -> None:
     """But for tables, outside functions and in the audit of printed numbers: they are read by their columns."""
-    trees = {
-        name: ast.parse(text)
-        for name, text in sources().items()
+    ours = {
+        name: tree
+        for name, tree in trees().items()
         if name.startswith(("ragg_runtime/", "derive/")) and not name.startswith("derive/audit/")
     }
     records = {
         c.name
-        for tree in trees.values()
+        for tree in ours.values()
         for c in ast.walk(tree)
         if isinstance(c, ast.ClassDef) and any("dataclass" in ast.unparse(d) for d in c.decorator_list)
     }
     found = {
         f"{name}:{call.lineno} {ast.unparse(call.func)}"
-        for name, tree in trees.items()
+        for name, tree in ours.items()
         for f in ast.walk(tree)
         if isinstance(f, ast.FunctionDef | ast.Lambda)
         for call in ast.walk(f)

@@ -14,8 +14,8 @@ from ragg_runtime.reference.scenario import scenario
 
 
 def test_an_e_value_has_mean_one_under_the_null() -> None:
-    """By quadrature: rare, huge values carry much of the mean, which no sample would show."""
-    z = np.concatenate([[0.0], np.logspace(-3, 6, 20001)])
+    """By quadrature, to 2e-5: rare, huge values carry much of the mean, which no sample would show."""
+    z = np.concatenate([[0.0], np.logspace(-3, 6, 2001)])
     logs = np.array([log_e(np.array([x])) for x in z])
     density = np.exp(logs - z**2 / 2) / np.sqrt(2 * np.pi)
     assert 2 * trapezoid(density, z) == pytest.approx(1.0, abs=1e-3)

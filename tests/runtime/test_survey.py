@@ -15,6 +15,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import dying
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
@@ -30,7 +31,7 @@ from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import ordered
 from ragg_runtime.survey.table import check_place, parquet
-from ragg_runtime.survey.task import Job, Record, examine, job
+from ragg_runtime.survey.task import Record, examine, job
 from ragg_runtime.workflow import loop
 
 Flights = tuple[Path, list[Path]]
@@ -159,19 +160,10 @@ def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights,
     assert not multiprocessing.active_children()
 
 
-def deadly(given: Job, file: str) -> Record:
-    """Stands in for a flight that takes its worker down each time."""
-    if "flight-1" in file:
-        os.kill(os.getpid(), signal.SIGKILL)
-    if "flight-2.parquet" in file:
-        raise MemoryError("no room")
-    return {"flight": Path(file).name, "file": file, "verdict": "adequate"}
-
-
 def test_a_flight_that_kills_every_worker_is_given_up(
     flights: Flights, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(local, "examine", deadly)
+    monkeypatch.setattr(local, "examine", dying.deadly)
     files = [str(p) for p in flights[1]]
     toml = flights[0] / "model.toml"
     found = dict(local.examined(job(toml.read_text(), toml), files, 2))
@@ -183,14 +175,10 @@ def test_a_flight_that_kills_every_worker_is_given_up(
     assert {e["kind"] for e in failed.values()} == {"lost"}
 
 
-def unimportable() -> None:
-    os._exit(3)
-
-
 def test_a_worker_that_cannot_be_started_is_one_message(
     flights: Flights, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(local, "_begin", unimportable)
+    monkeypatch.setattr(local, "_begin", dying.unimportable)
     with pytest.raises(UserError, match="__main__"):
         loop.survey(loop.load(flights[0]), flights[1], jobs=1)
 
