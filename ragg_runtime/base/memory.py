@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import atexit
 import ctypes
+import gc
 import sys
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
 """Options of glibc's malloc."""
+
+_ALLOCATIONS = 20_000
+"""Objects that are made between two looks for cycles, which may hold arrays."""
 
 
 def reuse_memory() -> None:
@@ -16,6 +21,15 @@ def reuse_memory() -> None:
     """
     for option, value in ((_MMAP_THRESHOLD, 1 << 30), (_TRIM_THRESHOLD, 1 << 30), (_ARENA_MAX, 1)):
         _glibc("mallopt", option, value)
+
+
+def collect_seldom() -> None:
+    """Let Python look for cycles of this process seldom, and not at its end: for programs, not for libraries.
+
+    Their modules are some 80,000 objects that live until the end, looked through again and again while they are made.
+    """
+    gc.set_threshold(_ALLOCATIONS)
+    atexit.register(gc.freeze)
 
 
 def give_back() -> None:

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import click
 
 from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.base.memory import collect_seldom, reuse_memory
 from ragg_runtime.cli.boundary import hold_streams, refusal
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
@@ -79,6 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     hold_streams()
     try:
         reuse_memory()
+        collect_seldom()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)

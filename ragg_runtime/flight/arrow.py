@@ -12,10 +12,12 @@ from ragg_runtime.flight.record import Array
 
 
 def floats(column: pa.Array) -> Array:
-    """(N,): a float64 column; null becomes NaN.
+    """(N,): a column of numbers, as float64; null becomes NaN.
 
-    Arrow's own ``to_numpy`` loads pandas for it, which takes as long as a small flight.
+    Arrow's own ``to_numpy`` loads pandas for it, which takes as long as a small flight; ``cast`` loads all that Arrow computes.
     """
+    if column.type != pa.float64():
+        column = column.cast(pa.float64())
     if column.null_count:
         column = column.fill_null(float("nan"))
     return np.asarray(np.from_dlpack(column))

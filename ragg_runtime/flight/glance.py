@@ -60,13 +60,13 @@ def _parquet(path: Path) -> tuple[Any, Any]:
     from ragg_runtime.flight.arrow import floats
 
     def column(table: Any, name: str) -> Array:
-        return floats(table.column(name).combine_chunks().cast("float64"))
+        return floats(table.column(name).combine_chunks())
 
     with pq.ParquetFile(path) as file:
         schema = file.schema_arrow
         time, volts = ((schema.field(n).metadata or {})[b"units"].decode() for n in ("time", "G_out"))
         chunks = file.read(columns=["G_out"]).column("G_out").chunks
-        output = np.concatenate([np.empty(0), *(floats(c.cast("float64")) for c in chunks)], dtype=np.float32)
+        output = np.concatenate([np.empty(0), *(floats(c) for c in chunks)], dtype=np.float32)
         last = file.metadata.num_row_groups - 1
         ends = [column(file.read_row_group(k, columns=["time"]), "time") for k in (0, last)]
     return (np.array([ends[0][0], ends[1][-1]]), time), (output, volts)

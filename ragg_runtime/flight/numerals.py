@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
@@ -17,6 +16,8 @@ from ragg_runtime.flight.record import Array
 
 def shortest(values: NDArray[Any], missing: str) -> list[str]:
     """The shortest text of each number that reads back as the same; ``missing`` for NaN."""
+    import pyarrow.compute as pc  # slow to import, and only what is written as text needs it
+
     column = pa.array(np.ascontiguousarray(values), from_pandas=True)
     found: list[str] = pc.fill_null(column.cast(pa.string()), missing).to_pylist()
     return found

@@ -112,7 +112,7 @@ def _batches(path: Path, names: Sequence[str], headings: Sequence[Heading]) -> I
         with pq.ParquetFile(path, pre_buffer=False, buffer_size=_BUFFER) as file:
             for batch in file.iter_batches(batch_size=32768, columns=list(names)):
                 yield {
-                    h.name: _texts(batch.column(n)) if h.text else floats(batch.column(n).cast(pa.float64()))
+                    h.name: _texts(batch.column(n)) if h.text else floats(batch.column(n))
                     for n, h in zip(names, headings, strict=True)
                 }
     except _DAMAGED as error:

@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.base.threads import count, mapped
+from ragg_runtime.base.threads import count, mapped, stretches
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
-from ragg_runtime.signals.fir import filtered
+from ragg_runtime.signals.fir import GROUP, filtered
 
 Array = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -154,13 +154,15 @@ class Directions:
     def _back(self, right: Array, places: NDArray[np.intp] | None = None) -> Array:
         """(N, k): columns over whitened rows (all, or those at ``places``) through the transposed filter."""
         m, n = len(self.gains), self.size
-        full = right
-        if places is not None:
-            full = np.zeros((m * n, right.shape[1]))
-            full[places] = right
-        total = np.zeros((right.shape[1], n))
-        for part, gain in zip(np.split(full.T, m, axis=1), self.gains, strict=True):
-            total += fft.irfft(
-                fft.rfft(part, axis=1, workers=count()) * np.conj(gain), n, axis=1, workers=count()
-            )
-        return total.T
+        back, columns = np.conj(np.stack(self.gains)), right.T
+        found = np.empty((len(columns), n))
+
+        def through(some: slice) -> None:
+            full = np.zeros((some.stop - some.start, m * n))
+            full[:, slice(None) if places is None else places] = columns[some]
+            waves = fft.rfft(full.reshape(-1, m, n), axis=2) * back
+            found[some] = fft.irfft(np.sum(waves, axis=1), n, axis=1)
+
+        for _ in mapped(through, stretches(len(columns), GROUP)):
+            pass
+        return found.T
