@@ -98,29 +98,29 @@ def flight_segments(o: Observation) -> list[Segment]:
     return segments(n, max(n, ROWS) if o.recorded.demodulated else ROWS)
 
 
-EXCERPT = 4
-"""Most segments of an excerpt."""
-
-
 def longer(o: Observation) -> bool:
     """Whether a flight is longer than what its noise is seen in at a time: of noise that is slower nothing is known."""
     return len(flight_segments(o)) > 1
 
 
+def heard(o: Observation) -> list[Segment]:
+    """The segments of a flight that hold valid samples."""
+    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
+
+
+EXCERPT = 4
+"""Most segments of an excerpt."""
+
+
 def excerpt(o: Observation) -> Observation:
     """The observation with but some segments of a long flight valid, evenly spread: what is loud they tell as well as all."""
-    found = flight_segments(o)
+    found = heard(o)
     if len(found) <= EXCERPT:
         return o
     valid = np.zeros(len(o.record.time), dtype=np.bool_)
     for s in spread(found, EXCERPT):
         valid[s.rows] = o.record.valid[s.rows]
     return replace(o, record=replace(o.record, valid=valid, whole=o.record.whole or o.record), memo=[])
-
-
-def heard(o: Observation) -> list[Segment]:
-    """The segments of a flight that hold valid samples."""
-    return [s for s in flight_segments(o) if np.any(o.record.valid[s.rows])]
 
 
 def passed(

@@ -28,12 +28,15 @@ PERIODS = 16.0
 RESOLVED = 8.0
 """Means a period, at least, of the noise that they tell: what is faster they show weaker, and something else in its place."""
 
-FULL = 0.5
-"""Share of its samples that must be valid for a mean to count."""
+FULL = 0.9
+"""Share of its samples that must be valid for a mean to count: of fewer it has more white noise."""
+
+ENOUGH = 2
+"""Means for every column, at least."""
 
 
 def averages(at: Point, o: Observation, unwhitened: Noise) -> list[Averages] | None:
-    """What all columns leave of each output's means; ``None`` of a flight that is seen in one piece.
+    """What all columns leave of each output's means; ``None`` of a flight that is seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.
     """
@@ -59,9 +62,9 @@ def averages(at: Point, o: Observation, unwhitened: Noise) -> list[Averages] | N
         if sums is None:
             sums = np.zeros((len(part), m, len(count)))
         sums[:, :, first : first + part.shape[2]] += part
-    if sums is None:
-        return None
     valid = count >= FULL * every
+    if sums is None or np.sum(valid) < ENOUGH * len(sums):
+        return None
     rate = o.record.rate / every
     longest = max(s.rows.stop - s.rows.start for s in flight_segments(o)) / o.record.rate
     below = min(PERIODS / longest, rate / RESOLVED)
