@@ -35,8 +35,6 @@ studio: $(STAMP)  ## open the demonstration in a browser: look, tick, derive, wa
 derive: $(STAMP)  ## derive every model and generate all code and pages anew
 	$(BIN)/ragg derive
 
-# The tests ask the same of another hash seed (tests/generated/test_gates.py).
-check: export PYTHONHASHSEED := 0
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
