@@ -27,7 +27,7 @@ from derive.layout import AXES, HEIGHT, TURN, Layout, instrument_parameters
 from derive.propagation import MOTION_NUMBERS, gradient_in_motion_numbers, motion_numbers
 from derive.stages import Kinematics, Order
 from derive.symbols import COS_PHI, MOTION, SECOND_ORDER, SIN_PHI, Channel, Parameter, symbol
-from derive.tape import Program, Tape, settled
+from derive.tape import Program, Tape, partials, settled
 
 _DIRECTIONS = "rtz"
 
@@ -173,7 +173,8 @@ def _second_order(axes: sp.Matrix) -> list[sp.Expr]:
     f = sp.Matrix([symbol(f"f_{d}") for d in _DIRECTIONS])
     sensed = stages.SensedForce(*(axes * f))
     bracket = stages.transducer(sensed, sensed, {n: symbol(n) for n in ("K0", *SECOND_ORDER)})
-    return [sp.diff(bracket, f[k], f[m]) / 2 for k, m in _PAIRS]
+    slopes = [partials(sp.sympify(partials(bracket).get(s, 0))) for s in f]
+    return [slopes[k].get(f[m], sp.Integer(0)) / 2 for k, m in _PAIRS]
 
 
 @cache

@@ -68,12 +68,12 @@ CLOSE = 1e-9
 
 def exceeding(envelope: Envelope, full: Collected | None = None) -> list[bool]:
     """Whether each of :func:`sizes` is more than what is allotted; exactly, though most are told in floating point."""
-    rough, exact = _sizing(envelope, float), _sizing(envelope, Fraction)
+    rough = _sizing(envelope, float)
     allotted, found = envelope.allotted, []
     for term, c in (full or collect()).largest.items():
         size: Fraction | float = rough(c, *term)
         if abs(size - allotted) <= CLOSE * allotted:
-            size = exact(c, *term)
+            size = _sizing(envelope, Fraction)(c, *term)  # of few terms, if of any
         found.append(size > allotted)
     return found
 
