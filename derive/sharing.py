@@ -7,7 +7,7 @@ from functools import cache
 from itertools import count
 
 import sympy as sp
-from sympy.core.sorting import ordered
+from sympy.core.sorting import default_sort_key
 from sympy.simplify.cse_main import opt_cse
 
 from derive.symbols import symbol
@@ -69,4 +69,14 @@ def _in_order(e: sp.Expr) -> Sequence[sp.Expr]:
 
 @cache
 def _ordered(e: sp.Expr) -> tuple[sp.Expr, ...]:
-    return tuple(ordered(e.args_cnc()[0] if e.is_Mul else e.args))
+    """As ``sympy.ordered``: by the number of nodes; the canonical key, which takes long to find, is for equal ones alone."""
+    of_size: dict[int, list[sp.Expr]] = {}
+    for part in e.args_cnc()[0] if e.is_Mul else e.args:
+        of_size.setdefault(_nodes(part), []).append(part)
+    groups = (of_size[n] for n in sorted(of_size))
+    return tuple(part for g in groups for part in (sorted(g, key=default_sort_key) if len(g) > 1 else g))
+
+
+@cache
+def _nodes(e: sp.Expr) -> int:
+    return 1 + sum(map(_nodes, e.args))

@@ -26,6 +26,9 @@ class _InOrder:
     def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> tuple[sp.Expr, ...]:
         return _terms(e)
 
+    def _handle_UnevaluatedExpr(self, e: sp.Expr) -> sp.Expr:
+        return e  # SymPy rebuilds each expression in search of some; the derivation makes none
+
 
 class _NumPy(_InOrder, NumPyPrinter):
     def __init__(self) -> None:
