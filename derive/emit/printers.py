@@ -7,6 +7,8 @@ from functools import cache
 from typing import Any
 
 import sympy as sp
+from sympy.core.exprtools import decompose_power
+from sympy.core.sorting import default_sort_key
 from sympy.printing.c import C99CodePrinter
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.numpy import NumPyPrinter
@@ -17,7 +19,19 @@ from derive.symbols import INSTRUMENT, MOTION, SPIN_ACCELERATION, SPIN_RATE
 
 @cache
 def _terms(e: sp.Expr) -> tuple[sp.Expr, ...]:
-    return tuple(e.as_ordered_terms())
+    """As SymPy's ``as_ordered_terms``, which makes a complex number of each coefficient, in a third of the time."""
+    bases: set[sp.Expr] = set()
+    terms: list[tuple[sp.Expr, dict[sp.Expr, int], sp.Number]] = []
+    for term in sp.Add.make_args(e):
+        coefficient, rest = term.as_coeff_Mul()
+        factors = sp.Mul.make_args(rest)
+        if any(not f.is_Symbol and f.is_number for f in factors):  # 1, pi ...: seldom, and cases of their own
+            return tuple(e.as_ordered_terms())
+        powers = dict(map(decompose_power, factors))
+        bases.update(powers)
+        terms.append((term, powers, coefficient))
+    order = sorted(bases, key=default_sort_key)
+    return tuple(t for t, _, _ in sorted(terms, key=lambda t: ([-t[1].get(b, 0) for b in order], t[2])))
 
 
 class _InOrder:
