@@ -223,7 +223,6 @@ _PATTERNS: Mapping[tuple[int, ...], Combination] = {
 }  # fmt: skip
 
 
-@cache
 def _combinations(n: int, source: str, target: str) -> list[tuple[Combination, int]]:
     """How cos or sin(n psi_j) of the four accelerometers adds to cos or sin(n phi) of G_out.
 
