@@ -14,7 +14,8 @@ from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
 
-RATE = 16.0
+RATE = 8.0
+"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
 
 
 def flown_by(

@@ -16,7 +16,7 @@ from ragg_runtime.compensation.saved import KEPT, read, with_another
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import DURATION, files, flights, new_model, run
+from tests.runtime.flown_twice import DURATION, RATE, files, flights, new_model, run
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_parameters_with_their_sheet_and_what_the_record_sees(kept: tuple[Any, .
         c["parameters"][0]
     )
     assert 0 < c["directions"]["seen"] < c["directions"]["fitted"] == len(c["parameters"])
-    s = scenario(7, duration=DURATION)
+    s = scenario(7, duration=DURATION, rate=RATE)
     for q in c["parameters"]:
         assert 0 < q["std"] <= 1.001 * q["sheet_sigma"]
     for q in c["combinations"]:

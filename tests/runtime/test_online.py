@@ -22,17 +22,17 @@ from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.online import online
-from tests.runtime.flown_twice import files, flights, new_model, run
+from tests.runtime.flown_twice import RATE, files, flights, new_model, run
 from tests.runtime.test_export import make, make_strictly
 
 Array = NDArray[np.float64]
 
-RATE, DENSITY = 16.0, 2.0
+DENSITY = 2.0
 
 
 @cache
 def flown(duration: float = 450.0, gradient: float = 0.0) -> tuple[Scenario, Observation]:
-    s = scenario(5, duration=duration, gradient_rms=gradient * 1e-9)
+    s = scenario(5, duration=duration, rate=RATE, gradient_rms=gradient * 1e-9)
     return s, observe(s.simulate({}).flight(), s.sheet)
 
 
@@ -51,7 +51,7 @@ def test_with_nothing_forgotten_it_is_the_batch_fit_to_rounding() -> None:
     prior[n:, n : n + 2] = np.eye(2) / UNKNOWN_EO
     batch = np.linalg.qr(np.vstack([prior, rows]), mode="r")
     x = np.linalg.solve(batch[:-1, :-1], batch[:-1, -1])
-    for size in (777, 4000):  # in parts of any length
+    for size in (388, 2000):  # in parts of any length
         f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s)))
         for start in range(0, len(o.record.time), size):
             f.feed(o.part(slice(start, min(start + size, len(o.record.time)))))
@@ -92,8 +92,8 @@ def test_a_drift_is_followed_with_the_stated_lag() -> None:
     filters[0].feed(o)
     filters[1].feed(dataclasses.replace(o, series=(o.series[0] + drift,)))
     a, b = (np.linalg.solve(f.R[:, :-1], f.R[:, -1]) for f in filters)
-    believed = rows[-1600:, :-1] @ (b - a)
-    true = rows[-1600:, k]
+    believed = rows[-800:, :-1] @ (b - a)
+    true = rows[-800:, k]
     size = float(believed @ true / (true @ true))  # scales of K1[1]
     lag = o.record.time[-1] - size / step
     assert lag == pytest.approx(forget, rel=0.25)
@@ -103,14 +103,14 @@ def test_gaps_and_missing_samples_are_passed_over() -> None:
     s, o = flown()
     r = o.record
     G = o.series[0].copy()
-    G[100:110] = np.nan
+    G[50:55] = np.nan
     valid = r.valid.copy()
-    valid[100:110] = valid[2000:4000] = False
+    valid[50:55] = valid[1000:2000] = False
     holed = dataclasses.replace(o, record=dataclasses.replace(r, valid=valid), series=(G,))
     f = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=0.5))
     got = f.feed(holed)
     assert np.isfinite(got.inline).all()
-    inside, ahead = (np.searchsorted(got.time, r.time[i]) for i in (3999, 1999))
+    inside, ahead = (np.searchsorted(got.time, r.time[i]) for i in (1999, 999))
     assert got.inline_std[inside] > 3 * got.inline_std[ahead]  # it wanders meanwhile
     whole = Online(load.packaged(), s.sheet, Tuning(noise=noise(s), walk=0.5)).feed(o)
     last = np.abs(got.inline[-1] - whole.inline[-1]) / whole.inline_std[-1]
@@ -139,11 +139,11 @@ def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path,
     """Also beyond a gap so long that nothing of what the flight said is left."""
     model, folder, two = exported
     m = loop.load(model)
-    x = after.read_for_compensation(m, [two])[0].part(slice(0, 3000))
+    x = after.read_for_compensation(m, [two])[0].part(slice(0, 1500))
     o = observe(x, m.instrument)
     valid = o.record.valid.copy()
-    valid[500:700] = False
-    time = o.record.time + np.where(np.arange(3000) < 1500, 0.0, gap)
+    valid[250:350] = False
+    time = o.record.time + np.where(np.arange(1500) < 750, 0.0, gap)
     o = dataclasses.replace(o, record=dataclasses.replace(o.record, valid=valid, time=time))
     c = after.contents(m)
     sigma, forget = 4 * c.outputs()[0].scale_factor, 60.0
@@ -169,7 +169,7 @@ def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> No
     model, folder, two = exported
     m = loop.load(model)
     x = after.read_for_compensation(m, [two])[0].part(
-        slice(0, 2048)
+        slice(0, 1024)
     )  # 32 turns of the disc: it goes on where it began
     o = observe(x, m.instrument)
     make(folder, "CFLAGS=-std=c17 -O3", "-B", "ragg_online")
@@ -188,14 +188,14 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     exported: tuple[Path, Path, Path], tmp_path: Path
 ) -> None:
     model, _, _ = exported
-    flight = flights()[1].part(slice(0, 6400))
+    flight = flights()[1].part(slice(0, 3200))
     write_flight(flight, tmp_path / "two.parquet")
     told = run(
         "online", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--json", tmp_path / "o.json"
     )
     assert "followed within 0.796 s" in told
     rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
-    assert len(rows) == 6400 / RATE / UPDATE - 1
+    assert len(rows) == 3200 / RATE / UPDATE - 1
     c = flight.channels
     true = {"inline": c["Gamma_xx"] - c["Gamma_yy"], "cross": c["Gamma_xy"]}
     for name, x in true.items():
@@ -211,6 +211,6 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     fresh = new_model(tmp_path)
     with pytest.raises(UserError, match="how large the noise is"):
         online(loop.load(fresh), [flight])
-    w = online(loop.load(fresh), [flight.part(slice(0, 800))], noise=2.0, forget=100.0)
+    w = online(loop.load(fresh), [flight.part(slice(0, 400))], noise=2.0, forget=100.0)
     assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
     assert set(w.series[0]) == {"time", "inline", "cross", "inline_std", "cross_std"}

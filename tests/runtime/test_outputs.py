@@ -26,7 +26,7 @@ def given(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     place = tmp_path_factory.mktemp("outputs")
     m = loop.new(place / "model")
     write_flight(simulated(m.instrument, [], seed=3, duration=150.0, rate=8.0), place / "flight.parquet")
-    loop.add(m, "lag")
+    loop.add(m, "thermal-scale")
     return place / "model", place / "flight.parquet"
 
 
@@ -64,7 +64,7 @@ def test_a_result_that_cannot_be_written_leaves_the_model_as_it_was(
         "json full": (["--json", "/dev/full"], ""),
     }
     arguments, redirect = further[how]
-    for command in (["add", model, "odd-quadratic", flight], ["remove", model, "lag"]):
+    for command in (["add", model, "odd-quadratic", flight], ["remove", model, "thermal-scale"]):
         if how == "report" and command[0] == "remove":
             continue
         status, said = ragg(*command, *arguments, redirect=redirect)

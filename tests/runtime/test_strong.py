@@ -33,6 +33,8 @@ from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
+RATE = 8.0
+"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
 
 
 STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
@@ -53,7 +55,7 @@ STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
 @pytest.mark.parametrize("name", sorted(STRONG))
 def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
     hidden, right = STRONG[name]
-    s = scenario(57, duration=400.0)
+    s = scenario(57, duration=400.0, rate=RATE)
     run = s.simulate(hidden)
     d = diagnosed(s, run.flight())
     assert d.staged
@@ -68,7 +70,7 @@ def test_a_strong_effect_is_found_and_nothing_beside_it(name: str) -> None:
 
 def test_a_twin_that_takes_some_of_another_effect_does_not_displace_the_right_one() -> None:
     # a run-out of the bearing leaves less than the gradient does, as long as the scale error is not in the model
-    s = scenario(57, trim="table-v", duration=300.0)
+    s = scenario(57, trim="table-v", duration=300.0, rate=RATE)
     run = s.simulate({"imu-acceleration-scale": {"s_y": -2e-5}, "gradient-offset": {"G_xx": -1e-6}})
     d = diagnosed(s, run.flight())
     assert d.verdict == "missing-effect"
@@ -89,7 +91,7 @@ def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
 
     left = contenders.left
     monkeypatch.setattr(contenders, "left", scored)
-    s = scenario(57, duration=300.0)
+    s = scenario(57, duration=300.0, rate=RATE)
     run = s.simulate()
     flight = run.flight()
     term = 0.02 * flight.channels["omega_z"] / np.std(flight.channels["omega_z"])
@@ -120,7 +122,7 @@ def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_
 
 @pytest.mark.parametrize("name", sorted(set(STRONG) - {"a converter's step"}))
 def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str) -> None:
-    s = scenario(57, duration=400.0)
+    s = scenario(57, duration=400.0, rate=RATE)
     c = compare(load.packaged(), s.sheet, [s.simulate(STRONG[name][0]).flight()])
     assert c.converged
     assert not c.adequate
@@ -144,7 +146,7 @@ def sheet_of_a_mems(s: Scenario) -> dict[str, Any]:
 
 @pytest.mark.parametrize("density", [2e-9, 1e-5])
 def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(density: float) -> None:
-    s = scenario(1, duration=400.0, noise_density=density)
+    s = scenario(1, duration=400.0, rate=RATE, noise_density=density)
     rng = np.random.default_rng(77)
     sigmas = sheet_of_a_mems(s)
     a = s.sheet.accelerometers
@@ -166,7 +168,7 @@ def test_an_instrument_of_per_cent_and_milli_g_is_calibrated_to_its_noise(densit
 @pytest.mark.parametrize(("seed", "size"), [(1, 0.1), (2, 1.0)])
 def test_nothing_is_missing_where_a_sheet_that_does_not_say_so_is_far_off(seed: int, size: float) -> None:
     """Each kind of parameter is as sure as the record says; what is not off keeps its sheet."""
-    s = scenario(seed, duration=400.0)
+    s = scenario(seed, duration=400.0, rate=RATE)
     rng = np.random.default_rng(77)
     a = s.sheet.accelerometers
     true = s.sheet.replace(
@@ -187,7 +189,7 @@ def test_nothing_is_missing_where_a_sheet_that_does_not_say_so_is_far_off(seed: 
     "hidden", [{}, {"thermal-scale": {"dK1_dT": [0, 0, 2e-5, 0]}}, STRONG["gain-step"][0]]
 )
 def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing(hidden: dict[str, Any]) -> None:
-    s = scenario(57, duration=400.0)
+    s = scenario(57, duration=400.0, rate=RATE)
     run = s.simulate(hidden)
     size = 5.0 * np.std(run.G_out - run.G_out_noise_free)
     x = run.flight()
@@ -204,7 +206,7 @@ def test_a_line_that_the_motion_does_not_make_is_said_and_bars_nothing(hidden: d
 
 
 def test_a_parameter_far_off_its_sheet_is_fitted_and_named() -> None:
-    s = scenario(3, duration=400.0)
+    s = scenario(3, duration=400.0, rate=RATE)
     K1 = s.instrument.accelerometers["K1"] * np.array([1.0, 1.04, 1.0, 1.0])
     c = compare(
         load.packaged(),
@@ -232,7 +234,7 @@ def test_what_has_not_converged_says_so_and_adds_nothing(
     tmp_path: Path, never_arrives: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     m = ragg.new(tmp_path / "m")
-    s = scenario(5, duration=150.0)
+    s = scenario(5, duration=150.0, rate=RATE)
     flight = s.simulate({"cubic-input": {"K_iii": [4e-6 / G0**2, 0, 0, 0]}}).flight()
     c, d = ragg.compare(m, [flight]), ragg.diagnose(m, [flight])
     for result in (c.as_json(), d.as_json()):
