@@ -66,7 +66,8 @@ class Units:
         if not (math.isfinite(g0) and g0 > 0):
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
-        self._usual = {**FACTORS, **FACTORS_OF_G} if self.g0 == G0 else FACTORS
+        of_g = {pair: x * (self.g0 / G0) ** power for pair, (x, power) in FACTORS_OF_G.items()}
+        self._usual = {**FACTORS, **of_g}
         self._of_g = dict(_OF_G)
         self._parsed: dict[str, Any] = {}
         self._stems: dict[str, str | None] = {}

@@ -246,7 +246,17 @@ def test_usual_units_are_what_pint_makes_of_them() -> None:
     for unit, base in BASE.items():
         found = pint_alone._registry.get_base_units(pint_alone.parse(unit))[1]
         assert (f"{found:~C}" or "1") == base, unit
-    assert Units(9.81).to_si(1.0, "ug", "m/s^2") == pytest.approx(9.81e-6)
+
+
+@pytest.mark.parametrize("g0", [9.80665, 9.7803, 1.62])
+def test_units_of_g_go_with_the_g_of_the_sheet(g0: float) -> None:
+    quick, pint_alone = Units(g0), Units(g0)
+    pint_alone._usual, pint_alone._of_g = {}, {}
+    for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
+        assert quick.to_si(1.0, unit, si_unit) == pytest.approx(
+            pint_alone.to_si(1.0, unit, si_unit), rel=1e-15
+        )
+    assert "_registry" not in vars(quick)
 
 
 def test_units_of_all_effects_are_usual_ones() -> None:
