@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
 from ragg_runtime.base.threads import mapped
+from ragg_runtime.fit.lapack import entered
 
 Array = NDArray[np.float64]
 
@@ -35,15 +35,11 @@ def orthonormal(columns: Array) -> Array:
     return np.asarray(np.linalg.qr(columns[norms > 1e-9 * np.max(norms, initial=0.0)].T)[0])
 
 
-CHUNK = 512
-"""Rows that enter a triangle at a time: they stay in the cache."""
+CHUNK = 2048
+"""Rows that enter a triangle at a time: they stay in the cache, and are enough."""
 
-WORTH_TWO = 8 * CHUNK
+WORTH_TWO = 2 * CHUNK
 """Rows of a triangle from which it is made of two, a thread each."""
-
-PANEL = 16
-"""Columns that LAPACK eliminates at a time."""
-
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
@@ -61,9 +57,8 @@ def _eliminated(columns: Array) -> Array:
     n, rows = columns.shape
     R = np.zeros((n, n), order="F")
     for start in range(0, rows, CHUNK):
-        part = np.array(columns[:, start : start + CHUNK].T, order="F")
-        R, *_ = linalg.lapack.dtpqrt(0, min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
-    return np.asarray(R)
+        entered(R, np.array(columns[:, start : start + CHUNK].T, order="F"))
+    return R
 
 
 def join(blocks: Sequence[Array]) -> Array:
@@ -76,12 +71,10 @@ def join(blocks: Sequence[Array]) -> Array:
 def fold(trapezoids: Sequence[Array]) -> Array:
     """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
     first, *others = trapezoids
-    n = first.shape[1]
     R = np.array(first, order="F")
     for t in others:
-        part = np.array(t, order="F")
-        R, *_ = linalg.lapack.dtpqrt(len(t), min(PANEL, n), R, part, overwrite_a=True, overwrite_b=True)
-    return np.asarray(R)
+        entered(R, np.array(t, order="F"), len(t))
+    return R
 
 
 def below(T: Array, first: int, picked: Sequence[int]) -> Array:
