@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence import steps as special
 from ragg_runtime.evidence.selection import Field, field_of, testable_effects
@@ -56,7 +57,8 @@ def with_steps(
         f = _from(f, exact)
     plain = _with_penalty(f, [*available, *exact])
     first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
-    scans = {e: _scanned(f, own, first) for e, own in owned.items() if e not in exact}
+    unknown = [e for e in owned if e not in exact]
+    scans = dict(zip(unknown, mapped(lambda e: _scanned(f, owned[e], first), unknown), strict=True))
     samples = {e: step.sample for e, (step, _) in scans.items()}
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
@@ -156,7 +158,6 @@ def _root(
         for T, start in zip(own, edges[:-1], strict=True):
             begun = [T[:, list(places[e])] * float(start >= samples[e]) for e in samples]
             blocks.append(np.hstack([T, *begun]))
-    blocks[0] = np.vstack([blocks[0], np.zeros((m, n + m))])
     sheet = np.hstack([prior(range(f.n_base), n, f.to_nominal), np.zeros((f.n_base, m))])
     return fold([*blocks, sheet])
 

@@ -39,16 +39,15 @@ def _routine() -> Callable[[Array, Array, int, int], None]:
     address = _address("dtpqrt")
     if address is None:
         return _wrapped
-    whole = ctypes.POINTER(ctypes.c_int)
-    some = ctypes.c_void_p
-    called = ctypes.CFUNCTYPE(None, *[whole] * 4, *[some, whole] * 3, some, whole)(address)
+    i, x = ctypes.POINTER(ctypes.c_int), ctypes.c_void_p
+    called = ctypes.CFUNCTYPE(None, i, i, i, i, x, i, x, i, x, i, x, i)(address)
 
     def bare(R: Array, part: Array, trapezoid: int, panel: int) -> None:
-        m, n, l, nb = (ctypes.c_int(x) for x in (*part.shape, trapezoid, panel))
+        m, n, low, nb = (ctypes.c_int(k) for k in (*part.shape, trapezoid, panel))
         factor, work = np.empty((n.value, panel)), np.empty((n.value, panel))
         wrong = ctypes.c_int(0)
-        a, b, t, w = (x.ctypes.data for x in (R, part, factor, work))
-        called(m, n, l, nb, a, n, b, m, t, nb, w, wrong)
+        a, b, t, w = (array.ctypes.data for array in (R, part, factor, work))
+        called(m, n, low, nb, a, n, b, m, t, nb, w, wrong)
         if wrong.value:
             raise ValueError(f"dtpqrt: argument {-wrong.value}")
 

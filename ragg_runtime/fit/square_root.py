@@ -41,6 +41,7 @@ CHUNK = 2048
 WORTH_TWO = 2 * CHUNK
 """Rows of a triangle from which it is made of two, a thread each."""
 
+
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
     rows = columns.shape[1]
@@ -70,8 +71,17 @@ def join(blocks: Sequence[Array]) -> Array:
 
 def fold(trapezoids: Sequence[Array]) -> Array:
     """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
+    half = len(trapezoids) // 2
+    if half < 4:
+        return _folded(trapezoids)
+    return _folded(list(mapped(_folded, (trapezoids[:half], trapezoids[half:]))))
+
+
+def _folded(trapezoids: Sequence[Array]) -> Array:
     first, *others = trapezoids
-    R = np.array(first, order="F")
+    n = first.shape[1]
+    R = np.zeros((n, n), order="F")
+    R[: len(first)] = first
     for t in others:
         entered(R, np.array(t, order="F"), len(t))
     return R
