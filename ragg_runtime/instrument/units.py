@@ -28,6 +28,9 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 EOTVOS = 1e-9
 """1 Eo in s^-2."""
 
+ANY_WORLD = 1e6
+"""Factor between a g0 and the usual one beyond which powers of it are left to pint, which says what is out of all proportion."""
+
 DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
 _EXAMPLES = "a unit such as m, um, rad, arcsec, ug, ug/g^2, mA/g, ohm, deg/h, Eo, 1/K, s^-2, or 1 for none"
@@ -66,8 +69,9 @@ class Units:
         if not (math.isfinite(g0) and g0 > 0):
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
-        of_g = {pair: x * (self.g0 / G0) ** power for pair, (x, power) in FACTORS_OF_G.items()}
-        self._usual = {**FACTORS, **of_g}
+        ratio = self.g0 / G0
+        of_g = FACTORS_OF_G if 1.0 / ANY_WORLD < ratio < ANY_WORLD else {}
+        self._usual = {**FACTORS, **{pair: x * ratio**power for pair, (x, power) in of_g.items()}}
         self._of_g = dict(_OF_G)
         self._parsed: dict[str, Any] = {}
         self._stems: dict[str, str | None] = {}
