@@ -36,10 +36,13 @@ def orthonormal(columns: Array) -> Array:
 
 
 CHUNK = 2048
-"""Rows that enter a triangle at a time: they stay in the cache, and are enough."""
+"""Rows that enter a triangle at a time: so many that it is passed through seldom, so few that they stay in the cache."""
 
 WORTH_TWO = 2 * CHUNK
 """Rows of a triangle from which it is made of two, a thread each."""
+
+MANY = 8
+"""Trapezoids from which they are folded in two halves, a thread each: below, a thread costs more than it saves."""
 
 
 def triangle(columns: Array) -> Array:
@@ -71,9 +74,9 @@ def join(blocks: Sequence[Array]) -> Array:
 
 def fold(trapezoids: Sequence[Array]) -> Array:
     """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
-    half = len(trapezoids) // 2
-    if half < 4:
+    if len(trapezoids) < MANY:
         return _folded(trapezoids)
+    half = len(trapezoids) // 2
     return _folded(list(mapped(_folded, (trapezoids[:half], trapezoids[half:]))))
 
 

@@ -13,9 +13,7 @@ from ragg_runtime.reference import simulate
 from ragg_runtime.reference.accelerometer_noise import Noise, eotvos_noise
 from ragg_runtime.reference.instruments import perturbed
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion
-
-RATE = 8.0
-"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
+from tests.rate import RATE
 
 
 def flown_by(

@@ -19,7 +19,8 @@ from ragg_runtime.model_dir import derive
 from ragg_runtime.signals.demodulators import Demodulator
 from ragg_runtime.signals.tensor import COMPONENTS
 from tests.layouts import sheets
-from tests.layouts.flown import RATE, flown_by
+from tests.layouts.flown import flown_by
+from tests.rate import RATE
 
 DURATION = 600.0
 DISCS = {

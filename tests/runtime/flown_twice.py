@@ -16,9 +16,10 @@ from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.instrument.edit_toml import model_text
 from ragg_runtime.reference.scenario import draw_gradient, draw_motion, scenario
 from ragg_runtime.signals.demodulators import Demodulator
+from tests.rate import RATE
 
-DURATION, RATE = 900.0, 8.0
-"""s, Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
+DURATION = 900.0
+"""s"""
 WHOLE = slice(None)
 BRIEF = slice(0, 2000)
 """A quarter of an hour tells statistics; what is about files and figures in them needs four minutes."""

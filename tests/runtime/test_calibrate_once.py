@@ -16,7 +16,8 @@ from ragg_runtime.compensation.saved import KEPT, read, with_another
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import DURATION, RATE, files, flights, new_model, run
+from tests.rate import RATE
+from tests.runtime.flown_twice import DURATION, files, flights, new_model, run
 
 
 @pytest.fixture(scope="module")

@@ -25,7 +25,8 @@ from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.signals.demodulators import CUTOFF, DEMODULATORS, ORDER, demodulator
 from ragg_runtime.workflow import after, loop
-from tests.runtime.flown_twice import BRIEF, DURATION, RATE, files, flights, new_model, run, truth
+from tests.rate import RATE
+from tests.runtime.flown_twice import BRIEF, DURATION, files, flights, new_model, run, truth
 
 
 def compensated(s: Scenario, x: Flight, kind: Kind = "self", name: str = "fir") -> tuple[Compensated, Series]:

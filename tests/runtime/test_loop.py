@@ -26,11 +26,10 @@ from ragg_runtime.signals.demodulate import demodulate
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_spectrum import estimate
 from ragg_runtime.workflow import loop
+from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
-RATE = 8.0
-"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
 ERROR = {"rms_V", "rms_Eo", "inline_Eo", "cross_Eo", "inline_Eo_per_rtHz", "cross_Eo_per_rtHz"}
 
 

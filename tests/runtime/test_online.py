@@ -22,7 +22,8 @@ from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.online import online
-from tests.runtime.flown_twice import RATE, files, flights, new_model, run
+from tests.rate import RATE
+from tests.runtime.flown_twice import files, flights, new_model, run
 from tests.runtime.test_export import make, make_strictly
 
 Array = NDArray[np.float64]

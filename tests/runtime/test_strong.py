@@ -30,11 +30,10 @@ from ragg_runtime.lack_of_fit.omnibus import Found, Omnibus
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
 G0 = 9.8
-RATE = 8.0
-"""Hz: the platform passes nothing of note above 2 Hz (reference/turbulence.py), so that sixteen samples a second tell no more."""
 
 
 STRONG: dict[str, tuple[dict[str, Any], set[str]]] = {
