@@ -291,6 +291,8 @@ def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Ext
     """An effect of a stage derived into the model, and everything fitted anew."""
     f = stage.fitted
     model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
+    for x in f.prepared:
+        x.release()  # what is made now takes its place
     return Taken(
         effect=effect,
         test=stage.choice.tests[effect],

@@ -50,12 +50,12 @@ class PreparedFlight:
     def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
         """What ``work`` makes of every segment, in order: one pass over the flight.
 
-        Segments of a long flight are only whitened if that is wanted; ``work`` must not keep them (``effort``:
-        see ``passed``).
+        Segments that are not kept are only whitened if that is wanted, and those of a long flight never are: ``work`` must
+        not keep them either (``effort``: see ``passed``).
         """
         if self._kept:
             return map(work, self._kept)
-        if len(self.observation.record.time) > ROWS:
+        if not whitened or len(self.observation.record.time) > ROWS:
             return passed(self.at, self.observation, self.noise, work, whitened=whitened, effort=effort)
         self._kept.extend(passed(self.at, self.observation, self.noise, lambda piece: piece))
         return map(work, self._kept)
@@ -103,6 +103,10 @@ class PreparedFlight:
     def released(self) -> PreparedFlight:
         """The same without the columns."""
         return replace(self, _kept=[])
+
+    def release(self) -> None:
+        """Free the memory of kept columns; should this flight be asked again, it computes them anew."""
+        self._kept.clear()
 
 
 def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
