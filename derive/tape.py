@@ -46,7 +46,7 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
         elif e.is_Mul:
             for n, part in enumerate(e.args):
                 if not part.is_Number:
-                    descend(part, sp.Mul(factor, *e.args[:n], *e.args[n + 1 :]))
+                    descend(part, _product(factor, (*e.args[:n], *e.args[n + 1 :])))
         elif isinstance(e, sp.Heaviside):
             pass  # flat but at the instant of the step itself
         elif isinstance(e, (sp.sign, sp.Abs)) and not e.args[0].is_extended_real:
@@ -66,6 +66,13 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
     descend(e, sp.Integer(1))
     sums = {s: sp.Add(*found[s]) for s in sorted(found, key=lambda s: s.name)}
     return {s: d for s, d in sums.items() if d != 0}
+
+
+def _product(factor: sp.Expr, others: tuple[sp.Expr, ...]) -> sp.Expr:
+    """A factor times what is left of a product, which is in order as it stands unless it is a number times a sum."""
+    if factor is sp.S.One and not others[0].is_Number:
+        return sp.Mul._from_args(others, is_commutative=True)
+    return sp.Mul(factor, *others)
 
 
 _OPEN = (sp.Derivative, sp.re, sp.im, sp.atan2)
@@ -153,7 +160,7 @@ class Tape:
             if rate == 0:
                 continue
             room = about.most - self.degree(rate, about.small)
-            terms.append(self._up_to(d, room, about.small) * rate)
+            terms.append(sp.Mul(self._up_to(d, room, about.small), rate))
         return sp.Add(*terms)
 
     def _up_to(self, e: sp.Expr, most: int, small: frozenset[sp.Symbol]) -> sp.Expr:

@@ -52,6 +52,8 @@ class _NumPy(_InOrder, NumPyPrinter):
         return _decimal(e) or super()._print_Rational(e)
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        if item.is_Symbol:  # most are, and stand alone
+            return str(self._print(item))
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)
         return str(super().parenthesize(item, level, strict))
@@ -124,11 +126,11 @@ class _Fused(_C):
     def _factors(self, term: sp.Expr) -> tuple[str, list[str]]:
         """Sign and printed factors of a product."""
         coefficient, rest = term.as_coeff_Mul()
-        sign = "-" if coefficient < 0 else ""
-        factors = [] if abs(coefficient) == 1 else [self._print(abs(coefficient))]
+        sign = "-" if coefficient.is_negative else ""
+        factors = [] if abs(coefficient) is sp.S.One else [self._print(abs(coefficient))]
         for part in sp.Mul.make_args(rest):
             base, power = part.as_base_exp()
-            times = int(power) if power.is_Integer and 0 < power <= 6 else 1
+            times = int(power) if power.is_Integer and 0 < int(power) <= 6 else 1
             factor = base if times > 1 else part
             text = self._print(factor)
             bare = factor.is_Symbol or text.startswith("FMA(")
