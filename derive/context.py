@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -120,8 +121,8 @@ class Context:
 
 @cache
 def _harmonic(n: int) -> tuple[sp.Expr, sp.Expr]:
-    z = sp.expand((COS_PHI + sp.I * SIN_PHI) ** n)
-    return sp.re(z), sp.im(z)
+    terms = [(-1) ** (k // 2) * math.comb(n, k) * COS_PHI ** (n - k) * SIN_PHI**k for k in range(n + 1)]
+    return sp.Add(*terms[::2]), sp.Add(*terms[1::2])
 
 
 _MOVING = frozenset(c.name for c in MOTION if c.name.split("_")[0] not in _STATIONARY)

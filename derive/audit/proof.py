@@ -5,8 +5,7 @@ Everything is rational, so equal means equal: a right equation leaves 0, a mispr
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache
 
@@ -71,13 +70,22 @@ def amplitude_value(p: PolyElement, point: direct.Point, motion: Mapping[str, Fr
         inner = Fraction(0)
         for j, w in enumerate(weights):
             if w:
-                inner += w * math.prod(point.accelerometers[n][j] ** k for n, k in of_parameters)
+                inner += w * _product((point.accelerometers[n][j], k) for n, k in of_parameters)
         outer = tuple((n, k) for n, k in named if n in motion)
         coefficient = Fraction(int(c.numerator), int(c.denominator)) * inner
         by_motion[outer] = by_motion.get(outer, Fraction(0)) + coefficient
     return sum(
-        (c * math.prod(motion[n] ** k for n, k in outer) for outer, c in by_motion.items()), Fraction(0)
+        (c * _product((motion[n], k) for n, k in outer) for outer, c in by_motion.items()), Fraction(0)
     )
+
+
+def _product(factors: Iterable[tuple[Fraction, int]]) -> Fraction:
+    """Of numbers to their powers; common factors are taken out once."""
+    numerator = denominator = 1
+    for x, power in factors:
+        numerator *= x.numerator**power
+        denominator *= x.denominator**power
+    return Fraction(numerator, denominator)
 
 
 def wave(name: str, point: direct.Point) -> Fraction:
