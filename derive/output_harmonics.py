@@ -177,8 +177,15 @@ def _second_order(axes: sp.Matrix) -> list[sp.Expr]:
     return [slopes[k].get(f[m], sp.Integer(0)) / 2 for k, m in _PAIRS]
 
 
-@cache
 def generic_series(constants: tuple[tuple[str, sp.Integer], ...], one_place: bool) -> Generic:
+    """As :func:`generic_polynomials`, to be read."""
+    return {key: _readable(p) for key, p in generic_polynomials(constants, one_place).items()}
+
+
+@cache
+def generic_polynomials(
+    constants: tuple[tuple[str, sp.Integer], ...], one_place: bool
+) -> Mapping[tuple[int, str], Mapping[tuple[int, ...], PolyElement]]:
     """The series of one accelerometer; ``one_place``: second-order terms see the same place as the linear one."""
     fixed = {symbol(n): v for n, v in constants}
     names = ("k1", "K0", *_I, *_R, *_Q, *(() if one_place else _QR))
@@ -211,7 +218,7 @@ def generic_series(constants: tuple[tuple[str, sp.Integer], ...], one_place: boo
     parts = {(0, "c"): v.cosine(0)}
     for n in range(1, v.highest + 1):
         parts |= {(n, "c"): v.cosine(n), (n, "s"): v.sine(n)}
-    return {key: _readable(split(p, outer, own, inner)) for key, p in parts.items()}
+    return {key: split(p, outer, own, inner) for key, p in parts.items()}
 
 
 def _readable(terms: Mapping[tuple[int, ...], PolyElement]) -> Mapping[tuple[int, ...], sp.Expr]:

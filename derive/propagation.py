@@ -202,7 +202,8 @@ def from_generic(generic: Mapping[tuple[int, str], Mapping[tuple[int, ...], Poly
             for motion, coefficient in generic.get((n, source), {}).items():
                 for combination, sign in _combinations(n, source, phase):
                     key = (motion, combination)
-                    terms[key] = terms.get(key, COEFFICIENTS.zero) + sign * coefficient
+                    signed = coefficient if sign > 0 else -coefficient
+                    terms[key] = terms[key] + signed if key in terms else signed
         ordered = sorted((k for k in terms if terms[k]), key=lambda k: (_reading_order(k[0]), k[1]))
         amplitudes[amplitude_name(n, phase)] = tuple(Term(m, c, terms[m, c]) for m, c in ordered)
     return Collected(amplitudes, generic, COEFFICIENTS)
@@ -223,7 +224,8 @@ _PATTERNS: Mapping[tuple[int, ...], Combination] = {
 }  # fmt: skip
 
 
-def _combinations(n: int, source: str, target: str) -> list[tuple[Combination, int]]:
+@cache
+def _combinations(n: int, source: str, target: str) -> Sequence[tuple[Combination, int]]:
     """How cos or sin(n psi_j) of the four accelerometers adds to cos or sin(n phi) of G_out.
 
     With psi_j = phi + q_j 90 deg: cos(n psi) = cos(n q 90) cos(n phi) - sin(n q 90) sin(n phi), and the

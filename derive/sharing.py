@@ -8,8 +8,8 @@ from itertools import count
 
 import sympy as sp
 from sympy.core.sorting import default_sort_key
-from sympy.simplify.cse_main import opt_cse
 
+from derive.matching import noted
 from derive.symbols import symbol
 
 Shared = list[tuple[sp.Symbol, sp.Expr]]
@@ -18,23 +18,22 @@ Shared = list[tuple[sp.Symbol, sp.Expr]]
 def common(expressions: Sequence[sp.Expr]) -> tuple[Shared, list[sp.Expr]]:
     """Common subexpressions x0, x1 ... in order of use, and what is left: ``sympy.cse`` in canonical order, to the letter.
 
-    SymPy finds what sums and products have in common; walking the trees is done here, in half the time: our expressions are
-    commuting scalars, and the order of what a sum or product is made of is looked up.
+    In half the time: our expressions are commuting scalars, and the order of what a sum or product is made of is looked up.
     """
-    noted = opt_cse(expressions)
+    better = noted(expressions)
     seen: set[sp.Expr] = set()
     repeated: set[sp.Expr] = set()
     taken: set[str] = set()
 
     def find(e: sp.Expr) -> None:
-        if isinstance(e, int) or not e.args:  # SymPy notes a quotient with an exponent of Python's
+        if isinstance(e, int) or not e.args:  # a quotient is noted with an exponent of Python's
             if isinstance(e, sp.Symbol):
                 taken.add(e.name)
         elif e in seen:
             repeated.add(e)
         else:
             seen.add(e)
-            for part in noted.get(e, e).args:
+            for part in better.get(e, e).args:
                 find(part)
 
     for e in expressions:
@@ -48,7 +47,7 @@ def common(expressions: Sequence[sp.Expr]) -> tuple[Shared, list[sp.Expr]]:
             return e
         if e in names_of:
             return names_of[e]
-        made = noted.get(e, e)
+        made = better.get(e, e)
         parts = _in_order(made)
         new = [rebuilt(part) for part in parts]
         same = isinstance(made, sp.Basic) and all(a is b for a, b in zip(new, parts, strict=True))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import sympy as sp
 
@@ -52,6 +53,7 @@ class Parameter:
         return 1 if self.shared else self.count
 
 
+@cache
 def symbol(name: str) -> sp.Symbol:
     """The one SymPy symbol of this name (all are real)."""
     return sp.Symbol(name, real=True)

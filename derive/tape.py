@@ -25,7 +25,7 @@ def variables(e: sp.Expr) -> list[sp.Symbol]:
 @cache
 def symbols(e: sp.Expr) -> frozenset[sp.Symbol]:
     """The symbols of an expression, to be looked up: their order is hashed."""
-    return frozenset(e.free_symbols)
+    return frozenset((e,)) if e.is_Symbol else frozenset().union(*map(symbols, e.args))
 
 
 @cache
@@ -46,7 +46,7 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
         elif e.is_Mul:
             for n, part in enumerate(e.args):
                 if not part.is_Number:
-                    descend(part, sp.Mul(factor, *e.args[:n], *e.args[n + 1 :]))
+                    descend(part, _product(factor, (*e.args[:n], *e.args[n + 1 :])))
         elif isinstance(e, sp.Heaviside):
             pass  # flat but at the instant of the step itself
         elif isinstance(e, (sp.sign, sp.Abs)) and not e.args[0].is_extended_real:
@@ -68,6 +68,13 @@ def partials(e: sp.Expr) -> Mapping[sp.Symbol, sp.Expr]:
     return {s: d for s, d in sums.items() if d != 0}
 
 
+def _product(factor: sp.Expr, others: tuple[sp.Expr, ...]) -> sp.Expr:
+    """A factor times what is left of a product, which is in order as it stands unless it is a number times a sum."""
+    if factor is sp.S.One and not others[0].is_Number:
+        return sp.Mul._from_args(others, is_commutative=True)
+    return sp.Mul(factor, *others)
+
+
 _OPEN = (sp.Derivative, sp.re, sp.im, sp.atan2)
 """What SymPy writes where it does not carry a derivative out, or takes an argument for complex."""
 
@@ -75,6 +82,11 @@ _OPEN = (sp.Derivative, sp.re, sp.im, sp.atan2)
 def _slope(e: sp.Expr, s: sp.Symbol) -> sp.Expr:
     """The derivative of a function; of a step that is zero, but at the step itself, where no sample ever is."""
     return sp.diff(e, s).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+
+
+def _is_plain(e: sp.Expr) -> bool:
+    """Whether it is a number, a symbol, or a negative one."""
+    return e.is_Atom or (e.is_Mul and len(e.args) == 2 and e.args[0] == -1 and e.args[1].is_Atom)
 
 
 @dataclass(frozen=True)
@@ -117,7 +129,7 @@ class Tape:
     assignments: list[tuple[sp.Symbol, sp.Expr]] = field(default_factory=list)
     _values: dict[sp.Symbol, sp.Expr] = field(default_factory=dict)
     _rates: dict[tuple[sp.Symbol, About], sp.Expr] = field(default_factory=dict)
-    _degrees: dict[tuple[sp.Expr, frozenset[sp.Symbol]], int] = field(default_factory=dict)
+    _degrees: dict[frozenset[sp.Symbol], dict[sp.Expr, int]] = field(default_factory=dict)
 
     def let(self, name: str, value: sp.Expr) -> sp.Expr:
         """Name a value. Constants, symbols and their negatives are passed through.
@@ -126,7 +138,7 @@ class Tape:
         so does a name that stands for an input: names are made of the ids of effects, which may be anything.
         """
         value = sp.sympify(value, strict=True)
-        if value.is_Atom or (-value).is_Atom:
+        if _is_plain(value):
             return value
         s, tried = symbol(name), 1
         while is_taken(s.name) or self._values.get(s, value) != value:
@@ -148,7 +160,7 @@ class Tape:
             if rate == 0:
                 continue
             room = about.most - self.degree(rate, about.small)
-            terms.append(self._up_to(d, room, about.small) * rate)
+            terms.append(sp.Mul(self._up_to(d, room, about.small), rate))
         return sp.Add(*terms)
 
     def _up_to(self, e: sp.Expr, most: int, small: frozenset[sp.Symbol]) -> sp.Expr:
@@ -159,12 +171,12 @@ class Tape:
 
     def degree(self, e: sp.Expr, small: frozenset[sp.Symbol]) -> int:
         """The lowest degree in the ``small`` symbols, at least, of any term of an expression."""
-        if not small:
+        if not small or e.is_Number:
             return 0
-        key = e, small
-        if key not in self._degrees:
-            self._degrees[key] = self._degree(e, small)
-        return self._degrees[key]
+        known = self._degrees.setdefault(small, {})
+        if (found := known.get(e)) is None:
+            found = known[e] = self._degree(e, small)
+        return found
 
     def _degree(self, e: sp.Expr, small: frozenset[sp.Symbol]) -> int:
         if e.is_Symbol:
@@ -219,9 +231,19 @@ class Settled:
         """An expression with what is known put in; parts that expressions share are looked up."""
         if self.known.keys().isdisjoint(symbols(e)):
             return e
-        if e not in self._put:
-            self._put[e] = self.known[e] if e in self.known else e.func(*map(self.put, e.args))
-        return self._put[e]
+        if (found := self._put.get(e)) is None:
+            found = self._put[e] = self.known[e] if e in self.known else self._rebuilt(e)
+        return found
+
+    def _rebuilt(self, e: sp.Expr) -> sp.Expr:
+        new: list[sp.Expr] = []
+        for part in e.args:
+            new.append(self.put(part))
+            if (
+                e.is_Mul and new[-1] is sp.S.Zero
+            ):  # of candidates most products vanish: the rest need not be looked at
+                return new[-1]
+        return e.func(*new)
 
     def program(self, outputs: Iterable[tuple[str, sp.Expr]]) -> Program:
         """Share subexpressions, drop what nobody reads."""
@@ -236,7 +258,7 @@ def settled(assignments: Iterable[tuple[sp.Symbol, sp.Expr]], values: Mapping[sp
     whole = Settled(known, ())
     for s, e in assignments:
         value = whole.put(e)
-        if value.is_Atom or (-value).is_Atom:
+        if _is_plain(value):
             known[s] = value
         else:
             kept.append((s, value))

@@ -142,6 +142,7 @@ def _grouped(
     return tuple(mistakes), tuple(left)
 
 
+@cache
 def _outer(ring: PolyRing, powers: Monomial) -> tuple[tuple[str, int], ...]:
     """Motion and combination of a monomial of :data:`MODEL_RING`, without the instrument's parameters."""
     named = ((s.name, p) for s, p in zip(ring.symbols, powers, strict=True) if p)
@@ -206,12 +207,13 @@ def expand_motion(laplace: bool = True) -> Expansion:
     return expand
 
 
-def powers_by_name(powers: Monomial) -> dict[str, int]:
+@cache
+def powers_by_name(powers: Monomial) -> Mapping[str, int]:
     """Powers of a monomial of :data:`MODEL_RING`, without the zeros."""
     return {n: p for n, p in zip(_NAMES, powers, strict=True) if p}
 
 
-def select(p: PolyElement, keep: Callable[[dict[str, int]], bool]) -> PolyElement:
+def select(p: PolyElement, keep: Callable[[Mapping[str, int]], bool]) -> PolyElement:
     """The terms of a polynomial whose named powers satisfy ``keep``."""
     return p.ring.from_dict({m: v for m, v in p.terms() if keep(powers_by_name(m))})
 

@@ -7,15 +7,18 @@ printed. The choice that the derivation makes (:data:`CHOSEN`) must win.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
 
+import sympy as sp
 from sympy.polys.domains import QQ_I
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement, PolyRing
 
 from derive.audit.compare import (
+    Rational,
     Reading,
     amplitude,
     compare,
@@ -27,7 +30,7 @@ from derive.audit.compare import (
 )
 from derive.audit.printed import ANALYTICAL
 from derive.audit.reading import generators, model_reader
-from derive.harmonics import Series, constant, rotating, series, split
+from derive.harmonics import rotating, series
 from derive.propagation import (
     COEFFICIENT_PARAMETERS,
     COEFFICIENTS,
@@ -78,50 +81,49 @@ class Score:
     unprinted: int
 
 
-_RING = PolyRing([symbol(n) for n in COEFFICIENT_PARAMETERS + MOTION_NUMBERS], QQ_I, lex)
-_G = generators(_RING)
+_G = generators(COEFFICIENTS)
 Matrix = tuple[tuple[PolyElement, ...], ...]
 
 
 def _product(A: Matrix, B: Matrix) -> Matrix:
     columns = tuple(zip(*B, strict=True))
-    return tuple(
-        tuple(sum((x * y for x, y in zip(row, c, strict=True)), _RING.zero) for c in columns) for row in A
-    )
+    zero = COEFFICIENTS.zero
+    return tuple(tuple(sum((x * y for x, y in zip(row, c, strict=True)), zero) for c in columns) for row in A)
 
 
 def _turn(axis: int, angle: PolyElement, order: int) -> Matrix:
     """Rotation about axis 0, 1 or 2, its sine and cosine to a power of the angle (1 or 2)."""
-    cosine = _RING.one - angle**2 / 2 if order == 2 else _RING.one
+    one, zero = COEFFICIENTS.one, COEFFICIENTS.zero
+    cosine = one - angle**2 / 2 if order == 2 else one
     i, k = (axis + 1) % 3, (axis + 2) % 3
-    rows = [[_RING.one if r == c else _RING.zero for c in range(3)] for r in range(3)]
+    rows = [[one if r == c else zero for c in range(3)] for r in range(3)]
     rows[i][i] = rows[k][k] = cosine
     rows[i][k], rows[k][i] = -angle, angle
     return tuple(tuple(r) for r in rows)
 
 
 @cache
-def _turning() -> tuple[tuple[Series, ...], tuple[tuple[Series, ...], ...]]:
-    """Force and gradient at the disc centre, as the turning disc (radial, tangential, axial) sees them."""
-    c, s = rotating(_RING)
-    zero, one, minus = (constant(_RING, _RING(n)) for n in (0, 1, -1))
-    spin = ((c, minus * s, zero), (s, c, zero), (zero, zero, one))
+def _turning() -> Mapping[tuple[int, str], Mapping[tuple[int, ...], Sequence[tuple[int, Rational]]]]:
+    """Force (3) and gradient (9, by rows) at the disc centre, as the turning disc (radial, tangential, axial) sees them.
+
+    (harmonic, "c" or "s") -> {powers of the motion numbers: (which of the twelve, its coefficient) ...}.
+    """
+    ring = PolyRing([symbol(n) for n in MOTION_NUMBERS], QQ_I, lex)
+    c, s = symbol("c"), symbol("s")
+    known = dict(zip((c, s), rotating(ring), strict=True))
+    spin = sp.Matrix([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    a = spin * sp.Matrix([symbol(f"a_{k}") for k in "xyz"])
     entries = gradient_in_motion_numbers()
-    M = [[series((), entries[f"M_{i}{k}"], _RING, {}) for k in "xyz"] for i in "xyz"]
-    a = [constant(_RING, _G[f"a_{k}"]) for k in "xyz"]
-
-    def add(terms: list[Series]) -> Series:
-        total = zero
-        for t in terms:
-            total = total + t
-        return total
-
-    seen_a = tuple(add([spin[n][i] * a[n] for n in range(3)]) for i in range(3))
-    half = [[add([M[n][m] * spin[m][k] for m in range(3)]) for k in range(3)] for n in range(3)]
-    seen_M = tuple(
-        tuple(add([spin[n][i] * half[n][k] for n in range(3)]) for k in range(3)) for i in range(3)
-    )
-    return seen_a, seen_M
+    M = spin * sp.Matrix(3, 3, lambda i, k: entries[f"M_{'xyz'[i]}{'xyz'[k]}"]) * spin.T
+    found: dict[tuple[int, str], dict[tuple[int, ...], list[tuple[int, Rational]]]] = {}
+    for n, e in enumerate((*a, *M)):
+        seen = series((), e, ring, known)
+        for h in range(5):
+            for phase, part in (("c", seen.cosine(h)), ("s", seen.sine(h)))[: 2 if h else 1]:
+                of_phase = found.setdefault((h, phase), {})
+                for motion, value in part.terms():
+                    of_phase.setdefault(motion, []).append((n, value.x))
+    return found
 
 
 def _geometry(v: Convention) -> tuple[tuple[PolyElement, ...], Matrix]:
@@ -157,29 +159,28 @@ def _second_order(axial: str) -> tuple[tuple[tuple[int, str], tuple[int, ...], P
 
 def derive_with(v: Convention) -> Collected:
     """Eq. 17-19 under these conventions."""
+    # how the print is read or counted is no matter of deriving
+    return _derived(replace(v, powers=CHOSEN.powers, theta=CHOSEN.theta, laplace=CHOSEN.laplace))
+
+
+@cache
+def _derived(v: Convention) -> Collected:
     place, (tx, ty, tz) = _geometry(v)
     y, z = _G["vartheta_y"], _G["vartheta_z"]
     if v.matrix == "composed":
         x = _G["vartheta_x"]
         y, z = y - x * z, z + x * y
     input_axis = [p + z * q - y * r for p, q, r in zip(tx, ty, tz, strict=True)]
-    a, M = _turning()
-    total = constant(_RING, _RING.zero)
-    for i in range(3):
-        total = total + constant(_RING, _cut(v, input_axis[i])) * a[i]
-        for k in range(3):
-            total = total + constant(_RING, _cut(v, input_axis[i] * place[k]) * _G["R"]) * M[i][k]
-    total = constant(_RING, _G["k1"]) * total
-    n = len(COEFFICIENT_PARAMETERS)
-    outer = range(n, n + len(MOTION_NUMBERS))
-    generic: dict[tuple[int, str], dict[tuple[int, ...], PolyElement]] = {}
-    for h in range(5):
-        for phase in "cs" if h else "c":
-            part = total.cosine(h) if phase == "c" else total.sine(h)
-            generic[h, phase] = split(part, outer, COEFFICIENTS, range(n))
+    k1, R = _G["k1"], _G["R"]
+    sensed = [k1 * _cut(v, i) for i in input_axis]
+    sensed += [k1 * R * _cut(v, i * r) for i in input_axis for r in place]
+    generic = {
+        key: {m: sum((sensed[n] * c for n, c in parts), COEFFICIENTS.zero) for m, parts in terms.items()}
+        for key, terms in _turning().items()
+    }
     for key, motion, p in _second_order(v.axial):
         generic[key][motion] = generic[key].get(motion, COEFFICIENTS.zero) + p
-    return from_generic(generic)
+    return from_generic({key: {m: p for m, p in terms.items() if p} for key, terms in generic.items()})
 
 
 _ANGLES = [n for n, name in enumerate(COEFFICIENT_PARAMETERS) if name.startswith(("beta", "vartheta"))]
@@ -193,18 +194,27 @@ def _cut(v: Convention, p: PolyElement) -> PolyElement:
 
 
 @cache
-def _printed(theta: str, laplace: str) -> tuple[Reading, ...]:
+def read_print(theta: str, laplace: str) -> tuple[Reading, ...]:
+    """Eq. 18 and 19 as they are read under these conventions."""
     reader, expand = model_reader(theta == "k1 vartheta"), expand_motion(laplace == "used")
     return tuple(read(e, reader, expand) for e in ANALYTICAL)
 
 
+@cache
+def amplitudes_with(v: Convention) -> Mapping[str, PolyElement]:
+    """The amplitudes under these conventions, as far as the print goes, in :data:`MODEL_RING`."""
+    derived = derive_with(v)
+    found = {n: derived_amplitude(derived, n) for n in derived.amplitudes}
+    return found if v.powers == "all" else {n: select(p, printed_order) for n, p in found.items()}
+
+
+@cache
 def score(v: Convention) -> Score:
     """How much of Eq. 18 and 19 comes out under these conventions."""
-    derived = derive_with(v)
+    derived = amplitudes_with(replace(v, theta=CHOSEN.theta, laplace=CHOSEN.laplace))
     reproduced = printed = unprinted = 0
-    for r in _printed(v.theta, v.laplace):
-        p = derived_amplitude(derived, amplitude(r.equation.left))
-        outcome = compare(r, select(p, printed_order) if v.powers == "beta_z once" else p)
+    for r in read_print(v.theta, v.laplace):
+        outcome = compare(r, derived[amplitude(r.equation.left)])
         reproduced += outcome.confirmed
         printed += len(r.atoms)
         unprinted += len(outcome.missing)

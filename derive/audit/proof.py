@@ -5,8 +5,9 @@ Everything is rational, so equal means equal: a right equation leaves 0, a mispr
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
+from functools import cache
 
 from sympy.polys.rings import PolyElement
 
@@ -32,45 +33,59 @@ def value(p: PolyElement, numbers: Mapping[str, Fraction]) -> Fraction:
     return total
 
 
+@cache
+def _printed_motion() -> Mapping[str, PolyElement]:
+    """The printed Eq. 16 as it is read."""
+    reader = motion_reader()
+    return {e.left: sum(map(reader.read, e.terms), reader.ring.zero) for e in MOTION}
+
+
 def motion_numbers(point: direct.Point) -> dict[str, Fraction]:
     """T_1 ... S_5 by the *printed* Eq. 16, and everything else that Eq. 18 and 19 name."""
     rates = direct.rates(point)
     square = rates.pop("omega_im^2")
     # omega_im occurs squared only; its own value, perhaps irrational, is never needed.
-    reader = motion_reader()
-    at = [s.name for s in reader.ring.symbols].index("omega_im")
     numbers = {f"a_{k}": v for k, v in zip("xyz", point.a, strict=True)}
-    for e in MOTION:
+    for left, p in _printed_motion().items():
+        at = [s.name for s in p.ring.symbols].index("omega_im")
         total = Fraction(0)
-        for text in e.terms:
-            for powers, c in reader.read(text).terms():
-                plain = reader.ring.from_dict({tuple(0 if n == at else k for n, k in enumerate(powers)): c})
-                total += value(plain, rates) * (square if powers[at] else 1)
-        numbers[e.left] = total
+        for powers, c in p.terms():
+            plain = p.ring.from_dict({tuple(0 if n == at else k for n, k in enumerate(powers)): c})
+            total += value(plain, rates) * (square if powers[at] else 1)
+        numbers[left] = total
     return numbers | {n: rates[n] for n in ("omegadot_x", "omegadot_y")}
+
+
+Named = tuple[tuple[str, int], ...]
 
 
 def amplitude_value(p: PolyElement, point: direct.Point, motion: Mapping[str, Fraction]) -> Fraction:
     """An amplitude of Eq. 18 or 19 (independent motion numbers only) for the point's four accelerometers."""
     names = [s.name for s in p.ring.symbols]
-    total = Fraction(0)
+    by_motion: dict[Named, Fraction] = {}
     for powers, c in p.terms():
         named = [(n, k) for n, k in zip(names, powers, strict=True) if k]
         weights = next(_WEIGHTS[n] for n, _ in named if n in _WEIGHTS)
+        of_parameters = [(n, k) for n, k in named if n in COEFFICIENT_PARAMETERS]
         inner = Fraction(0)
         for j, w in enumerate(weights):
             if w:
-                product = Fraction(w)
-                for n, k in named:
-                    if n in COEFFICIENT_PARAMETERS:
-                        product *= point.accelerometers[n][j] ** k
-                inner += product
-        outer = Fraction(int(c.numerator), int(c.denominator))
-        for n, k in named:
-            if n in motion:
-                outer *= motion[n] ** k
-        total += inner * outer
-    return total
+                inner += w * _product((point.accelerometers[n][j], k) for n, k in of_parameters)
+        outer = tuple((n, k) for n, k in named if n in motion)
+        coefficient = Fraction(int(c.numerator), int(c.denominator)) * inner
+        by_motion[outer] = by_motion.get(outer, Fraction(0)) + coefficient
+    return sum(
+        (c * _product((motion[n], k) for n, k in outer) for outer, c in by_motion.items()), Fraction(0)
+    )
+
+
+def _product(factors: Iterable[tuple[Fraction, int]]) -> Fraction:
+    """Of numbers to their powers; common factors are taken out once."""
+    numerator = denominator = 1
+    for x, power in factors:
+        numerator *= x.numerator**power
+        denominator *= x.denominator**power
+    return Fraction(numerator, denominator)
 
 
 def wave(name: str, point: direct.Point) -> Fraction:

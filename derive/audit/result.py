@@ -24,9 +24,9 @@ from derive.audit.compare import (
     select,
     simplified_order,
 )
-from derive.audit.conventions import CHOSEN, Convention, Score
+from derive.audit.conventions import CHOSEN, Convention, Score, amplitudes_with
 from derive.audit.experiment import Cost
-from derive.audit.printed import ANALYTICAL, MOTION, SIMPLIFIED, TRANSDUCER
+from derive.audit.printed import MOTION, SIMPLIFIED, TRANSDUCER
 from derive.audit.reading import MODEL_RING, model_reader, motion_reader, transducer_reader
 from derive.propagation import collect
 
@@ -174,9 +174,11 @@ def readings(
     pairs = [(r, transducer[r.equation.left]) for r in (read(e, transducer_reader()) for e in TRANSDUCER)]
     for e in MOTION:
         pairs.append((read(e, motion_reader(), definitions.expand_rate), motion[e.left]))
-    for equations, derived in ((ANALYTICAL, analytical), (SIMPLIFIED, simplified)):
-        pairs += [(read(e, reader, expand), derived[amplitude(e.left)]) for e in equations]
-    return pairs
+    pairs += [
+        (r, analytical[amplitude(r.equation.left)])
+        for r in conventions.read_print(CHOSEN.theta, CHOSEN.laplace)
+    ]
+    return pairs + [(read(e, reader, expand), simplified[amplitude(e.left)]) for e in SIMPLIFIED]
 
 
 def _proved(
@@ -215,17 +217,10 @@ def _beyond(full: Amplitudes, kept: Amplitudes) -> list[Beyond]:
     return rows
 
 
-def _with(v: Convention) -> dict[str, PolyElement]:
-    """The amplitudes under other conventions."""
-    other = conventions.derive_with(v)
-    amplitudes = {n: derived_amplitude(other, n) for n in other.amplitudes}
-    return amplitudes if v.powers == "all" else {n: select(p, printed_order) for n, p in amplitudes.items()}
-
-
 def _departure_cost(v: Convention, base: Amplitudes) -> Cost | None:
     if replace(v, theta=CHOSEN.theta, laplace=CHOSEN.laplace) == CHOSEN:
         return None  # a way of reading the print, not of deriving the model
-    return experiment.cost({n: p - base[n] for n, p in _with(v).items()})
+    return experiment.cost({n: p - base[n] for n, p in amplitudes_with(v).items()})
 
 
 def tilt_after_shift(base: Amplitudes) -> Cost:
@@ -241,12 +236,12 @@ def tilt_after_shift(base: Amplitudes) -> Cost:
         "vartheta_y": tuple(y[j] - 2 * x[j] * z[j] for j in range(4)),
         "vartheta_z": tuple(z[j] + 2 * x[j] * y[j] for j in range(4)),
     }
-    turned = experiment.output(_with(replace(CHOSEN, tilt="rises")), shifted)
+    turned = experiment.output(amplitudes_with(replace(CHOSEN, tilt="rises")), shifted)
     return experiment.price([u - v for u, v in zip(turned, experiment.output(base), strict=True)])
 
 
 def _neglected(dropped: Amplitudes, rule: str) -> Neglected:
-    def mine(powers: dict[str, int]) -> bool:
+    def mine(powers: Mapping[str, int]) -> bool:
         return not rule or classify(powers) == rule
 
     chosen: dict[str, PolyElement] = {n: select(p, mine) for n, p in dropped.items()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -26,12 +27,16 @@ def component(p: Values, *axes: str) -> sp.Expr:
 
 def field(r: sp.Matrix, p: Values, c: Context) -> sp.Matrix:
     # Gravity that grows with r is felt as specific force of the other sign.
-    def tensor(*axes: str) -> sp.Matrix:
-        return sp.Matrix(3, 3, [component(p, *axes, a, b) for a in "xyz" for b in "xyz"])
-
     r = c.in_measurement_frame(r)
-    second = {k: r.dot(tensor(k) * r) / 2 for k in "xyz"}
-    third = {k: sp.Add(*(r["xyz".index(j)] * r.dot(tensor(k, j) * r) for j in "xyz")) / 6 for k in "xyz"}
+
+    @cache
+    def along(axes: str) -> sp.Expr:
+        return r.dot(sp.Matrix(3, 3, [component(p, *axes, a, b) for a in "xyz" for b in "xyz"]) * r)
+
+    second = {k: along(k) / 2 for k in "xyz"}
+    third = {
+        k: sp.Add(*(r["xyz".index(j)] * along("".join(sorted(k + j))) for j in "xyz")) / 6 for k in "xyz"
+    }
     return c.in_disc_frame(sp.Matrix([-second[k] - third[k] for k in "xyz"]))
 
 

@@ -52,6 +52,8 @@ class _NumPy(_InOrder, NumPyPrinter):
         return _decimal(e) or super()._print_Rational(e)
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        if item.is_Symbol:  # most are, and stand alone
+            return str(self._print(item))
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)
         return str(super().parenthesize(item, level, strict))
@@ -83,6 +85,8 @@ class _C(_InOrder, C99CodePrinter):
         return _decimal(e) or str(super()._print_Rational(e))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        if item.is_Symbol:
+            return str(self._print(item))
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)
         return str(super().parenthesize(item, level, strict))
@@ -124,11 +128,11 @@ class _Fused(_C):
     def _factors(self, term: sp.Expr) -> tuple[str, list[str]]:
         """Sign and printed factors of a product."""
         coefficient, rest = term.as_coeff_Mul()
-        sign = "-" if coefficient < 0 else ""
-        factors = [] if abs(coefficient) == 1 else [self._print(abs(coefficient))]
+        sign = "-" if coefficient.is_negative else ""
+        factors = [] if abs(coefficient) is sp.S.One else [self._print(abs(coefficient))]
         for part in sp.Mul.make_args(rest):
             base, power = part.as_base_exp()
-            times = int(power) if power.is_Integer and 0 < power <= 6 else 1
+            times = int(power) if power.is_Integer and 0 < int(power) <= 6 else 1
             factor = base if times > 1 else part
             text = self._print(factor)
             bare = factor.is_Symbol or text.startswith("FMA(")
@@ -166,6 +170,7 @@ _SYMBOLS |= {TURN[i, k].name: f"u_{{{'rtz'[i]}{'rtz'[k]}}}" for i in range(3) fo
 
 _IN_NUMPY = _NumPy()
 _IN_C, _IN_FUSED_C, _IN_WIDE_C = (kind({"contract": False}) for kind in (_C, _Fused, _Wide))
+_IN_LATEX = _LaTeX()
 """One printer each: to make one takes as long as to print an expression."""
 
 
@@ -174,6 +179,7 @@ def to_numpy(e: sp.Expr) -> str:
     return str(_IN_NUMPY.doprint(e))
 
 
+@cache
 def to_c(e: sp.Expr) -> str:
     return str(_IN_C.doprint(e))
 
@@ -188,4 +194,4 @@ def to_wide_c(e: sp.Expr) -> str:
 
 
 def to_latex(e: sp.Expr, **settings: Any) -> str:
-    return str(_LaTeX(settings).doprint(e))
+    return str((_LaTeX(settings) if settings else _IN_LATEX).doprint(e))

@@ -22,6 +22,7 @@ def environment(package: str) -> jinja2.Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
         autoescape=False,  # the output is source code, not markup
+        optimized=False,  # most are rendered once: that takes longer than it spares
     )
     env.filters |= {"np": to_numpy, "c": to_c, "fused": to_fused_c, "wide": to_wide_c}
     env.filters |= {"tex": to_latex, "c_name": _c_name}

@@ -16,6 +16,7 @@ from derive.stages import Kinematics
 from derive.symbols import MOTION, SPIN_ACCELERATION, SPIN_RATE, symbol
 
 Vector = tuple[float, float, float]
+N = TypeVar("N", Fraction, float)
 
 EOTVOS = Fraction(1, 10**9)
 """1 Eo in s^-2."""
@@ -136,7 +137,13 @@ class Envelope:
 
     def motion(self) -> Mapping[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
-        return ranges(self.channel, self.kinematics)
+        return self.motion_in(Fraction)
+
+    def motion_in(self, number: Callable[[Fraction], N]) -> Mapping[str, N]:
+        """As :meth:`motion`, in exact numbers or rough ones."""
+        return _ranges(
+            tuple(number(self.channel(n)) for n in _channels(self.kinematics)), self.kinematics, number
+        )
 
     def scaled(self, names: Sequence[str], factor: float) -> Envelope:
         """The envelope with these bounds multiplied by a factor."""
@@ -154,19 +161,23 @@ def ranges(
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
     """
-    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics)
+    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics, Fraction)
 
 
 @lru_cache(maxsize=64)
-def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> Mapping[str, Fraction]:
+def _ranges(
+    channels: tuple[N, ...], kinematics: Kinematics, number: Callable[[Fraction], N]
+) -> Mapping[str, N]:
     bounds = {}
     for name, terms in _polynomials(kinematics).items():
-        low = high = Fraction(0)
+        low = high = number(Fraction(0))
         for powers, c in terms:
-            size = abs(c) * product(channels, powers)
+            size = number(abs(c)) * product(channels, powers)
             square = all(n % 2 == 0 for n in powers)
-            low -= size if c < 0 or not square else 0
-            high += size if c > 0 or not square else 0
+            if c < 0 or not square:
+                low -= size
+            if c > 0 or not square:
+                high += size
         bounds[name] = max(-low, high)
     return bounds
 
@@ -188,9 +199,6 @@ def _polynomials(kinematics: Kinematics) -> dict[str, tuple[tuple[tuple[int, ...
         )
         for name in MOTION_NUMBERS
     }
-
-
-N = TypeVar("N", Fraction, float)
 
 
 def product(bounds: Sequence[N], powers: Sequence[int]) -> N:

@@ -20,6 +20,8 @@ from derive.propagation import (
 from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, N, product
 
 Powers = tuple[int, ...]
+Product = tuple[int, Powers, Powers]
+"""A term: its harmonic, powers of the motion numbers, powers of the parameters."""
 Generic = Mapping[tuple[int, str], Mapping[Powers, PolyElement]]
 
 _SIGNAL = frozenset(
@@ -66,15 +68,16 @@ CLOSE = 1e-9
 """Relative distance from what is allotted below which floating point does not decide."""
 
 
-def exceeding(envelope: Envelope, full: Collected | None = None) -> list[bool]:
-    """Whether each of :func:`sizes` is more than what is allotted; exactly, though most are told in floating point."""
-    rough = _sizing(envelope, float)
-    allotted, found = envelope.allotted, []
-    for term, c in (full or collect()).largest.items():
+def exceeding(envelope: Envelope, terms: Mapping[Product, Fraction]) -> set[Product]:
+    """The terms, of :attr:`Collected.largest`, that may exceed what is allotted; exactly, though most are told in floating point."""
+    rough, exact = _sizing(envelope, float), cache(lambda: _sizing(envelope, Fraction))
+    allotted, found = envelope.allotted, set()
+    for term, c in terms.items():
         size: Fraction | float = rough(c, *term)
         if abs(size - allotted) <= CLOSE * allotted:
-            size = _sizing(envelope, Fraction)(c, *term)  # of few terms, if of any
-        found.append(size > allotted)
+            size = exact()(c, *term)  # of few terms, if of any
+        if size > allotted:
+            found.add(term)
     return found
 
 
@@ -82,8 +85,8 @@ def _sizing(
     envelope: Envelope, number: Callable[[Fraction], N]
 ) -> Callable[[Fraction, int, Powers, Powers], N]:
     """What gives the size of a coefficient's term in an envelope, in exact numbers or rough ones."""
-    motion_bounds = envelope.motion()
-    motions = [number(motion_bounds[n]) for n in MOTION_NUMBERS]
+    motion_bounds = envelope.motion_in(number)
+    motions = [motion_bounds[n] for n in MOTION_NUMBERS]
     nominal = [number(envelope.nominal(n)) for n in COEFFICIENT_PARAMETERS]
     scale = number(1 / (4 * Fraction(envelope.radius) * EOTVOS))
     of_motion = cache(lambda powers: product(motions, powers))  # many terms share either
@@ -106,8 +109,7 @@ def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = Non
     always the signal itself (Eq. 30). What it drops is bounded by :func:`derive.simplify.certified_bound`.
     """
     full = full or collect()
-    kept = {term for term, large in zip(full.largest, exceeding(envelope, full), strict=True) if large}
-    return from_generic(_select(full.generic, kept))
+    return from_generic(_select(full.generic, exceeding(envelope, full.largest)))
 
 
 def dropped(model: Collected, full: Collected | None = None) -> Generic:
@@ -121,7 +123,7 @@ def dropped(model: Collected, full: Collected | None = None) -> Generic:
     return difference
 
 
-def _select(generic: Generic, chosen: set[tuple[int, Powers, Powers]]) -> Generic:
+def _select(generic: Generic, chosen: set[Product]) -> Generic:
     """The terms of a series that are chosen, or signal; without the harmonics that this empties."""
     reduced: dict[tuple[int, str], dict[Powers, PolyElement]] = {}
     for (n, phase), terms in generic.items():

@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
-    from ragg_runtime.workflow import upkeep
+    from ragg_runtime.workflow import derivation
 
-    root = upkeep.project() if out is None else out
+    root = derivation.HOME if out is None else out
     if check:
-        found = upkeep.checked(root)
+        found = derivation.checked(root)
         if found.difference:
             raise UserError(
                 "the committed code does not match the derivation",
@@ -54,7 +54,7 @@ def derive(out: Path | None, check: bool) -> None:
         if found.versions:
             click.echo(f"note: it was derived with SymPy {found.committed_with}, and is the same here")
         return
-    changed = upkeep.rederived(root)
+    changed = derivation.rederived(root)
     for name in changed:
         click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")

@@ -1,4 +1,4 @@
-"""What a model directory and the project need between flights: own effects trusted, code derived and compiled, steps read."""
+"""What a model directory and the project need between flights: own effects trusted, code compiled, steps read."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ from ragg_runtime.model_dir.trust import is_trusted as is_trusted
 from ragg_runtime.model_dir.trust import trust as trust
 
 if TYPE_CHECKING:
-    from ragg_runtime.model_dir.publish import Checked
     from ragg_runtime.workflow.loaded import Loaded
 
 
@@ -62,24 +61,3 @@ def history(model_dir: Path, command: str) -> History:
         notes=tuple(d.notes),
         provenance=provenance(command, identity(d)),
     )
-
-
-def project() -> Path:
-    """Where the project stands, whose code ``ragg derive`` writes."""
-    from ragg_runtime.model_dir.publish import HOME
-
-    return HOME
-
-
-def rederived(root: Path) -> list[str]:
-    """Derive everything and write it below ``root``, all or nothing; the paths that changed."""
-    from ragg_runtime.model_dir import publish
-
-    return publish.rederived(root)
-
-
-def checked(root: Path) -> Checked:
-    """Whether what is committed below ``root`` is what the derivation yields."""
-    from ragg_runtime.model_dir import publish
-
-    return publish.checked(root)

@@ -1,10 +1,11 @@
-"""Common subexpressions are those that SymPy finds, by the same names in the same order."""
+"""Common subexpressions are those that SymPy finds, by the same names in the same order; operations are counted as it counts them."""
 
 from __future__ import annotations
 
 import pytest
 import sympy as sp
 
+from derive import ir
 from derive.chain import accelerometer
 from derive.effect import Effect
 from derive.effects import catalogue
@@ -22,6 +23,15 @@ def test_what_is_shared_is_what_sympy_shares(effects: list[Effect]) -> None:
     shared, left = sp.cse(expressions, symbols=names, order="canonical")
     assert len(shared) > 50
     assert common(expressions) == (shared, left)
+
+
+@pytest.mark.parametrize("effects", [EVERY[k::3] for k in range(3)], ids=lambda effects: effects[0].id)
+def test_operations_are_counted_as_sympy_counts_them(effects: list[Effect]) -> None:
+    """Of the chains before anything is shared, and of what is shared: signs, quotients, powers, functions."""
+    expressions = [e for _, e in accelerometer(effects).tape.assignments]
+    shared, left = common(expressions)
+    for e in [*expressions, *(x for _, x in shared), *left]:
+        assert ir._counted(e) == sp.count_ops(e)
 
 
 def test_names_that_are_taken_are_passed_over() -> None:
