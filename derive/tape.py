@@ -239,9 +239,8 @@ class Settled:
         new: list[sp.Expr] = []
         for part in e.args:
             new.append(self.put(part))
-            if (
-                e.is_Mul and new[-1] is sp.S.Zero
-            ):  # of candidates most products vanish: the rest need not be looked at
+            # of candidates most products vanish: the rest need not be looked at
+            if e.is_Mul and new[-1] is sp.S.Zero:
                 return new[-1]
         return e.func(*new)
 

@@ -10,6 +10,7 @@ import sympy as sp
 from sympy.core.exprtools import decompose_power
 from sympy.core.sorting import default_sort_key
 from sympy.printing.c import C99CodePrinter
+from sympy.printing.codeprinter import CodePrinter
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.numpy import NumPyPrinter
 
@@ -34,8 +35,8 @@ def _terms(e: sp.Expr) -> tuple[sp.Expr, ...]:
     return tuple(t for t, _, _ in sorted(terms, key=lambda t: ([-t[1].get(b, 0) for b in order], t[2])))
 
 
-class _InOrder:
-    """Sums in SymPy's order, which takes long to find and is the same in every language."""
+class _Code(CodePrinter):
+    """What is the same in every language: sums in SymPy's order, which takes long to find, and numbers as decimals."""
 
     def _as_ordered_terms(self, e: sp.Expr, order: str | None = None) -> tuple[sp.Expr, ...]:
         return _terms(e)
@@ -43,13 +44,8 @@ class _InOrder:
     def _handle_UnevaluatedExpr(self, e: sp.Expr) -> sp.Expr:
         return e  # SymPy rebuilds each expression in search of some; the derivation makes none
 
-
-class _NumPy(_InOrder, NumPyPrinter):
-    def __init__(self) -> None:
-        super().__init__({"fully_qualified_modules": False})
-
     def _print_Rational(self, e: sp.Rational) -> str:
-        return _decimal(e) or super()._print_Rational(e)
+        return _decimal(e) or str(super()._print_Rational(e))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
         if item.is_Symbol:  # most are, and stand alone
@@ -57,6 +53,11 @@ class _NumPy(_InOrder, NumPyPrinter):
         if item.is_Rational and item.is_positive and _decimal(item):
             return _decimal(item)
         return str(super().parenthesize(item, level, strict))
+
+
+class _NumPy(_Code, NumPyPrinter):
+    def __init__(self) -> None:
+        super().__init__({"fully_qualified_modules": False})
 
     def _print_Heaviside(self, e: sp.Expr) -> str:
         return f"np.heaviside({self._print(e.args[0])}, 1.0)"
@@ -74,22 +75,12 @@ class _NumPy(_InOrder, NumPyPrinter):
         return fqn.replace("numpy.", "np.")
 
 
-class _C(_InOrder, C99CodePrinter):
+class _C(_Code, C99CodePrinter):
     def _print_Pow(self, e: sp.Pow) -> str:
         if e.exp.is_Integer and 2 <= e.exp <= 6:
             base = self.parenthesize(e.base, sp.printing.precedence.PRECEDENCE["Mul"] + 1)
             return "(" + "*".join([base] * int(e.exp)) + ")"
         return str(super()._print_Pow(e))
-
-    def _print_Rational(self, e: sp.Rational) -> str:
-        return _decimal(e) or str(super()._print_Rational(e))
-
-    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        if item.is_Symbol:
-            return str(self._print(item))
-        if item.is_Rational and item.is_positive and _decimal(item):
-            return _decimal(item)
-        return str(super().parenthesize(item, level, strict))
 
     def _print_Integer(self, e: sp.Integer) -> str:
         return f"{int(e)}.0"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -273,10 +273,6 @@ class Fitted:
         if len(errors) == 1:
             return errors[0]
         return pooled(errors, [float(t.samples[group]) for t in tallies])
-
-    def released(self) -> Fitted:
-        """The same without the columns of its flights in memory."""
-        return replace(self, prepared=tuple(x.released() for x in self.prepared))
 
 
 def calibrated(

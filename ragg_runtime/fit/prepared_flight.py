@@ -50,8 +50,8 @@ class PreparedFlight:
     def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
         """What ``work`` makes of every segment, in order: one pass over the flight.
 
-        Segments that are not kept are only whitened if that is wanted, and those of a long flight never are: ``work`` must
-        not keep them either (``effort``: see ``passed``).
+        Segments of a long flight are never kept: ``work`` must not keep them either. What is not kept is only whitened if
+        that is wanted (``effort``: see ``passed``).
         """
         if self._kept:
             return map(work, self._kept)
