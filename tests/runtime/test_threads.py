@@ -1,0 +1,45 @@
+"""The same figures, to the byte, however many threads the work is divided among."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+
+import pytest
+
+from ragg_runtime.base.threads import VARIABLE
+from ragg_runtime.fit import passes, prepared_flight
+from ragg_runtime.flight import Flight
+from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.runtime.diagnosed import diagnosed
+
+Hidden = Mapping[str, Mapping[str, object]]
+
+
+def _as_json(s: Scenario, flight: Flight, threads: int, monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.setenv(VARIABLE, str(threads))
+    return json.dumps(diagnosed(s, flight).as_json())
+
+
+@pytest.mark.parametrize(
+    ("hidden", "rows", "known"),
+    [
+        pytest.param({"bias-step": {"dK0": [3e-8, 0, 0, 0], "t_step": 300.0}}, 30000, True, id="step"),
+        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 1700, True, id="segments"),
+        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 30000, False, id="unknown gradient"),
+    ],
+)
+def test_figures_do_not_know_how_many_threads_there_were(
+    hidden: Hidden, rows: int, known: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    s = scenario(61, duration=600.0)
+    flight = s.simulate(hidden).flight()
+    if not known:
+        channels = {n: x for n, x in flight.channels.items() if not n.startswith("Gamma")}
+        units = {n: x for n, x in flight.units.items() if not n.startswith("Gamma")}
+        flight = Flight(flight.time, channels, flight.outputs, units=units)
+    for module in (passes, prepared_flight):
+        monkeypatch.setattr(module, "ROWS", rows)
+    one, two = (_as_json(s, flight, threads, monkeypatch) for threads in (1, 2))
+    assert next(iter(hidden)) in json.loads(one)["found"]
+    assert one == two
