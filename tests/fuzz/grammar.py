@@ -112,12 +112,10 @@ def generated_model(data: bytes) -> Outcome:
         SAMPLES
     )  # off the poles that formulas have where sin(phi) or cos(phi) is 0
     inputs = 0.1 * draw.standard_normal((len(model.chain.INPUTS), SAMPLES))
+    beside = inputs * (1.0 + NUDGE * draw.standard_normal(inputs.shape))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of NumPy: 1/0 and the like are the user's formula
-        numpy = model.compiled("numpy").voltages(t, inputs, p)
-        nudged = model.compiled("numpy").voltages(
-            t, inputs * (1.0 + NUDGE * draw.standard_normal(inputs.shape)), p
-        )
+        numpy, nudged = (model.compiled("numpy").voltages(t, x, p) for x in (inputs, beside))
     assert numpy.shape == (4, SAMPLES)
     if shutil.which("cc"):
         c = model.compiled("c").voltages(t, inputs, p)

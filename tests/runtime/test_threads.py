@@ -33,11 +33,7 @@ def test_figures_do_not_know_how_many_threads_there_were(
     hidden: Hidden, rows: int, known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     s = scenario(61, duration=600.0)
-    flight = s.simulate(hidden).flight()
-    if not known:
-        channels = {n: x for n, x in flight.channels.items() if not n.startswith("Gamma")}
-        units = {n: x for n, x in flight.units.items() if not n.startswith("Gamma")}
-        flight = Flight(flight.time, channels, flight.outputs, units=units)
+    flight = s.simulate(hidden, record_gradient=known).flight()
     for module in (passes, prepared_flight):
         monkeypatch.setattr(module, "ROWS", rows)
     one, two = (_as_json(s, flight, threads, monkeypatch) for threads in (1, 2))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -234,13 +235,11 @@ def test_usual_units_are_what_pint_makes_of_them() -> None:
     quick, pint_alone = Units(9.8), Units(9.8)
     pint_alone._usual, pint_alone._of_g = {}, {}
     values = np.random.default_rng(3).normal(size=50) * 1e3
+    roundings = 4 if version("pint").startswith("0.24.") else 0  # that one multiplies in another order
     for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
-        for x in (
-            values,
-            0.3,
-        ):  # another version of Pint multiplies in another order: a product of a few roundings
+        for x in (values, 0.3):
             found, expected = (u.to_si(x, unit, si_unit) for u in (quick, pint_alone))
-            np.testing.assert_array_max_ulp(found, expected, maxulp=4)
+            np.testing.assert_array_max_ulp(found, expected, maxulp=roundings)
         assert quick.uses_g(unit) == pint_alone.uses_g(unit) == ((unit, si_unit) in FACTORS_OF_G), unit
         if unit == si_unit:
             assert quick.from_si(values, si_unit, unit) is pint_alone.from_si(values, si_unit, unit) is values
