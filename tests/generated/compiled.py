@@ -96,16 +96,21 @@ class Library:
         return found
 
 
-def committed(folder: Path) -> dict[str, Library]:
-    """The packaged models, by name, compiled by gcc with every warning an error."""
-    names = sorted(f.stem for f in SOURCES.glob("*.c"))
+NATIVE = ("-march=native",)
+
+
+def committed(
+    folder: Path, processor: Sequence[str] = NATIVE, names: Sequence[str] = ()
+) -> dict[str, Library]:
+    """The packaged models, all or some, by name, compiled by gcc with every warning an error."""
+    names = names or sorted(f.stem for f in SOURCES.glob("*.c"))
     file = folder / "packaged.so"
     compile_with(
         "gcc",
         [
             *STRICT,
             "-O3",  # vectors, and the scalar code for what they leave over
-            "-march=native",
+            *processor,
             "-ffp-contract=off",
             "-shared",
             "-fPIC",

@@ -3,6 +3,8 @@
 #include "folded.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 /* A product added to something, rounded once where the processor does that. */
 #ifdef FP_FAST_FMA
@@ -26,54 +28,47 @@ static inline void two_product(double x, double y, double *high, double *low) {
     *high = product;
 }
 
-/* The nearest whole number, without a call, for |x| < 2^51. */
-static inline double nearest(double x) { return (x + 6755399441055744.0) - 6755399441055744.0; }
-
-/* Cosine and sine of (high + low) + quarters pi/2, for quarters -2 ... 2, |high| up to about pi/4, |low| < 1e-6:
- * Taylor series up to the 17th and 16th power. */
-static inline void turn(double high, double low, double quarters, double *cosine, double *sine) {
-    const double x = high + low, rest = (high - x) + low;
-    const double z = x * x;
-    const double s_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 355687428096000.0), (-1.0 / 1307674368000.0)), (1.0 / 6227020800.0)), (-1.0 / 39916800.0)), (1.0 / 362880.0)), (-1.0 / 5040.0)), (1.0 / 120.0)), (-1.0 / 6.0));
-    const double c_tail = FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, (1.0 / 20922789888000.0), (-1.0 / 87178291200.0)), (1.0 / 479001600.0)), (-1.0 / 3628800.0)), (1.0 / 40320.0)), (-1.0 / 720.0)), (1.0 / 24.0));
-    const double half = 0.5 * z;
-    const double s = x + FMA(x * z, s_tail, FMA(-half, rest, rest));
-    const double c = (1.0 - half) + (((1.0 - (1.0 - half)) - half) + FMA(z * z, c_tail, -x * rest));
-    const double q = fabs(quarters);
-    const double even = 1.0 - q, odd = quarters * (2.0 - q); /* one of them is 0, the other 1 or -1 */
-    *cosine = FMA(even, c, -odd * s);
-    *sine = FMA(even, s, odd * c);
+/* Cosine and sine of turns + error whole turns, |turns| < 2^49 and |error| < 1e-6. The quarter turns are dropped exactly; of the
+ * rest, r, sine and cosine are 2 pi r + r S(r^2) and 1 + r^2 C(r^2), with polynomials S and C. */
+static inline void turn(double turns, double error, double *cosine, double *sine) {
+    const double shifted = FMA(4.0, turns, 6755399441055744.0); /* its last bits count quarter turns */
+    const double part = FMA(-0.25, shifted - 6755399441055744.0, turns);
+    const double r = part + error, rest = 6.283185307179586 * ((part - r) + error), z = r * r;
+    const double c = FMA(z, -19.739208802178716, 1.0), lost = FMA(z, -19.739208802178716, 1.0 - c);
+    const double x = FMA(6.283185307179586, r, FMA(rest, c, r * FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, 3.7808689593022957, -15.093804209987114), 42.058685020160894), -76.70585970427454), 81.60524927594804), -41.341702240399634), 2.251550647758967e-16)));
+    const double y = c + FMA(z * z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, -1.7012215232036352, 7.903305164742355), -26.426254911246687), 60.24464136502278), -85.45681720668455), 64.9393940226683), FMA(-6.283185307179586 * rest, r, lost));
+    uint64_t quarters, swap, keep;
+    memcpy(&quarters, &shifted, sizeof quarters);
+    const double s = quarters & 1 ? y : x, k = quarters & 1 ? x : y;
+    memcpy(&swap, &s, sizeof swap);
+    memcpy(&keep, &k, sizeof keep);
+    swap ^= (quarters & 2) << 62; /* the sign */
+    keep ^= ((quarters + 1) & 2) << 62;
+    memcpy(sine, &swap, sizeof *sine);
+    memcpy(cosine, &keep, sizeof *cosine);
 }
 
-/* Cosine and sine of the disc angle at n <= BLOCK instants. Whole turns are dropped exactly, whatever the time. */
-static void disc(size_t n, const double *restrict t, double spin_frequency, double *restrict cosine,
-                 double *restrict sine) {
+/* Cosine and sine of the disc angle at n instants, whatever the time. */
+static inline void disc(size_t n, const double *restrict t, double spin_frequency, double *restrict cosine,
+                        double *restrict sine) {
     for (size_t i = 0; i < n; ++i) {
-        double turns, error, high, low;
+        double turns, error;
         two_product(spin_frequency, t[i], &turns, &error);
-        const double part = turns - nearest(turns); /* exact, as is what follows */
-        const double quarters = nearest(4.0 * part);
-        const double rest = part - 0.25 * quarters;
-        two_product(6.283185307179586, rest, &high, &low);
-        turn(high, FMA(6.283185307179586, error, FMA(2.4492935982947064e-16, rest, low)), quarters, cosine + i, sine + i);
+        turn(turns, error, cosine + i, sine + i);
     }
 }
 
 /* The same of an encoder's angle, rad. */
-static void encoder(size_t n, const double *restrict angle, double *restrict cosine, double *restrict sine) {
+static inline void encoder(size_t n, const double *restrict angle, double *restrict cosine, double *restrict sine) {
     for (size_t i = 0; i < n; ++i) {
-        const double quarters = nearest(0.6366197723675814 * angle[i]);
-        double high, low;
-        two_product(quarters, 1.5707963267948966, &high, &low);
-        const double difference = angle[i] - high;
-        const double rest = difference - low;
-        const double further = ((difference - rest) - low) - 6.123233995736766e-17 * quarters;
-        turn(rest, further, quarters - 4.0 * nearest(0.25 * quarters), cosine + i, sine + i);
+        double turns, error;
+        two_product(0.15915494309189535, angle[i], &turns, &error);
+        turn(turns, FMA(-9.839338337591243e-18, angle[i], error), cosine + i, sine + i);
     }
 }
 
-/* At n <= BLOCK samples from at on; returns n. */
-static size_t turning(size_t at, size_t end, const double *t, double spin_frequency, const double *angle,
+/* At n <= BLOCK samples from at on, or as many as there are; returns n. */
+static inline size_t turning(size_t at, size_t end, const double *t, double spin_frequency, const double *angle,
                       double *cosine, double *sine) {
     const size_t n = end - at < BLOCK ? end - at : BLOCK;
     if (angle) {
@@ -196,8 +191,8 @@ static void fold(const double *p, double c[FOLDED]) {
 }
 
 /* G_out of n samples from at on, by the cosine and sine of the disc angle. */
-static void block(size_t n, const double *const *in, size_t at, const double *restrict cosine,
-                  const double *restrict sine, const double c[FOLDED], double *restrict G) {
+static inline void block(size_t n, const double *const *in, size_t at, const double *restrict cosine,
+                         const double *restrict sine, const double c[FOLDED], double *restrict G) {
     const double *restrict in_a_x = in[0] + at;
     const double *restrict in_a_y = in[1] + at;
     const double *restrict in_a_z = in[2] + at;
@@ -271,14 +266,25 @@ static void block(size_t n, const double *const *in, size_t at, const double *re
     }
 }
 
+enum { PIECE = 16 }; /* few: the arithmetic of the angle and the reading of the channels go on at once */
+
+/* G_out of n <= PIECE samples from at on. */
+static inline void piece(size_t n, size_t at, const double *t, const double *const *in, double spin_frequency,
+                         const double *angle, const double c[FOLDED], double *G) {
+    double cosine[PIECE], sine[PIECE];
+    turning(at, at + n, t, spin_frequency, angle, cosine, sine);
+    block(n, in, at, cosine, sine, c, G + at);
+}
+
 void ragg_folded_output(size_t n, const double *t, const double *const *in, const double *p, const double *angle,
                         double *G) {
-    double c[FOLDED], cosine[BLOCK], sine[BLOCK];
+    double c[FOLDED];
+    size_t at = 0;
     fold(p, c);
-    for (size_t at = 0, size; at < n; at += size) {
-        size = turning(at, n, t, p[1], angle, cosine, sine);
-        block(size, in, at, cosine, sine, c, G + at);
+    for (; at + PIECE <= n; at += PIECE) {
+        piece(PIECE, at, t, in, p[1], angle, c, G);
     }
+    piece(n - at, at, t, in, p[1], angle, c, G);
 }
 
 void ragg_folded_changes(size_t n, const double *t, const double *const *in, size_t count, const double *p,
