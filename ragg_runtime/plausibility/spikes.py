@@ -44,6 +44,9 @@ PART = 1 << 18
 CACHE = 1 << 14
 """Samples that stay in the processor's cache while they are differenced."""
 
+SPARSE = 64
+"""Every so many samples are asked for a first guess at the median of all."""
+
 MOST = 0.05
 """Largest fraction of the samples that can be spikes; more of them are no glitches but the signal."""
 
@@ -188,12 +191,19 @@ def _smooth(x: Array) -> bool:
 
 
 def _off(size: Array) -> NDArray[np.intp]:
-    """Where distances from the prediction are far beyond the usual ones, everywhere and nearby."""
-    limit = GLITCH / MEDIAN_OF_NORMAL
-    if 2 * np.count_nonzero(limit * size >= np.max(size)) > len(size):
-        return np.empty(0, dtype=np.intp)  # the median is so large that none is, and need not be sought
-    at = np.flatnonzero(size > limit * np.median(size))
-    return at[size[at] > limit * _usual(size, at)]
+    """Where distances from the prediction are far beyond the usual ones, everywhere and nearby.
+
+    The median of all is not sought where counting tells on which side of it they are.
+    """
+    limit, n = GLITCH / MEDIAN_OF_NORMAL, len(size)
+    if 2 * np.count_nonzero(limit * size >= np.max(size)) > n:
+        return np.empty(0, dtype=np.intp)  # the median is so large that none is
+    low = float(np.median(size[::SPARSE])) / 2
+    at = np.flatnonzero(size > limit * (low if 2 * np.count_nonzero(size >= low) > n else 0.0))
+    at = at[size[at] > limit * _usual(size, at)]
+    if len(at) and 2 * np.count_nonzero(limit * size >= np.min(size[at])) >= n:
+        at = at[size[at] > limit * np.median(size)]
+    return at
 
 
 def _usual(x: Array, at: NDArray[np.intp]) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ragg_runtime.plausibility.spikes import glitches, spikes
+from ragg_runtime.plausibility.spikes import GLITCH, MEDIAN_OF_NORMAL, _off, _usual, glitches, spikes
 
 N = 9600
 RNG = np.random.default_rng(3)
@@ -77,3 +77,22 @@ def test_a_long_record_is_looked_at_in_parts() -> None:
     whole, parts = glitches(smooth, ALL), glitches(smooth, ALL, part=1000)
     assert np.array_equal(whole[0], parts[0])
     assert parts[1] == pytest.approx(whole[1], abs=1e-9)
+
+
+@pytest.mark.parametrize("n", [41, 64, 65, 300, 5000])
+def test_what_is_far_off_is_told_as_by_the_median_itself(n: int) -> None:
+    """Counting spares the median of a long record; ties, zeros and heavy tails make no difference."""
+    draw, found = np.random.default_rng(n), 0
+    for power in (0.5, 1.0, 3.0, 8.0):
+        for kind in range(6):
+            size = np.abs(draw.standard_normal(n)) ** power
+            size[draw.integers(n, size=1 + n // 100)] *= 10 ** draw.uniform(0, 5)
+            if kind in (1, 4):
+                size[draw.integers(n, size=n // 2)] = 0.0
+            size = np.round(size, 1) if kind > 2 else size
+            limit = GLITCH / MEDIAN_OF_NORMAL
+            at = np.flatnonzero(size > limit * np.median(size))
+            expected = at[size[at] > limit * _usual(size, at)]
+            assert _off(size).tolist() == expected.tolist()
+            found += len(expected)
+    assert found
