@@ -101,7 +101,9 @@ def instructions() -> int:
     from ragg_runtime.model.model import packaged
 
     text = packaged().sources["folded.c"]
-    loops = [text[text.index(f"static inline void {name}(") :].split("\n}\n")[0] for name in ("disc", "block")]
+    loops = [
+        text[text.index(f"static inline void {name}(") :].split("\n}\n")[0] for name in ("disc", "block")
+    ]
     turn = text[text.index("static inline void turn(") :].split("    uint64_t")[0]  # the rest moves bits
     code = "".join(x.split("for (", 1)[1].split("{", 1)[1] for x in loops) + turn.split("{", 1)[1]
     code = re.sub(r"/\*.*?\*/", "", code, flags=re.DOTALL).replace("const double *", "")
