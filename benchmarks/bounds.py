@@ -104,12 +104,13 @@ def instructions() -> int:
     loops = [
         text[text.index(f"static inline void {name}(") :].split("\n}\n")[0] for name in ("disc", "block")
     ]
-    turn = text[text.index("static inline void turn(") :].split("    uint64_t")[0]  # the rest moves bits
+    turn = text.partition("static inline void turn(")[2]
+    turn = turn.partition("uint64_t")[0]  # the rest moves bits
     code = "".join(x.split("for (", 1)[1].split("{", 1)[1] for x in loops) + turn.split("{", 1)[1]
     code = re.sub(r"/\*.*?\*/", "", code, flags=re.DOTALL).replace("const double *", "")
     code = re.sub(r"two_product\([^;]*\);", "a * b; FMA(a);", code)  # one product and its error
     fused = code.count("FMA(")
-    plain = len(re.findall(r"(?<=[\w)\]]) ?[*+-] ?(?=[\w(])", re.sub(r"\(-?1\.0 / \d+\.0\)", "c", code)))
+    plain = len(re.findall(r"(?<=[\w)\]]) ?[*+-] ?(?=[\w(])", code))
     return fused + plain
 
 

@@ -28,6 +28,15 @@ static inline void two_product(double x, double y, double *high, double *low) {
     *high = product;
 }
 
+/* x, or -x in the third and fourth of four quarters. */
+static inline double with_sign(double x, uint64_t quarters) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    bits ^= (quarters & 2) << 62;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 /* Cosine and sine of turns + error whole turns, |turns| < 2^49 and |error| < 1e-6. The quarter turns are dropped exactly; of the
  * rest, r, sine and cosine are 2 pi r + r S(r^2) and 1 + r^2 C(r^2), with polynomials S and C. */
 static inline void turn(double turns, double error, double *cosine, double *sine) {
@@ -35,17 +44,12 @@ static inline void turn(double turns, double error, double *cosine, double *sine
     const double part = FMA(-0.25, shifted - 6755399441055744.0, turns);
     const double r = part + error, rest = 6.283185307179586 * ((part - r) + error), z = r * r;
     const double c = FMA(z, -19.739208802178716, 1.0), lost = FMA(z, -19.739208802178716, 1.0 - c);
-    const double x = FMA(6.283185307179586, r, FMA(rest, c, r * FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, 3.7808689593022957, -15.093804209987114), 42.058685020160894), -76.70585970427454), 81.60524927594804), -41.341702240399634), 2.251550647758967e-16)));
-    const double y = c + FMA(z * z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, -1.7012215232036352, 7.903305164742355), -26.426254911246687), 60.24464136502278), -85.45681720668455), 64.9393940226683), FMA(-6.283185307179586 * rest, r, lost));
-    uint64_t quarters, swap, keep;
+    const double sin_r = FMA(6.283185307179586, r, FMA(rest, c, r * FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, 3.7808689593022957, -15.093804209987114), 42.058685020160894), -76.70585970427454), 81.60524927594804), -41.341702240399634), 2.251550647758967e-16)));
+    const double cos_r = c + FMA(z * z, FMA(z, FMA(z, FMA(z, FMA(z, FMA(z, -1.7012215232036352, 7.903305164742355), -26.426254911246687), 60.24464136502278), -85.45681720668455), 64.9393940226683), FMA(-6.283185307179586 * rest, r, lost));
+    uint64_t quarters;
     memcpy(&quarters, &shifted, sizeof quarters);
-    const double s = quarters & 1 ? y : x, k = quarters & 1 ? x : y;
-    memcpy(&swap, &s, sizeof swap);
-    memcpy(&keep, &k, sizeof keep);
-    swap ^= (quarters & 2) << 62; /* the sign */
-    keep ^= ((quarters + 1) & 2) << 62;
-    memcpy(sine, &swap, sizeof *sine);
-    memcpy(cosine, &keep, sizeof *cosine);
+    *sine = with_sign(quarters & 1 ? cos_r : sin_r, quarters);
+    *cosine = with_sign(quarters & 1 ? sin_r : cos_r, quarters + 1);
 }
 
 /* Cosine and sine of the disc angle at n instants, whatever the time. */
@@ -69,7 +73,7 @@ static inline void encoder(size_t n, const double *restrict angle, double *restr
 
 /* At n <= BLOCK samples from at on, or as many as there are; returns n. */
 static inline size_t turning(size_t at, size_t end, const double *t, double spin_frequency, const double *angle,
-                      double *cosine, double *sine) {
+                             double *cosine, double *sine) {
     const size_t n = end - at < BLOCK ? end - at : BLOCK;
     if (angle) {
         encoder(n, angle + at, cosine, sine);

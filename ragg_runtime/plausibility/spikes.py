@@ -198,8 +198,9 @@ def _off(size: Array) -> NDArray[np.intp]:
     limit, n = GLITCH / MEDIAN_OF_NORMAL, len(size)
     if 2 * np.count_nonzero(limit * size >= np.max(size)) > n:
         return np.empty(0, dtype=np.intp)  # the median is so large that none is
-    low = float(np.median(size[::SPARSE])) / 2
-    at = np.flatnonzero(size > limit * (low if 2 * np.count_nonzero(size >= low) > n else 0.0))
+    low = np.median(size[::SPARSE]) / 2  # not above the median of all, or that itself
+    low = low if 2 * np.count_nonzero(size >= low) > n else np.median(size)
+    at = np.flatnonzero(size > limit * low)
     at = at[size[at] > limit * _usual(size, at)]
     if len(at) and 2 * np.count_nonzero(limit * size >= np.min(size[at])) >= n:
         at = at[size[at] > limit * np.median(size)]

@@ -17,6 +17,8 @@ PIECE = 16
 of the channels overlap, and two vectors at least."""
 
 DIGITS = 40
+"""Of what is rounded to a float64 at the end."""
+
 TERMS = 7
 """Terms of each polynomial: it is then within 3e-18 of sine and cosine, an eightieth of the last bit of one."""
 
