@@ -49,6 +49,7 @@ from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
+from ragg_runtime.fit.thinning import thinned
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import remainder as remainder_
@@ -78,7 +79,7 @@ def diagnose(
     limits
         Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
-    observations = observations_of(flights, instrument)
+    observations = thinned(model, instrument, observations_of(flights, instrument))
     f = fit(model, instrument, observations)
     return diagnose_fitted(f, flights, extend, limits)
 
@@ -322,10 +323,11 @@ def _without_terms(rem: Remainder) -> Remainder:
 def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
     """Effects of the recorder, recognised in the columns in which each is looked for: the recorded outputs, or those it names."""
     found = set()
-    first = (w for w in f.prepared if w.observation.place == f.prepared[0].observation.place)
-    for x, w in zip(flights, first, strict=True):
+    place = f.prepared[0].observation.place
+    first = [(w, b) for w, b in zip(f.prepared, f.beyond, strict=True) if w.observation.place == place]
+    for x, (w, fast) in zip(flights, first, strict=True):
         columns = {**x.channels, **x.outputs}
-        noise = float(np.sqrt(np.mean([m.rms**2 for m in w.noise.models])))
+        noise = float(np.sqrt(np.mean([m.rms**2 for m in w.noise.models]) + fast))
         outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
         for effect, r in f.model.recognisers.items():
             looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]

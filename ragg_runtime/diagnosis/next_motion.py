@@ -178,7 +178,8 @@ class Pairs:
         channels = {name: np.full(n, mean) for name, mean in self._calm(n).items()}
         channels |= moved(channels, motion, time)
         r = replace(o.record, time=time, wide=channels, valid=np.ones(n, dtype=np.bool_), halo=(0, 0))
-        made = replace(o, record=r, series=(np.zeros(n),) * len(o.series), name="motion", memo=[])
+        series = (np.zeros(n),) * len(o.series)
+        made = replace(o, record=r, series=series, name="motion", thin=None, memo=[])
         X = linearised(at, made)[:-1]
         there = [*range(self.f.n_base), *(self.f.n_base + k for k in at.only or ())]
         signals = np.tensordot(np.array([v[there] for v in self.signals.values()]), X, 1)

@@ -9,8 +9,8 @@ There it is the sheet that tells, if it is sure enough of these parameters; wher
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,13 +59,13 @@ class _Mistake:
     rates: bool = False
 
     def undone(self, o: Observation, g0: float) -> Observation:
-        wide: dict[str, Array] = dict(o.record.wide)
-        if self.rates:
-            names = (*ANGULAR_RATE[:2], *ANGULAR_ACCELERATION[:2])
-            wide |= {n: -wide[n] for n in names if n in wide}
-        else:
-            wide["a_z"] = self.sign * wide["a_z"] + self.gravity * g0
-        return replace(o, record=replace(o.record, wide=wide), memo=[])
+        def righted(wide: Mapping[str, Array]) -> Mapping[str, Array]:
+            if self.rates:
+                names = (*ANGULAR_RATE[:2], *ANGULAR_ACCELERATION[:2])
+                return {**wide, **{n: -wide[n] for n in names if n in wide}}
+            return {**wide, "a_z": self.sign * wide["a_z"] + self.gravity * g0}
+
+        return o.with_motion(righted)
 
 
 _REVERSED = _Mistake(words="a_z has the wrong sign", remedy="multiply a_z by -1", sign=-1.0)

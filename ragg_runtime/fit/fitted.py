@@ -24,6 +24,7 @@ from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
 from ragg_runtime.fit.switching import certain
+from ragg_runtime.fit.thinning import beyond
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
@@ -51,7 +52,7 @@ class Scored:
     whole, held_out
         The error object over everything, and over the blocks of time that a held-out fit does not see.
     mean_square
-        Of each flight, V^2.
+        Of each flight, V^2, within the band that is fitted (``fit.thinning``).
     blocks
         (flights, BLOCKS): rms in each block of time, V; NaN where it has no valid sample.
     """
@@ -162,6 +163,11 @@ class Fitted:
         return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
     @cached_property
+    def beyond(self) -> tuple[float, ...]:
+        """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
+        return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)
+
+    @cached_property
     def _fitted_part(self) -> Array:
         return fold([t[b] for t in self.triangles for b in FITTED_BLOCKS])
 
@@ -226,11 +232,8 @@ class Fitted:
 
     def residuals_of(self, v: Array) -> list[Array]:
         """The same with the coefficients of all columns, (size,)."""
-        found = []
-        for x in self.prepared:
-            lean, w = x.for_residuals(v[None])
-            found.append(np.concatenate([*lean.each(partial(_left, w), whitened=False)]))
-        return found
+        flights = [x.for_residuals(v[None]) for x in self.prepared]
+        return [np.concatenate([*lean.each(partial(_left, w), whitened=False)]) for lean, w in flights]
 
     def score(
         self, vectors: Sequence[Array], further: Callable[[Piece], Array] | None = None, count: int = 0
@@ -244,7 +247,7 @@ class Fitted:
         tallies, blocks = [], np.full((len(self.prepared), BLOCKS, k), np.nan)
         for n, x in enumerate(self.prepared):
             r = x.observation.record
-            tally = Tally(k, 2, r.rate, turning=r.turning)
+            tally = Tally(k, 2, r.rate, turning=r.turning, beyond=self.beyond[n])
             squares, samples = np.zeros((BLOCKS, k)), np.zeros(BLOCKS)
             lean, W = x.for_residuals(V)
 
@@ -257,7 +260,7 @@ class Fitted:
                 tally.join(part.tally)
             tallies.append(tally)
             some = samples > 0
-            blocks[n, some] = np.sqrt(squares[some] / samples[some, None])
+            blocks[n, some] = np.sqrt(squares[some] / samples[some, None] + self.beyond[n])
         return [
             Scored(
                 self._pooled(tallies, j, 0),
@@ -391,6 +394,6 @@ def estimated(x: PreparedFlight) -> float:
 def noise_floor(f: Fitted) -> float:
     """rms of the noise of G_out before demodulation, Eo: the estimated one, and no less than the digits of the file make."""
     variances = []
-    for x, k_ggi, digits in zip(f.prepared, f.scales, f.rounding, strict=True):
-        variances.append(max(estimated(x), digits.rms**2) / (k_ggi / f.k_ggi) ** 2)
+    for x, k_ggi, digits, fast in zip(f.prepared, f.scales, f.rounding, f.beyond, strict=True):
+        variances.append((max(estimated(x), digits.rms**2) + fast) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.observation import Observation, Thin, bridged
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.lateness import about
@@ -64,6 +65,12 @@ class Point:
         chain, signatures = self.model.chain, self.model.signatures
         return _Rows.of(chain, self.base, 0), _Rows.of(signatures, self.candidates, len(self.base))
 
+
+PART = 4096
+"""Samples of a thinned record that are made of the whole one at a time."""
+
+REMEMBERED = 2
+"""Points about which the residual of a thinned record is remembered: the one at which a fit ended, and where another one is."""
 
 CACHED = 4096
 """Samples at which a generated module is evaluated at a time: enough for what a call costs besides, few enough for the cache."""
@@ -186,18 +193,68 @@ def linearised(at: Point, o: Observation) -> Array:
     def evaluated(some: slice) -> None:
         for x in modules:
             x.put(columns, o, some)
-        chain.predict(columns[-1], o, some)
+        if o.thin is None:
+            chain.predict(columns[-1], o, some)
 
     for _ in mapped(evaluated, stretches(len(r.time), CACHED)):
         pass
     if o.recorded.demodulated:
         for k in range(len(columns)):
             columns[k] = o.recorded.through(columns[k], r)
+    if o.thin is None:
+        np.subtract(o.data, columns[-1], out=columns[-1])
+    else:
+        _left_of_the_whole(at, o.thin, columns[-1])
     for k, c in enumerate((*base, *candidates)):
         instant = at.instants.get(c.effect or "")
         if instant is not None:
             columns[k, :, r.time < instant] = 0.0
-    np.subtract(o.data, columns[-1], out=columns[-1])
     if not r.valid.all():
         columns[:, :, ~r.valid] = 0.0
     return columns
+
+
+def _left_of_the_whole(at: Point, thin: Thin, residual: Array) -> None:
+    """Put the residual (m, N) of a thinned record in place: that of the whole one, thinned.
+
+    What a thinned motion yields is the thinned yield of the motion only as far as it holds nothing fast: that is
+    enough for derivatives, not for the outputs, which are a million times the noise.
+    """
+    known = _known(at, thin)
+
+    def put(some: slice) -> None:
+        part = thin.part(some)
+        rows = (part.rows.start, part.rows.stop)
+        if rows not in known:
+            known[rows] = part.kept(left(at, part.source()))
+        residual[:, some] = known[rows]
+
+    for _ in mapped(put, stretches(residual.shape[1], PART)):
+        pass
+
+
+def _known(at: Point, thin: Thin) -> dict[tuple[int, int], Array]:
+    """What is known of the residual about a point: every pass over a long flight asks for the same again."""
+    point = (at.model.chain, at.p.tobytes())
+    with _ONE_THREAD:
+        if point not in thin.memo:
+            while len(thin.memo) >= REMEMBERED:
+                del thin.memo[next(iter(thin.memo))]
+            thin.memo[point] = {}
+        return thin.memo[point]
+
+
+_ONE_THREAD = Lock()
+"""Segments are worked on in several."""
+
+
+def left(at: Point, o: Observation) -> Array:
+    """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
+    r, p = about(at.model, o.record, at.p)
+    evaluator, inputs = at.model.evaluators["chain"], r.inputs(at.model.chain)
+    chain = _Module(evaluator=evaluator, inputs=inputs, p=p, rows=at.rows[0])
+    found = np.empty((len(o.series), len(r.time)))
+    for some in stretches(len(r.time), CACHED):
+        chain.predict(found, o, some)
+    np.subtract(o.data, found, out=found)
+    return np.stack([bridged(x, r.valid) for x in found])

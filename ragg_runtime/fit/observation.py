@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
+from ragg_runtime.signals.fir import convolved
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -97,7 +98,7 @@ class Observation:
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
     ``place`` counts them; ``flight`` counts the flights that are looked at together. ``gains`` (m,) says how large the sheet's
     scale factor of each series is over their mean. ``digits`` says how the columns were
-    written, ``rounded`` what those of the output make in G_out, V^2.
+    written, ``rounded`` what those of the output make in G_out, V^2. ``thin``: of what record this is a thinned one.
     """
 
     recorded: Recorded
@@ -110,6 +111,7 @@ class Observation:
     gains: Array = field(default_factory=lambda: np.ones(1))
     digits: Digits = field(default_factory=Digits)
     rounded: Mapping[str, float] = field(default_factory=dict)
+    thin: Thin | None = None
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some noise."""
 
@@ -133,6 +135,15 @@ class Observation:
         """(m,): how much of a common term of G_out each series sees (for voltages each is searched as one)."""
         return np.asarray(self.signs / len(self.signs))
 
+    def with_motion(self, change: Callable[[Mapping[str, Array]], Mapping[str, Array]]) -> Observation:
+        """The same along a motion that is recorded otherwise, and so is that of the whole of which it is a thinned one."""
+        record = replace(self.record, wide=change(self.record.wide))
+        thin = self.thin
+        if thin is not None:
+            rows = slice(0, len(self.record.time))
+            thin = replace(thin, whole=thin.source().with_motion(change), rows=rows, memo={})
+        return replace(self, record=record, thin=thin, memo=[])
+
     def part(self, rows: slice) -> Observation:
         """Some of the samples."""
         if (rows.start, rows.stop) == (0, len(self.record.time)):
@@ -149,7 +160,63 @@ class Observation:
             place=self.place,
             flight=self.flight,
             gains=self.gains,
+            thin=None if self.thin is None else self.thin.part(rows),
         )
+
+
+@dataclass(frozen=True)
+class Thin:
+    """Where the samples of a thinned observation come from: every so many of the ``whole``, through a low-pass.
+
+    Attributes
+    ----------
+    whole
+        The observation as it was recorded.
+    every
+        Samples of it from one that is kept to the next.
+    taps
+        (2 h + 1,): the low-pass, about its middle.
+    rows
+        Which of the samples that are kept these are.
+    """
+
+    whole: Observation
+    every: int
+    taps: Array
+    rows: slice
+    memo: dict[Any, dict[tuple[int, int], Array]] = field(default_factory=dict, compare=False, repr=False)
+    """What the whole leaves about the last few points (:mod:`ragg_runtime.fit.linearise`): point -> rows -> residuals."""
+
+    @property
+    def share(self) -> float:
+        """Of white noise's variance, that is left."""
+        return float(self.taps @ self.taps)
+
+    def part(self, rows: slice) -> Thin:
+        """Some of the samples."""
+        first = self.rows.start
+        return replace(self, rows=slice(first + rows.start, first + rows.stop))
+
+    @property
+    def span(self) -> slice:
+        """Which samples of the whole these are made of."""
+        return slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
+
+    def source(self) -> Observation:
+        """The part of the whole that these are made of."""
+        return self.whole.part(self.span)
+
+    def kept(self, x: Array) -> Array:
+        """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
+        return np.ascontiguousarray(convolved(x, self.taps)[..., :: self.every])
+
+
+def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
+    """A series (N,), straight from neighbour to neighbour where a sample is not valid."""
+    if valid.all() or not valid.any():
+        return x
+    at = np.arange(len(x))
+    return np.where(valid, x, np.interp(at, at[valid], x[valid]))
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:

@@ -65,7 +65,7 @@ def rounding(model: Model, p: Array, o: Observation) -> Rounding:
         off = how.steps(r.wide[name]) * (rng.random(len(r.wide[name])) - 0.5)
         e = output(model.chain, _moved(r, name, off, derived=o.digits.derived), p, o.output) - plain
         e = o.recorded.through(e, r)
-        squares[name] = float(np.mean(e[r.valid] ** 2))
+        squares[name] = float(np.mean(e[r.valid] ** 2)) * (1.0 if o.thin is None else o.thin.share)
     return Rounding(squares)
 
 

@@ -161,10 +161,13 @@ class Tally:
 
     ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass has its whole
     support within the selection (:func:`supported`). A tally of one segment is made :meth:`of` it; tallies of successive
-    ones are joined.
+    ones are joined. ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`fit.thinning`).
     """
 
-    def __init__(self, k: int, groups: int, rate: float, *, turning: bool = True) -> None:
+    def __init__(
+        self, k: int, groups: int, rate: float, *, turning: bool = True, beyond: float = 0.0
+    ) -> None:
+        self._beyond = beyond
         self._turning = turning  # of a disc that stands still there is nothing to demodulate
         self._taps = low_pass(rate) if turning else np.ones(1)
         self.samples = np.zeros(groups)
@@ -214,7 +217,7 @@ class Tally:
     def error(self, series: int, k_ggi: float, group: int = 0) -> Error:
         """The error object of one series; ``k_ggi`` in V/Eo."""
         n, m = self.samples[group], self.demodulated[group]
-        rms = float(np.sqrt(self.squares[group, series] / n)) if n else float("nan")
+        rms = float(np.sqrt(self.squares[group, series] / n + self._beyond)) if n else float("nan")
         i = c = float("nan")
         if m > 1:
             mean, square = self._sums[:, group, :, series] / m
