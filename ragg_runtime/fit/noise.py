@@ -17,7 +17,7 @@ from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.segments import spread
+from ragg_runtime.fit.segments import THINNER, spread
 from ragg_runtime.fit.slow_noise import averages
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
@@ -167,7 +167,8 @@ def _of_level(
             for b in own
         ]
         models.append(model)
-        filters.append(model.whitening_filter(int(min(TAPS, len(o.record.time)))))
+        taps = TAPS if o.thin is None else TAPS // THINNER
+        filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
     return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
 
 

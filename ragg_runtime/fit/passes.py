@@ -16,7 +16,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output
-from ragg_runtime.fit.segments import ROWS, Segment, segments, spread
+from ragg_runtime.fit.segments import ROWS, THINNER, Segment, segments, spread
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
@@ -95,7 +95,9 @@ class Piece:
 def flight_segments(o: Observation) -> list[Segment]:
     """The segments of a flight. Demodulated channels are not divided: their columns pass a two-sided filter."""
     n = len(o.record.time)
-    return segments(n, max(n, ROWS) if o.recorded.demodulated else ROWS)
+    if o.recorded.demodulated:
+        return segments(n, max(n, ROWS))
+    return segments(n, ROWS // THINNER if o.thin is not None and n > ROWS else ROWS)
 
 
 def longer(o: Observation) -> bool:

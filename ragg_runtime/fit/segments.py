@@ -20,6 +20,10 @@ BLOCKS = 24
 ROWS = 30000
 """Most samples of a segment: a few hundred columns of them in float64 take less than 100 MB."""
 
+THINNER = 4
+"""Times that segments and filters of a thinned flight have fewer samples: its samples are as much further apart, and its columns
+take as much less memory."""
+
 
 @dataclass(frozen=True)
 class Segment:

@@ -49,8 +49,8 @@ ALIKE, NEAR = 1e-3, 0.2
 model's parameters, and of candidates, of which one that is found is derived into the model (a step of the output itself, which
 goes on beyond any band, is so known to a twentieth of its power)."""
 
-EXCERPTS = 3
-"""Segments on which the columns are compared."""
+EXCERPTS, EXCERPT = 3, 12000
+"""Segments on whose first samples the columns are compared, and most of these."""
 
 SHORT = 8
 """Lengths of the low-pass that a segment must have at least."""
@@ -82,7 +82,8 @@ def _most(at: Point, o: Observation) -> int:
     """One in how many of its samples is enough."""
     if o.recorded.demodulated or not longer(o):
         return 1
-    pieces = [o.part(s.rows) for s in spread(heard(o), EXCERPTS)]
+    some = spread(heard(o), EXCERPTS)
+    pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
     whole = [linearised(at, _everywhere(x))[:-1] for x in pieces]
     for every in EVERY:
         thin = [_thin(x, every) for x in pieces]
@@ -90,7 +91,7 @@ def _most(at: Point, o: Observation) -> int:
         if o.record.rate < every * LEAST_RATE or short or not _alike(at, thin, whole):
             continue
         lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, thin[0]))
-        return 1 if lost > LOST or any(_has_line(at, x) for x in thin) else every
+        return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
     return 1
 
 
