@@ -167,7 +167,8 @@ class Compensated:
         sought = self._parts(most=max(4096, 2 * len(self.demodulator.taps)))
         U, rest = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
         self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches), rest=rest)
-        self.before, self.after = spectrum.Density(rate), spectrum.Density(rate)
+        thin = rate / s.every
+        self.before, self.after = spectrum.Density(thin), spectrum.Density(thin)
         self.count = 0
         self.bits = dict.fromkeys(Quality, 0)
         self.squares, self.good = np.zeros(2), 0
@@ -192,7 +193,7 @@ class Compensated:
 
     def _count(self, x: Series) -> None:
         self.before.add(x.raw)
-        self.after.add(x.gradient)
+        self.after.add(x.gradient[:: self.setting.every])
         self.count += len(x.quality)
         if x.quality.any():
             for q in Quality:

@@ -47,6 +47,10 @@ HEARD = 4
 """Most segments of a flight of which the noise is estimated. Half of what a fit listens to takes half of the time, which is most of
 what a million samples take, and tells the standard deviation of what passes the low-pass to 2 % at 100 Hz."""
 
+LISTENED = 80_000
+"""Most samples of these segments together: segments are of 15,000 to 30,000 by how long the flight is, and the estimate would take
+so much longer of one flight than of another."""
+
 SUSPECTS = 5
 """Parameters that are named, at most, where the calibration does not hold."""
 
@@ -142,7 +146,7 @@ def calibration(
     columns = base_columns(model, instrument)
     half = root(saved, model, instrument)
     at = Point(model, instrument, saved.p, with_candidates=True)
-    noise: list[Noise] = [estimate_noise(at, o, HEARD, slow=False) for o in observations]
+    noise: list[Noise] = [estimate_noise(at, o, HEARD, samples=LISTENED, slow=False) for o in observations]
     return Calibration(
         p=saved.p,
         columns=tuple(c for c, _ in columns),

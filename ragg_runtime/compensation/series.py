@@ -27,6 +27,7 @@ from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.native.changes import changes
 from ragg_runtime.model.record import GRADIENTS, Record
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
+from ragg_runtime.signals.means import between
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -107,6 +108,11 @@ class Setting:
     validity: dict[str, tuple[float, float]]
     rest: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def every(self) -> int:
+        """Samples in a second: the channels hold nothing above half a hertz."""
+        return max(1, int(self.demodulator.rate))
+
     def reach(self, holes: bool) -> tuple[int, int]:
         """Samples before and after a segment that its values depend on."""
         times = 2 + (BRIDGES if holes else 0)
@@ -121,8 +127,10 @@ class Series:
     ----------
     rows
         Which samples of the flight.
-    gradient, raw
-        (n,) inline + i cross, Eo, compensated and as it is without; NaN where there is none.
+    gradient
+        (n,) inline + i cross, Eo, compensated; NaN where there is none.
+    raw
+        (n / every,) as it is without that, at the first sample and every so many further (:attr:`Setting.every`).
     parameters
         (2, n): standard deviation of inline and cross by the parameters, Eo.
     std
@@ -158,9 +166,8 @@ class Segment:
         self.G = as_output(o, o.data)
         moved, rest = lateness.about(s.model, self.record, s.stretches[0].about)
         self.late = s.stretches[0].about - rest
-        self.x = np.array(moved.inputs(s.model.chain))
+        self.x = [None if n in GRADIENTS else moved.series(n) for n in s.model.chain.INPUTS]
         self.places = {name: k for k, name in enumerate(s.model.chain.INPUTS) if name in GRADIENTS}
-        self.x[list(self.places.values())] = 0.0
         phi = self.record.demodulation_angle
         self.sine, self.cosine = np.sin(2 * phi), np.cos(2 * phi)
         self.parts = within(s.stretches, self.first, self.last)
@@ -181,13 +188,22 @@ class Segment:
         """G_out (n,), V, of some samples by parameters p (size,), SI."""
         r, place = self.record, self.s.observation.place
         q = p - self.late
-        return self.s.evaluator.output(r.time[some], self.x[:, some], q, r.phi[some], 1, which=place)
+        return self.s.evaluator.output(r.time[some], self.inputs(some), q, r.phi[some], 1, which=place)
+
+    def inputs(self, some: slice) -> list[Array | None]:
+        """The model's inputs of some samples; ``None``: zero."""
+        return [None if x is None else x[some] for x in self.x]
+
+    def mixed(self, e: Array) -> Complex:
+        """inline + i cross (N,), Eo, of residuals (N,), V, before the low-pass."""
+        mixed = np.empty(len(e), dtype=np.complex128)
+        np.multiply(self.mixer[0], e, out=mixed.real)
+        np.multiply(self.mixer[1], e, out=mixed.imag)
+        return mixed
 
     def demodulated(self, e: Array) -> Complex:
         """inline + i cross (N,), Eo, of residuals (N,), V."""
-        mixed = np.empty(len(e), dtype=np.complex128)
-        mixed.real, mixed.imag = self.mixer * e
-        return self.s.demodulator.low_passed(mixed)
+        return self.s.demodulator.low_passed(self.mixed(e))
 
     def carried(self, g: Complex) -> Array:
         """What an ideal instrument makes of channels (N,), Eo: V."""
@@ -202,7 +218,7 @@ class Segment:
         for name, place in self.places.items():
             i, k = ("xyz".index(axis) for axis in name.removeprefix("Gamma_"))
             parts = [w * c for w, c in zip((inline[i, k], cross[i, k]), channels, strict=True) if w]
-            self.x[place] = sum(parts) if parts else 0.0
+            self.x[place] = sum(parts[1:], parts[0]) if parts else None
 
     def first_estimate(self) -> Complex:
         """The gradient as an ideal instrument would have seen it; holes are bridged."""
@@ -221,10 +237,14 @@ class Segment:
         return g
 
     def gradient(self) -> Complex:
-        """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input."""
+        """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input.
+
+        What is put right, a few eotvos, is filtered in single precision.
+        """
         g = self.first_estimate()
         self.put(g)
-        return np.asarray(g - self.demodulated(self.output() - self.bare - self.carried(g)))
+        off = self.mixed(self.output() - self.bare - self.carried(g)).astype(np.complex64)
+        return np.asarray(g - self.s.demodulator.low_passed(off))
 
     def directions(self) -> int:
         return len(self.parts[0][1].directions)
@@ -249,7 +269,7 @@ class Segment:
             found = changes(
                 self.s.evaluator,
                 r.time[own],
-                self.x[:, own],
+                self.inputs(own),
                 stretch.about - self.late,
                 STEP * stretch.directions,
                 r.phi[own],
@@ -273,15 +293,15 @@ class Segment:
         few, _ = self.fewer
         changes = self.by_parameters()
         total = np.stack([np.sum(changes.real**2, axis=0), np.sum(changes.imag**2, axis=0)])
-        at = np.arange(len(self.k))
-        centres = (np.arange(total.shape[1]) + 0.5) * few - 0.5
-        return np.stack([np.interp(at, centres, v) for v in total])
+        return between(total, few, len(self.k))
 
-    def raw(self) -> Complex:
-        """(N,) Eo: the channels without any compensation."""
+    def raw(self, every: int) -> Complex:
+        """(n,) Eo: the channels without any compensation, at the first of the segment's own samples and every so many further."""
         if self.s.recorded is not None:
-            return np.where(self.record.valid, self.s.recorded[self.first : self.last], 0.0)
-        return self.demodulated(np.where(self.record.valid, self.G, 0.0))
+            found = np.where(self.record.valid, self.s.recorded[self.first : self.last], 0.0)
+            return np.asarray(found[self.own][::every])
+        mixed = self.mixed(np.where(self.record.valid, self.G, 0.0))
+        return self.s.demodulator.thinly_passed(mixed, self.own, every)
 
     def quality(self) -> NDArray[np.int64]:
         """(N,): bits of the segment's samples."""
@@ -324,13 +344,13 @@ def series(s: Setting, rows: slice, *, holes: bool) -> Series:
     """Compensate one segment."""
     segment = Segment(s, rows, holes=holes)
     g = np.array(segment.gradient()[segment.own])
-    raw = np.array(segment.raw()[segment.own])
+    raw = segment.raw(s.every)
     variance = segment.variance()[:, segment.own] + np.array(s.rest)[:, None]
     bits = segment.quality()[segment.own]
     parameters, std = np.sqrt(variance), np.sqrt(variance + np.array(s.noise)[:, None] ** 2)
     none = (bits & NO_VALUE) != 0
     if none.any():
-        g[none] = raw[none] = complex(np.nan, np.nan)
+        g[none] = raw[none[:: s.every]] = complex(np.nan, np.nan)
         parameters[:, none] = std[:, none] = np.nan
     return Series(rows=rows, gradient=g, raw=raw, parameters=parameters, std=std, quality=bits)
 

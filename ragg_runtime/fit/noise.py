@@ -17,7 +17,7 @@ from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.observation import Observation, telling
 from ragg_runtime.fit.passes import Piece, flight_segments, passed
-from ragg_runtime.fit.segments import THINNER, spread
+from ragg_runtime.fit.segments import ROWS, THINNER, Segment, beginnings, spread
 from ragg_runtime.fit.slow_noise import averages
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
 from ragg_runtime.model.record import quantities_of
@@ -65,9 +65,17 @@ class _Part:
         return placed(self.outputs[m].rest, self.valid)
 
 
-def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS, *, slow: bool = True) -> Noise:
-    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments;
-    ``slow``: and of all of a flight that is longer than one.
+def estimate_noise(
+    at: Point,
+    o: Observation,
+    most: int = NOISE_SEGMENTS,
+    *,
+    samples: int = NOISE_SEGMENTS * ROWS,
+    slow: bool = True,
+) -> Noise:
+    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments,
+    and of each the beginning where together they have more than so many ``samples``; ``slow``: and of all of a flight that is
+    longer than one.
     """
     if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
@@ -77,13 +85,14 @@ def estimate_noise(at: Point, o: Observation, most: int = NOISE_SEGMENTS, *, slo
             expected=f"at least {SHORTEST}",
             remedy="give a longer or cleaner recording",
         )
-    parts = _parts(at, o, None, most)
+    chosen = _chosen(o, most, samples)
+    parts = _parts(at, o, None, chosen)
     if o.recorded.demodulated:
         return _of_channels(parts, o)
     rests = np.concatenate([np.stack([x.rest for x in p.outputs]) for p in parts], axis=1)
     apart = combinations.telling(rests, o.signs)
     if apart is not None:
-        parts = _parts(at, o, apart, most)
+        parts = _parts(at, o, apart, chosen)
     means = averages(at, o, _unwhitened(o, apart)) if slow else None
     noise = _of_level(parts, o, Level(), means)
     level = _level(parts, o, noise)
@@ -172,8 +181,16 @@ def _of_level(
     return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
 
 
-def _parts(at: Point, o: Observation, apart: Array | None, most: int) -> list[_Part]:
-    """What is left of segments that are spread over the flight, of the series as they are or in combinations."""
+def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
+    """The beginnings of at ``most`` so many segments, spread over the flight, with at most so many ``samples`` in all."""
+    found = spread(flight_segments(o), most)
+    if not o.recorded.demodulated:  # their columns pass a two-sided filter and are not divided
+        found = beginnings(found, samples)
+    return [s for s in found if np.sum(o.record.valid[s.rows]) >= SHORTEST]
+
+
+def _parts(at: Point, o: Observation, apart: Array | None, chosen: Sequence[Segment]) -> list[_Part]:
+    """What is left of some segments of the flight, of the series as they are or in combinations."""
     band = unknown_gradient.band(o)
     rate = None if o.recorded.demodulated else o.record.rate
     random = {e.id for e in at.model.candidates if e.kind == "random"}
@@ -195,8 +212,7 @@ def _parts(at: Point, o: Observation, apart: Array | None, most: int) -> list[_P
             },
         )
 
-    enough = [s for s in spread(flight_segments(o), most) if np.sum(o.record.valid[s.rows]) >= SHORTEST]
-    return list(passed(at, o, _unwhitened(o, apart), part, chosen=enough))
+    return list(passed(at, o, _unwhitened(o, apart), part, chosen=chosen))
 
 
 def _unwhitened(o: Observation, apart: Array | None) -> Noise:

@@ -59,6 +59,12 @@ def spread(found: Sequence[Segment], most: int) -> list[Segment]:
     return [found[k] for k in np.linspace(0, len(found) - 1, most).round().astype(int)]
 
 
+def beginnings(found: Sequence[Segment], samples: int) -> list[Segment]:
+    """As much of the beginnings of segments as makes at most so many samples together, without their blocks."""
+    each = samples // max(1, len(found))
+    return [Segment(slice(s.rows.start, min(s.rows.stop, s.rows.start + each)), ()) for s in found]
+
+
 def _parts(start: int, stop: int, most: int) -> Iterator[slice]:
     count = max(1, -(-(stop - start) // most))
     edges = np.linspace(start, stop, count + 1).astype(np.intp)

@@ -272,6 +272,8 @@ def _valid(columns: dict[str, Array], outputs: Container[str], grid: Grid, notes
     present[grid.index] = True
     valid = present.copy()
     for name, values in columns.items():
+        if not np.isnan(np.sum(values)):  # cheap, and true wherever something is missing
+            continue
         missing = np.isnan(values)
         if not np.any(missing & present):
             continue
@@ -295,6 +297,8 @@ def samples_of(count: int) -> str:
 
 
 def _filled(values: Array, name: str) -> Array:
+    if not np.isnan(np.sum(values)):
+        return values
     missing = np.isnan(values)
     if not missing.any():
         return values

@@ -85,9 +85,13 @@ class Collector:
 
     def add(self, time: Array, values: Array, most: int) -> None:
         """Some rows more; more than ``most`` values altogether are not kept."""
-        there = np.isfinite(values)
         self.rows += len(values)
-        self.count += int(np.sum(there))
+        if np.isfinite(np.sum(values)):  # cheap, and false wherever something is not finite
+            there: slice | NDArray[np.bool_] = slice(None)
+            self.count += len(values)
+        else:
+            there = np.isfinite(values)
+            self.count += int(np.sum(there))
         if self.count > most:
             self._time, self._values = None, []
         elif self._time is not None:

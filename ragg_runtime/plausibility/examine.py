@@ -12,17 +12,18 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.flight.spool import let_go, room_like
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
+from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.recorded import recorded
 from ragg_runtime.plausibility import checks
 from ragg_runtime.plausibility.clock import steadied
 from ragg_runtime.plausibility.filled_in import without_filling
 from ragg_runtime.plausibility.identify import LikelyMistake, derived_rates, likely_mistake
 from ragg_runtime.plausibility.quick_fit import explain
-from ragg_runtime.plausibility.spikes import glitches, note_of, spikes
+from ragg_runtime.plausibility.spikes import glitches, note_of, parts, spikes
 from ragg_runtime.plausibility.subsample import CHUNK, Picker, picker
 
 Array = NDArray[np.float64]
@@ -122,8 +123,7 @@ def _without_motion_spikes(flight: Flight) -> Flight:
     for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
         if name not in channels:
             continue
-        there = flight.valid & np.isfinite(channels[name])
-        mask, x = glitches(channels[name], there)
+        mask, x = glitches(channels[name], flight.valid)
         let_go(channels[name])
         if not mask.any():
             continue
@@ -148,27 +148,33 @@ def _output_spikes(model: Model, instrument: Instrument, p: Picker) -> tuple[Mas
     if p.recorded.demodulated:
         return valid, []  # a demodulator has smeared them
     fitted = explain(model, instrument, p.pick(p.rows())).p
-    eotvos = scale_factor(model, fitted, p.place)
-    n = len(p.flight)
-    names = p.columns
-    left = room_like(p.flight.time, (len(names), n))
-    evaluator = model.compiled("auto" if n >= MANY else "numpy")
     needed = {*model.chain.INPUTS, p.disc.angle_column}
     channels = {c: x for c, x in p.flight.channels.items() if c in needed}
-    p = dataclasses.replace(p, flight=dataclasses.replace(p.flight, channels=channels))
-    for start in range(0, n, CHUNK):
-        rows = p.pick(np.arange(start, min(n, start + CHUNK)))
-        x = rows.inputs(model.chain)
-        if p.recorded.separate:
-            model_says = evaluator.voltages(rows.time, x, fitted, rows.phi, 1, p.output.members)
-        else:
-            model_says = evaluator.output(rows.time, x, fitted, rows.phi, 1, which=p.place)[None]
-        left[:, start : start + CHUNK] = (rows.data - model_says) / eotvos
-        let_go(left)
+    q = dataclasses.replace(p, flight=dataclasses.replace(p.flight, channels=channels))
+    evaluator = model.compiled("auto" if len(p.flight) >= MANY else "numpy")
+    found = np.zeros((len(p.columns), len(p.flight)), dtype=np.bool_)
+    for rows, inner in parts(len(p.flight)):
+        for mask, e in zip(found, _left_over(model, evaluator, q, fitted, rows), strict=True):
+            mask[rows][inner] = spikes(e, p.usable[rows], len(e))[inner]
     notes = []
-    for name, e in zip(names, left, strict=True):
-        mask = spikes(e, p.usable)
+    for name, mask in zip(p.columns, found, strict=True):
         if mask.any():
             valid &= ~mask
             notes.append(note_of(name, mask, p.flight.time, "not used"))
     return valid, notes
+
+
+def _left_over(model: Model, evaluator: Evaluator, p: Picker, fitted: Array, rows: slice) -> Array:
+    """(columns, n) Eo: what a model with these parameters leaves of some neighbouring samples of the output."""
+    left = np.empty((len(p.columns), rows.stop - rows.start))
+    for start in range(rows.start, rows.stop, CHUNK):
+        stop = min(rows.stop, start + CHUNK)
+        some = p.pick(np.arange(start, stop))
+        x = some.inputs(model.chain)
+        if p.recorded.separate:
+            says = evaluator.voltages(some.time, x, fitted, some.phi, 1, p.output.members)
+        else:
+            says = evaluator.output(some.time, x, fitted, some.phi, 1, which=p.place)[None]
+        np.subtract(some.data, says, out=left[:, start - rows.start : stop - rows.start])
+    left /= scale_factor(model, fitted, p.place)
+    return left

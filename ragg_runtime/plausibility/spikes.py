@@ -36,8 +36,6 @@ USUAL = 0.95
 MEDIAN_OF_NORMAL = 0.67
 """Median of the modulus of a normal variable, in standard deviations."""
 
-_PREDICTION = np.array([1.0, -6.0, 15.0, 0.0, 15.0, -6.0, 1.0]) / 20.0
-
 PART = 1 << 18
 """Samples that are looked at together in a long record."""
 
@@ -71,19 +69,15 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
     n = len(residual)
     found = np.zeros(n, dtype=np.bool_)
     if n > 2 * part:
-        for rows, inner in _parts(n, part):
+        for rows, inner in parts(n, part):
             found[rows][inner] = spikes(residual[rows], valid[rows], n)[inner]
         return found
-    places = np.flatnonzero(valid & np.isfinite(residual))
-    if len(places) < 8 * SIDE:
+    there = valid & np.isfinite(residual)
+    e = np.asarray(residual if there.all() else residual[there])
+    if len(e) < 8 * SIDE:
         return found
-    e = np.asarray(residual[places])
-    before, after = _sides(e)
-    above, below = e - np.maximum(before, after), np.minimum(before, after) - e
-    distance = np.maximum(0.0, np.maximum(above, below))
-    scatter = np.abs(e - (before + after) / 2)
-    distance[np.abs(after - before) > STEP * distance] = 0.0  # a step
-    if np.count_nonzero(FAR * scatter >= np.max(distance)) > (1 - USUAL) * len(e) + 2:
+    distance, scatter = _aside(e)
+    if np.count_nonzero(scatter >= np.max(distance) / FAR) > (1 - USUAL) * len(e) + 2:
         return found  # the quantile is so large that none is far, and need not be sought
     usual = _in_blocks(scatter, USUAL)
     if len(usual) > 1 and 0 < len(e) % BLOCK < BLOCK // 4:
@@ -97,19 +91,37 @@ def spikes(residual: Array, valid: Mask, part: int = PART) -> Mask:
             far[run] = False
     if everywhere == 0 or not far.any() or np.mean(far) > MOST:
         return found
-    found[places[far]] = True
+    found[there] = far
     return found
 
 
-def _sides(e: Array) -> tuple[Array, Array]:
-    """(N,), (N,): medians of the five (``SIDE``) samples before each and after each; beyond the ends the series is mirrored."""
+def _aside(e: Array) -> tuple[Array, Array]:
+    """(N,), (N,): by how much each sample of a series stands off both of its sides, to the same side (a step does not), and how
+    far it is from their mean.
+
+    The sides are the medians of the five (``SIDE``) samples before it and after it; beyond its ends the series is mirrored.
+    """
     reach = SIDE // 2 + 1
     z = np.pad(np.pad(e, reach, mode="reflect"), SIDE // 2, mode="reflect")
+    distance, scatter = np.empty(len(e)), np.empty(len(e))
+    for start in range(0, len(e), CACHE):
+        own = slice(start, min(start + CACHE, len(e)))
+        median = _medians(z[start : own.stop + 2 * SIDE])
+        before, after, x = median[: -2 * reach], median[2 * reach :], e[own]
+        above, below = x - np.maximum(before, after), np.minimum(before, after) - x
+        far = np.maximum(0.0, np.maximum(above, below))
+        far[np.abs(after - before) > STEP * far] = 0.0  # a step
+        distance[own] = far
+        np.abs(x - (before + after) / 2, out=scatter[own])
+    return distance, scatter
+
+
+def _medians(z: Array) -> Array:
+    """(N - 4,): medians of five neighbours."""
     low, high = np.minimum(z[:-1], z[1:]), np.maximum(z[:-1], z[1:])
     # the median is that of these two and the middle one
     f, g = np.maximum(low[:-3], low[3:]), np.minimum(high[:-3], high[3:])
-    median = np.maximum(np.minimum(f, g), np.minimum(z[2:-2], np.maximum(f, g)))
-    return median[: len(e)], median[2 * reach :]
+    return np.asarray(np.maximum(np.minimum(f, g), np.minimum(z[2:-2], np.maximum(f, g))))
 
 
 def _in_blocks(x: Array, q: float) -> Array:
@@ -130,64 +142,72 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
     found = np.zeros(n, dtype=np.bool_)
     if n > 2 * part:
         whole = x
-        for rows, inner in _parts(n, part):
+        for rows, inner in parts(n, part):
             mask, mended = glitches(x[rows], valid[rows], n)
             if mask[inner].any():
                 whole = copied(x) if whole is x else whole
                 whole[rows][inner] = mended[inner]
                 found[rows][inner] = mask[inner]
         return found, whole
-    if valid.all() and _smooth(x):
+    there = valid & np.isfinite(x)
+    y = np.asarray(x if there.all() else x[there])
+    if len(y) < 8 * SIDE:
         return found, x
-    places = np.flatnonzero(valid & np.isfinite(x))
-    if len(places) < 8 * SIDE:
-        return found, x
-    y = np.array(x[places])
-    off = np.zeros(len(y), dtype=np.bool_)
-    before: Array | None = None
-    for _ in range(12):
-        error = y - ndimage.correlate1d(y, _PREDICTION, mode="mirror")
-        size = np.abs(error)
-        at = _off(size)
-        if not len(at):
-            break
-        before = np.array(y) if before is None else before
-        at = at[(size[at] > 2 * _spread(before, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
-        if not len(at):
-            break
-        off[at] = True
-        good = np.flatnonzero(~off)
-        y[off] = np.interp(np.flatnonzero(off), good, y[good])
-    if before is not None:
-        # what was only spoiled by a glitch beside it stays
-        at = np.flatnonzero(off)
-        off[at] = np.abs(x[places[at]] - y[at]) > 2 * _spread(before, at)
-        y[~off] = x[places][~off]
+    off, y = _among(y)
     if not off.any() or np.mean(off) > MOST:
         return found, x
-    found[places[off]] = True
+    found[there] = off
     mended = np.array(x)
-    mended[places] = y
+    mended[there] = y
     return found, mended
 
 
-def _smooth(x: Array) -> bool:
-    """Whether half of a record without gaps is as far off the prediction by its neighbours as to make none of it a glitch.
+def _among(x: Array) -> tuple[Mask, Array]:
+    """Glitches of a series without gaps (N,), and the series with them interpolated."""
+    off = np.zeros(len(x), dtype=np.bool_)
+    y, size = x, _distance(x)
+    for _ in range(12):
+        at = _off(size)
+        if len(at):
+            at = at[(size[at] > 2 * _spread(x, at)) & (size[at] >= np.max(_about(size, at, 3), axis=1))]
+        if not len(at):
+            break
+        y = np.array(x) if y is x else y
+        off[at] = True
+        good = np.flatnonzero(~off)
+        mended = np.flatnonzero(off)
+        y[mended] = np.interp(mended, good, y[good])
+        near = np.unique(np.clip(mended[:, None] + np.arange(-3, 4), 0, len(x) - 1))
+        size[near] = _distances(y, near)
+    if y is x:
+        return off, x
+    # what was only spoiled by a glitch beside it stays
+    at = np.flatnonzero(off)
+    off[at] = np.abs(x[at] - y[at]) > 2 * _spread(x, at)
+    y[at] = np.where(off[at], y[at], x[at])
+    return off, y
 
-    The error of the prediction is a twentieth of the sixth difference.
+
+def _distance(x: Array) -> Array:
+    """(N,): how far each sample is off the prediction by its neighbours, the series mirrored beyond its ends.
+
+    That is a twentieth of the sixth difference.
     """
-    if len(x) < 8 * SIDE:
-        return False
-    y = np.pad(x, 3, mode="reflect")
     size = np.empty(len(x))
-    for start in range(0, len(x), CACHE):
-        np.abs(np.diff(y[start : start + CACHE + 6], 6), out=size[start : start + CACHE])
-    size /= 20.0
-    inside, ends = size[3:-3], np.r_[0:3, len(x) - 3 : len(x)]
-    if np.any(size[ends] > 2 * _spread(x, ends)):  # the mirror makes an error there in any case
-        return False
-    limit = GLITCH / MEDIAN_OF_NORMAL
-    return bool(2 * np.count_nonzero(inside >= np.max(inside) / limit) > len(size))
+    for start in range(0, len(x) - 6, CACHE):
+        some = np.diff(x[start : start + CACHE + 6], 6)
+        some /= 20.0
+        np.abs(some, out=size[start + 3 : start + 3 + len(some)])
+    ends = np.r_[0:3, len(x) - 3 : len(x)]
+    size[ends] = _distances(x, ends)
+    return size
+
+
+def _distances(x: Array, at: NDArray[np.intp]) -> Array:
+    """(m,): the same of some of the samples, to the bit."""
+    places = np.abs(at[:, None] + np.arange(-3, 4))
+    last = len(x) - 1
+    return np.asarray(np.abs(np.diff(x[last - np.abs(last - places)], 6)[:, 0] / 20.0))
 
 
 def _off(size: Array) -> NDArray[np.intp]:
@@ -196,11 +216,11 @@ def _off(size: Array) -> NDArray[np.intp]:
     The median of all is not sought where counting tells on which side of it they are.
     """
     limit, n = GLITCH / MEDIAN_OF_NORMAL, len(size)
-    if 2 * np.count_nonzero(limit * size >= np.max(size)) > n:
-        return np.empty(0, dtype=np.intp)  # the median is so large that none is
     low = np.median(size[::SPARSE]) / 2  # not above the median of all, or that itself
     low = low if 2 * np.count_nonzero(size >= low) > n else np.median(size)
     at = np.flatnonzero(size > limit * low)
+    if not len(at) or 2 * np.count_nonzero(size >= np.max(size[at]) / limit) > n:
+        return at[:0]  # the median is so large that none is
     at = at[size[at] > limit * _usual(size, at)]
     if len(at) and 2 * np.count_nonzero(limit * size >= np.min(size[at])) >= n:
         at = at[size[at] > limit * np.median(size)]
@@ -233,8 +253,9 @@ def _spread(x: Array, at: NDArray[np.intp]) -> Array:
     return np.asarray(ordered[:, 22] - ordered[:, 2])
 
 
-def _parts(n: int, part: int) -> Iterator[tuple[slice, slice]]:
+def parts(n: int, part: int = PART) -> Iterator[tuple[slice, slice]]:
     """Parts of a long record: rows with some of the neighbours, and the part proper within them."""
+    part = n if n <= 2 * part else part
     for start in range(0, n, part):
         first, last = max(0, start - BLOCK), min(n, start + part + BLOCK)
         yield slice(first, last), slice(start - first, min(n, start + part) - first)

@@ -167,30 +167,30 @@ class Picker:
         n = len(self.flight)
         inside = (rows + min(shift, output_shift, 0) >= 0) & (rows + max(shift, output_shift, 0) < n)
         rows = rows[inside]
+        run = _run(rows)
         x = self.flight
-        time = _picked(x.time, rows) - x.time[0]
+        time = _picked(x.time, run) - x.time[0]
         if even:
             time = rows * self.even[1]
         f = self.disc.spin_frequency if spin_frequency is None else spin_frequency
         if self.disc.angle_column in x.channels and spin_frequency is None:
-            phi = _picked(x.channels[self.disc.angle_column], rows)
+            phi = _picked(x.channels[self.disc.angle_column], run)
         else:
             phi = disc_angle(time, f)
-        moved = rows + shift
-        channels = {name: _picked(v, moved) for name, v in x.channels.items()}
-        channels |= {name: _picked(v, moved) for name, v in self.derived.items()}
+        moved = _later(run, shift)
+        channels = {name: _picked(v, moved) for name, v in (*x.channels.items(), *self.derived.items())}
         if spin_frequency is not None:
             channels |= {name: spin(name, None, len(rows), x.rate, f) for name in SPIN}
         if backwards:
             phi = -phi
             channels |= {name: -channels[name] for name in SPIN if name in channels}
-        return self._rows(rows + output_shift, time, phi + phase, channels)
+        return self._rows(_later(run, output_shift), time, phi + phase, channels)
 
-    def _rows(self, rows: Index, time: Array, phi: Array, channels: Mapping[str, Array]) -> Rows:
+    def _rows(self, rows: Index | slice, time: Array, phi: Array, channels: Mapping[str, Array]) -> Rows:
         """With the output of these rows."""
         return Rows(
             recorded=self.recorded,
-            data=np.nan_to_num(np.stack([_picked(v, rows) for v in self._output()])),
+            data=np.nan_to_num(np.stack([_picked(v, rows) for v in self._output()]), copy=False),
             time=time,
             phi=phi,
             channels=channels,
@@ -240,10 +240,19 @@ def _places(there: Mask, which: Index) -> Index:
     return np.concatenate(found)
 
 
-def _picked(column: Array, rows: Index) -> Array:
-    """Some rows of a column; of one on disk, none of the rest stays in memory."""
+def _run(rows: Index) -> Index | slice:
+    """Rows as a slice, if they are neighbours: of that a column is copied in one go."""
     neighbours = len(rows) > 1 and bool(np.all(rows[1:] == rows[:-1] + 1))
-    found = np.array(column[rows[0] : rows[-1] + 1]) if neighbours else np.asarray(column[rows])
+    return slice(int(rows[0]), int(rows[-1]) + 1) if neighbours else rows
+
+
+def _later(rows: Index | slice, by: int) -> Index | slice:
+    return slice(rows.start + by, rows.stop + by) if isinstance(rows, slice) else rows + by
+
+
+def _picked(column: Array, rows: Index | slice) -> Array:
+    """Some rows of a column, copied; of one on disk, none of the rest stays in memory."""
+    found = np.array(column[rows]) if isinstance(rows, slice) else np.asarray(column[rows])
     let_go(column)
     return found
 

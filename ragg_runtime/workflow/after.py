@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import calibrated as _calibrated
 from ragg_runtime.compensation import frozen as _frozen
 from ragg_runtime.compensation.calibrated import Calibrated
@@ -146,6 +147,7 @@ QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in 
 """What the marks of samples mean, by the name under which a compensation counts them."""
 
 
+@one_thread
 def compensate(
     m: Loaded,
     flights: Sequence[Flight],

@@ -19,7 +19,7 @@ from scipy import signal
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import compensate
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
-from ragg_runtime.compensation.series import Quality, Series
+from ragg_runtime.compensation.series import Quality, Segment, Series
 from ragg_runtime.flight import Flight, write_flight
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -214,9 +214,22 @@ def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
     assert np.std(error[ok].imag) < 0.1 * np.std((ideal - truth(x, c.demodulator))[ok].imag)
 
 
-def _ideal(c: Compensated, x: Flight) -> NDArray[np.complex128]:
-    from ragg_runtime.compensation.series import Segment
+def test_single_precision_is_enough_for_what_is_put_right() -> None:
+    x, p = flown(11, "self")
+    c = Compensated(p, 0, "fir")
+    segment = Segment(c.setting, slice(0, len(x.time)), holes=False)
+    found = segment.gradient()
+    first = segment.first_estimate()
+    segment.put(first)
+    right = first - segment.demodulated(segment.output() - segment.bare - segment.carried(first))
+    assert 0.0 < np.max(np.abs(found - right)) < 1e-6
+    assert np.max(np.abs(found - first)) > 1e-3
+    assert segment.raw(16) == pytest.approx(
+        segment.demodulated(np.where(segment.record.valid, segment.G, 0.0))[segment.own][::16], rel=1e-9
+    )
 
+
+def _ideal(c: Compensated, x: Flight) -> NDArray[np.complex128]:
     return Segment(c.setting, slice(0, len(x.time)), holes=False).first_estimate()
 
 

@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ragg_runtime.plausibility.spikes import GLITCH, MEDIAN_OF_NORMAL, _off, _usual, glitches, spikes
+from ragg_runtime.plausibility.spikes import (
+    CACHE,
+    GLITCH,
+    MEDIAN_OF_NORMAL,
+    _distance,
+    _distances,
+    _off,
+    _usual,
+    glitches,
+    spikes,
+)
 
 N = 9600
 RNG = np.random.default_rng(3)
@@ -96,3 +106,13 @@ def test_what_is_far_off_is_told_as_by_the_median_itself(n: int) -> None:
             assert _off(size).tolist() == expected.tolist()
             found += len(expected)
     assert found
+
+
+def test_the_distance_of_some_samples_is_that_of_all() -> None:
+    """Where a glitch was interpolated the distances beside it are made anew, to the bit; the ends are mirrored."""
+    x = RNG.standard_normal(2 * CACHE + 100)
+    every = _distances(x, np.arange(len(x)))
+    assert np.array_equal(_distance(x), every)
+    taps = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0]) / 20.0
+    mirrored = np.convolve(np.pad(x, 3, mode="reflect"), taps, "valid")
+    np.testing.assert_allclose(every, np.abs(mirrored), rtol=0, atol=1e-14)

@@ -17,7 +17,7 @@ from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import calibrate, fitted, noise, observation, passes, prepared_flight, score, slow_noise
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.segments import BLOCKS, segments
+from ragg_runtime.fit.segments import BLOCKS, beginnings, segments, spread
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
 from ragg_runtime.lack_of_fit import remainder
 from ragg_runtime.model import model
@@ -238,3 +238,12 @@ def test_noise_slower_than_a_segment_is_seen_and_passes_for_no_effect(
     ratio = x.noise_psd(f) / true
     assert np.exp(np.mean(np.log(ratio[:15]))) == pytest.approx(1.0, rel=0.25)  # slower than a segment shows
     assert np.max(np.abs(np.log(ratio))) < np.log(2.0)
+
+
+def test_of_long_flights_as_many_samples_are_heard_whatever_their_length() -> None:
+    for samples in (1_000_000, 3_000_000, 16_000_000):
+        found = spread(segments(samples), 4)
+        heard = beginnings(found, 80_000)
+        assert [s.rows.start for s in heard] == [s.rows.start for s in found]
+        assert [s.rows.stop - s.rows.start for s in heard] == [20_000] * 4
+    assert [s.rows for s in beginnings(segments(28_800), 80_000)] == [slice(0, 28_800)]

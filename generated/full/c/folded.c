@@ -291,9 +291,117 @@ void ragg_folded_output(size_t n, const double *t, const double *const *in, cons
     piece(n - at, at, t, in, p[1], angle, c, G);
 }
 
+enum { NUMBERS = 12 };
+
+/* The numbers that the polynomial is made of, of n samples from at on. */
+static inline void numbers(size_t n, const double *const *in, size_t at, const double *restrict cosine,
+                           const double *restrict sine, double found[NUMBERS][BLOCK]) {
+    const double *restrict in_a_x = in[0] + at;
+    const double *restrict in_a_y = in[1] + at;
+    const double *restrict in_a_z = in[2] + at;
+    const double *restrict in_omega_x = in[3] + at;
+    const double *restrict in_omega_y = in[4] + at;
+    const double *restrict in_omega_z = in[5] + at;
+    const double *restrict in_omegadot_x = in[6] + at;
+    const double *restrict in_omegadot_y = in[7] + at;
+    const double *restrict in_omegadot_z = in[8] + at;
+    const double *restrict in_Gamma_xx = in[9] + at;
+    const double *restrict in_Gamma_xy = in[10] + at;
+    const double *restrict in_Gamma_xz = in[11] + at;
+    const double *restrict in_Gamma_yy = in[12] + at;
+    const double *restrict in_Gamma_yz = in[13] + at;
+    const double *restrict in_Gamma_zz = in[14] + at;
+    const double *restrict in_d2_spin_angle = in[15] + at;
+    const double *restrict in_d_spin_angle = in[16] + at;
+    for (size_t i = 0; i < n; ++i) {
+        const double cos_phi = cosine[i], sin_phi = sine[i];
+        const double a_x = in_a_x[i];
+        const double a_y = in_a_y[i];
+        const double a_z = in_a_z[i];
+        const double omega_x = in_omega_x[i];
+        const double omega_y = in_omega_y[i];
+        const double omega_z = in_omega_z[i];
+        const double omegadot_x = in_omegadot_x[i];
+        const double omegadot_y = in_omegadot_y[i];
+        const double omegadot_z = in_omegadot_z[i];
+        const double Gamma_xx = in_Gamma_xx[i];
+        const double Gamma_xy = in_Gamma_xy[i];
+        const double Gamma_xz = in_Gamma_xz[i];
+        const double Gamma_yy = in_Gamma_yy[i];
+        const double Gamma_yz = in_Gamma_yz[i];
+        const double Gamma_zz = in_Gamma_zz[i];
+        const double d2_spin_angle = in_d2_spin_angle[i];
+        const double d_spin_angle = in_d_spin_angle[i];
+        const double x0 = (omega_y*omega_y);
+        const double x1 = (omega_z*omega_z);
+        const double M_xx = -Gamma_xx - x0 - x1;
+        const double M_xy = FMA(omega_x, omega_y, -Gamma_xy - omegadot_z);
+        const double M_xz = FMA(omega_x, omega_z, -Gamma_xz + omegadot_y);
+        const double M_yx = FMA(omega_x, omega_y, -Gamma_xy + omegadot_z);
+        const double x2 = (omega_x*omega_x);
+        const double M_yy = -Gamma_yy - x1 - x2;
+        const double M_yz = FMA(omega_y, omega_z, -Gamma_yz - omegadot_x);
+        const double M_zx = FMA(omega_x, omega_z, -Gamma_xz - omegadot_y);
+        const double M_zy = FMA(omega_y, omega_z, -Gamma_yz + omegadot_x);
+        const double M_zz = -Gamma_zz - x0 - x2;
+        const double of_platform_xr = FMA(M_xy, sin_phi, M_xx*cos_phi);
+        const double of_platform_xt = FMA(-M_xx, sin_phi, M_xy*cos_phi);
+        const double of_platform_yr = FMA(M_yy, sin_phi, M_yx*cos_phi);
+        const double of_platform_yt = FMA(-M_yx, sin_phi, M_yy*cos_phi);
+        const double of_platform_zr = FMA(M_zy, sin_phi, M_zx*cos_phi);
+        const double of_platform_zt = FMA(-M_zx, sin_phi, M_zy*cos_phi);
+        const double x3 = 2.0*d_spin_angle;
+        const double x4 = omega_z*x3;
+        const double x5 = (d_spin_angle*d_spin_angle);
+        const double x6 = omega_x*x3;
+        const double x7 = omega_y*x3;
+        const double a_r = FMA(a_y, sin_phi, a_x*cos_phi);
+        const double a_t = FMA(-a_x, sin_phi, a_y*cos_phi);
+        const double M_rr = FMA(of_platform_yr, sin_phi, FMA(cos_phi, of_platform_xr, -x4 - x5));
+        const double M_rt = FMA(of_platform_yt, sin_phi, FMA(cos_phi, of_platform_xt, -d2_spin_angle));
+        const double M_rz = FMA(M_yz, sin_phi, M_xz*cos_phi);
+        const double M_tr = FMA(-of_platform_xr, sin_phi, FMA(cos_phi, of_platform_yr, d2_spin_angle));
+        const double M_tt = FMA(-of_platform_xt, sin_phi, FMA(cos_phi, of_platform_yt, -x4 - x5));
+        const double M_tz = FMA(-M_xz, sin_phi, M_yz*cos_phi);
+        const double M_zr = FMA(sin_phi, x7, FMA(cos_phi, x6, of_platform_zr));
+        const double M_zt = FMA(-sin_phi, x6, FMA(cos_phi, x7, of_platform_zt));
+        found[0][i] = a_r;
+        found[1][i] = a_t;
+        found[2][i] = a_z;
+        found[3][i] = M_rr;
+        found[4][i] = M_rt;
+        found[5][i] = M_rz;
+        found[6][i] = M_tr;
+        found[7][i] = M_tt;
+        found[8][i] = M_tz;
+        found[9][i] = M_zr;
+        found[10][i] = M_zt;
+        found[11][i] = M_zz;
+    }
+}
+
+/* G_out of n samples by their numbers. */
+static inline void polynomial(size_t n, double found[NUMBERS][BLOCK], const double c[FOLDED], double *restrict G) {
+    for (size_t i = 0; i < n; ++i) {
+        const double a_r = found[0][i];
+        const double a_t = found[1][i];
+        const double a_z = found[2][i];
+        const double M_rr = found[3][i];
+        const double M_rt = found[4][i];
+        const double M_rz = found[5][i];
+        const double M_tr = found[6][i];
+        const double M_tt = found[7][i];
+        const double M_tz = found[8][i];
+        const double M_zr = found[9][i];
+        const double M_zt = found[10][i];
+        const double M_zz = found[11][i];
+        G[i] = FMA(a_z, FMA(a_z, c[30], FMA(M_zt, c[36], FMA(M_zr, c[35], FMA(M_tt, c[34], FMA(M_tr, c[33], FMA(M_rt, c[32], FMA(M_rr, c[31], c[3]))))))), FMA(a_t, FMA(a_z, c[23], FMA(a_t, c[22], FMA(M_zt, c[29], FMA(M_zr, c[28], FMA(M_tt, c[27], FMA(M_tr, c[26], FMA(M_rt, c[25], FMA(M_rr, c[24], c[2])))))))), FMA(a_r, FMA(a_z, c[15], FMA(a_t, c[14], FMA(a_r, c[13], FMA(M_zt, c[21], FMA(M_zr, c[20], FMA(M_tt, c[19], FMA(M_tr, c[18], FMA(M_rt, c[17], FMA(M_rr, c[16], c[1]))))))))), FMA(M_zz, c[12], FMA(M_zt, FMA(M_zt, c[48], c[11]), FMA(M_zr, FMA(M_zr, c[47], c[10]), FMA(M_tz, c[9], FMA(M_tt, FMA(M_zt, c[46], FMA(M_tt, c[45], c[8])), FMA(M_tr, FMA(M_zr, c[44], FMA(M_tr, c[43], c[7])), FMA(M_rz, c[6], FMA(M_rt, FMA(M_zt, c[42], FMA(M_tt, c[41], FMA(M_rt, c[40], c[5]))), FMA(M_rr, FMA(M_zr, c[39], FMA(M_tr, c[38], FMA(M_rr, c[37], c[4]))), c[0]))))))))))));
+    }
+}
+
 void ragg_folded_changes(size_t n, const double *t, const double *const *in, size_t count, const double *p,
                          const double *angle, size_t few, const double *weights, double *found) {
-    double c[FOLDED], own[16][FOLDED], cosine[BLOCK], sine[BLOCK], G[BLOCK];
+    double c[FOLDED], own[16][FOLDED], cosine[BLOCK], sine[BLOCK], x[NUMBERS][BLOCK], G[BLOCK];
     const size_t means = n / few, together = BLOCK / few;
     fold(p, c);
     for (size_t k = 0; k < count; ++k) { /* G_out is linear in the coefficients */
@@ -305,8 +413,9 @@ void ragg_folded_changes(size_t n, const double *t, const double *const *in, siz
     for (size_t first = 0; first < means; first += together) {
         const size_t groups = means - first < together ? means - first : together, at = first * few;
         const size_t size = turning(at, at + groups * few, t, p[1], angle, cosine, sine);
+        numbers(size, in, at, cosine, sine, x); /* once for all parameter vectors */
         for (size_t k = 0; k < count; ++k) {
-            block(size, in, at, cosine, sine, own[k], G);
+            polynomial(size, x, own[k], G);
             for (size_t w = 0; w < 2; ++w) {
                 const double *weight = weights + w * n + at;
                 double *mean = found + (2 * k + w) * means + first;

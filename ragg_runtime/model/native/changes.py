@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.model.native.arguments import Series
 from ragg_runtime.model.native.backends import Compiled, Evaluator
 
 Array = NDArray[np.float64]
@@ -19,7 +20,7 @@ LONGEST = 128
 def changes(
     e: Evaluator,
     t: Array,
-    x: Array,
+    x: Series,
     p: Array,
     steps: Array,
     angle: Array,
@@ -32,7 +33,7 @@ def changes(
     Parameters
     ----------
     t, x, angle
-        (N,) s, (n_inputs, N) SI, (N,) rad: as an :class:`Evaluator` takes them.
+        (N,) s, of each input (N,) SI or ``None``, (N,) rad: as an :class:`Evaluator` takes them.
     p, steps
         (size,), (k, size): SI.
     weights
