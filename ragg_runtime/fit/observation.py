@@ -20,7 +20,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record
 from ragg_runtime.model.recorded import Recorded, recorded
-from ragg_runtime.signals.fir import convolved
+from ragg_runtime.signals.fir import thinned
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
@@ -208,7 +208,7 @@ class Thin:
 
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :attr:`span`, thinned: (..., n)."""
-        return np.ascontiguousarray(convolved(x, self.taps)[..., :: self.every])
+        return thinned(x, self.taps, self.every)
 
 
 def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
