@@ -71,7 +71,7 @@ def _eliminated(columns: Array, some: NDArray[np.intp]) -> Array:
     """The triangle of the columns at some places, of all rows."""
     R = np.zeros((len(some), len(some)), order="F")
     for start in range(0, columns.shape[1], CHUNK):
-        entered(R, columns[:, start : start + CHUNK].take(some, axis=0).T)
+        entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     return R
 
 
