@@ -95,6 +95,8 @@ def diagnose_fitted(
     output = _output_effects(f, flights)
     first = Stage.of(f)
     apart = contradiction(first)
+    # before strong effects, whose columns take the place of these
+    ranked = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
     c = confirmed(last, extend)
     chosen = [*(t.effect for t in steps), *c.choice.chosen]
@@ -103,7 +105,7 @@ def diagnose_fitted(
     verdict, found = _verdict(left, end, chosen, output)
     by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
     whitened = sum(s.square for s in left.remainder.searches)
-    ranking, before = _ranked(first, steps, last, c, end.target, left, output)
+    ranking = _ranked(*ranked, steps, last, c, end.target, left)
     credence = weighed(last.field, steps)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     steady = [s for s in left.steady if s.effect in found]
@@ -115,7 +117,7 @@ def diagnose_fitted(
         not_testable=tuple(_not_testable(first.fitted, first.field)),
         remainder=left.remainder if left.remains else _without_terms(left.remainder),
         remainder_share=by_terms / whitened if whitened else 0.0,
-        before=before,
+        before=ranked[1],
         scored=end.scored,
         noise_floor=end.noise_floor,
         sizes=tuple(_sizes(first.fitted, first.field)),
@@ -240,22 +242,21 @@ def _verdict(
 
 
 def _ranked(
-    first: Stage,
+    ranking: Sequence[Ranked],
+    before: Error,
     steps: Sequence[Taken],
     last: Stage,
     c: Confirmed,
     target: Fitted,
     left: _Left,
-    output: Sequence[str],
-) -> tuple[list[Ranked], Error]:
-    """The effects as they stand in the ranking, and the error before any is added."""
-    ranking, before = _ranking(first.fitted, first.field, first.choice, first.instants, output)
-    ranking += _ranked_random(last.fitted, left.random, before)
+) -> list[Ranked]:
+    """The effects as they stand in the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
+    ranking = [*ranking, *_ranked_random(last.fitted, left.random, before)]
     if steps:
         chosen = c.choice.chosen
         later = _ranking(last.fitted, c.field, c.choice, last.instants, only=chosen)[0] if chosen else []
         ranking = staged(steps, later, ranking, target)
-    return ranking, before
+    return ranking
 
 
 def _remark(doubt: str | None, left: _Left, steady: Sequence[Steady], disturbed: str | None) -> str | None:

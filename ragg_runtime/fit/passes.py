@@ -60,11 +60,7 @@ class Piece:
 
     def triangle(self, rows: slice | NDArray[np.intp] = slice(None)) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns, or of some of their rows."""
-        if isinstance(self.heard, slice):
-            return triangle(self.white[:, rows])
-        T = np.zeros((len(self.white), len(self.white)))  # what is zero stays so: no work is done for it
-        T[np.ix_(self.heard, self.heard)] = triangle(self.white[self.heard][:, rows])
-        return T
+        return triangle(self.white[:, rows])
 
     @property
     def residual(self) -> Array:

@@ -46,22 +46,32 @@ MANY = 8
 
 
 def triangle(columns: Array) -> Array:
-    """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows."""
-    rows = columns.shape[1]
-    if rows < WORTH_TWO:
-        return _eliminated(columns)
-    halves = (
-        columns[:, : rows // 2],
-        columns[:, rows // 2 :],
-    )  # however many threads there are: the same bytes
-    return fold(list(mapped(_eliminated, halves)))
-
-
-def _eliminated(columns: Array) -> Array:
+    """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
     n, rows = columns.shape
-    R = np.zeros((n, n), order="F")
-    for start in range(0, rows, CHUNK):
-        entered(R, np.array(columns[:, start : start + CHUNK].T, order="F"))
+    some = _not_zero(columns)
+    if rows < WORTH_TWO:
+        R = _eliminated(columns, some)
+    else:  # however many threads there are: the same bytes
+        halves = (columns[:, : rows // 2], columns[:, rows // 2 :])
+        R = fold(list(mapped(lambda half: _eliminated(half, some), halves)))
+    if len(some) == n:
+        return R
+    T = np.zeros((n, n))
+    T[np.ix_(some, some)] = R
+    return T
+
+
+def _not_zero(columns: Array) -> NDArray[np.intp]:
+    """Places of the columns (n, rows) that are not zero: those of channels that were not recorded, and of other outputs, are."""
+    begins = np.asarray(columns[:, :1].any(axis=1))
+    return np.array([k for k, x in enumerate(columns) if begins[k] or x.any()], dtype=np.intp)
+
+
+def _eliminated(columns: Array, some: NDArray[np.intp]) -> Array:
+    """The triangle of the columns at some places, of all rows."""
+    R = np.zeros((len(some), len(some)), order="F")
+    for start in range(0, columns.shape[1], CHUNK):
+        entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     return R
 
 
