@@ -51,6 +51,7 @@ from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.fit.thinning import thinned
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
@@ -334,4 +335,5 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
             looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
             if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
                 found.add(effect)
+            let_go(x.valid, *looked_at)
     return sorted(found)
