@@ -38,14 +38,17 @@ are begun while it is small."""
 DEAREST = (
     "test_studio_browser.py",
     "test_bad_input_messages.py",
-    "test_terms.py",
     "test_strong.py",
+    "test_plausibility_mistakes.py",
     "test_compensate.py",
+    "test_real_measurements.py",
     "test_effect_conformance.py",
+    "test_terms.py",
     "test_names.py",
     "test_studio_server.py",
-    "test_plausibility_mistakes.py",
     "test_current_folder.py",
+    "test_layout_machine_code.py",
+    "test_c.py",
 )
 """Files that take half a minute and more, the longest first. They are begun next: what one worker begins last the others
 wait for."""
