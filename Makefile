@@ -46,6 +46,9 @@ test: export RAGG_THREADS := 1
 test: export MALLOC_MMAP_THRESHOLD_ := 1073741824
 test: export MALLOC_TRIM_THRESHOLD_ := 1073741824
 test: export MALLOC_ARENA_MAX := 1
+# Byte code is kept, whatever the environment says: every process that the tests start would compile the program anew (0.6 s),
+# and either worker rewrite all assertions (4 s, from the second run on).
+test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)  ## run the tests
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
 

@@ -7,7 +7,6 @@ import gc
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -16,6 +15,7 @@ import derive  # noqa: F401  (tells SymPy how much to remember, which must be be
 
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
+gc.set_threshold(20_000)  # as the commands have it (base/memory.py)
 
 # Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
 # worker has derived and compiled the others find.
@@ -38,14 +38,17 @@ are begun while it is small."""
 DEAREST = (
     "test_studio_browser.py",
     "test_bad_input_messages.py",
-    "test_terms.py",
     "test_strong.py",
+    "test_plausibility_mistakes.py",
     "test_compensate.py",
+    "test_real_measurements.py",
     "test_effect_conformance.py",
+    "test_terms.py",
     "test_names.py",
     "test_studio_server.py",
-    "test_plausibility_mistakes.py",
     "test_current_folder.py",
+    "test_layout_machine_code.py",
+    "test_c.py",
 )
 """Files that take half a minute and more, the longest first. They are begun next: what one worker begins last the others
 wait for."""
@@ -57,10 +60,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
 
 
-@pytest.fixture
-def small_heap() -> Iterator[None]:
-    """What was imported is kept out of garbage collection: for tests that ask for many of them."""
+@pytest.fixture(scope="module", autouse=True)
+def small_heap() -> None:
+    """What was imported and is remembered is looked through for cycles once, not again and again by the tests that follow:
+    files that are read look for cycles by themselves.
+    """
     gc.collect()
     gc.freeze()
-    yield
-    gc.unfreeze()

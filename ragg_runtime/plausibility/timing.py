@@ -140,7 +140,7 @@ def _refined(left: Callable[[Array], list[float]], grid: Array, step: float) -> 
     best = float(grid[int(np.argmin(left(grid)))])
     for _ in range(4):
         step /= 4
-        near = np.asarray(best + step * np.arange(-4, 5), dtype=np.float64)
+        near = np.asarray(best + step * np.arange(-3, 4), dtype=np.float64)  # the fourth either way is known
         best = float(near[int(np.argmin(left(near)))])
     return best
 

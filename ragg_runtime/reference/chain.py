@@ -259,7 +259,7 @@ class Chain:
         vectors = np.stack([fixed.arm, *fixed.triad, *([fixed.lift] if lifts else [])])
         if (lean := geometry.wobble(self.effects)) is not None:
             vectors = vectors @ lean.T
-        turned = [spun(v, instant.phi[disc]) for v in vectors]
+        turned = spun(vectors, instant.phi[disc])
         if (axis := geometry.spin_axis(self.effects)) is not None:
             turned = [v.turned(axis) for v in turned]
         if (axes := self.standing[disc]) is not None:

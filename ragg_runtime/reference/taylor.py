@@ -72,11 +72,14 @@ def stacked(parts: tuple[Taylor, Taylor, Taylor]) -> Taylor:
     )
 
 
-def spun(vector: Array, angle: Taylor) -> Taylor:
-    """A vector (3,) fixed to the disc, seen from the platform while the disc angle (N,) runs on, (3, N)."""
-    x, y, z = (float(v) for v in vector)
+def spun(vectors: Array, angle: Taylor) -> list[Taylor]:
+    """Vectors (n, 3) fixed to the disc, seen from the platform while the disc angle (N,) runs on, (3, N) each."""
     c, s = angle.cosine(), angle.sine()
-    return stacked((c * x + s * -y, s * x + c * y, Taylor.constant(np.full(angle.value.shape, z))))
+    shape = angle.value.shape
+    return [
+        stacked((c * x + s * -y, s * x + c * y, Taylor.constant(np.full(shape, z))))
+        for x, y, z in vectors.tolist()
+    ]
 
 
 def carried(vector: Taylor, omega: Array, omegadot: Array) -> Array:

@@ -9,6 +9,7 @@ from functools import cache
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
+from sympy.printing.numpy import NumPyPrinter
 
 from derive.chain import accelerometer
 from derive.effect import Effect
@@ -23,6 +24,14 @@ LIKE_REFERENCE = Order(1, 1, second_order_angles=True)
 """First-order rotations, kept in the second-order terms too: the counting of the reference simulator."""
 
 G0 = 9.8
+
+UNORDERED = {
+    "order": "none",
+    "fully_qualified_modules": False,
+    "inline": True,
+    "allow_unknown_functions": True,
+}
+"""As ``lambdify`` prints, but sums as they stand: to put their terms in order takes half of the time."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +51,13 @@ def evaluated(program: Program) -> Evaluated:
     """Compile a straight-line program with SymPy's NumPy printer."""
     inputs = program.inputs
     outputs = [e for _, e in program.outputs]
-    function = sp.lambdify(inputs, outputs, "numpy", cse=lambda _: (list(program.assignments), outputs))
+    function = sp.lambdify(
+        inputs,
+        outputs,
+        "numpy",
+        printer=NumPyPrinter(UNORDERED),
+        cse=lambda _: (list(program.assignments), outputs),
+    )
     return Evaluated(program, tuple(s.name for s in inputs), function)
 
 

@@ -37,7 +37,6 @@ def test_the_corpus(name: str) -> None:
             assert outcome == "read", file
 
 
-@pytest.mark.usefixtures("small_heap")
 @pytest.mark.parametrize("name", list(TARGETS))
 def test_mutants(name: str) -> None:
     outcomes = {"read": 0, "refused": 0}

@@ -276,7 +276,6 @@ def test_netcdf_of_other_tools(tmp_path: Path) -> None:
         read_flight(path, G0)
 
 
-@pytest.mark.usefixtures("small_heap")
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_damaged_files_give_one_message(
     tmp_path: Path, suffix: str, capfd: pytest.CaptureFixture[str]

@@ -50,7 +50,6 @@ def test_good_ones_are_read(tmp_path: Path, ending: str) -> None:
 
 @pytest.mark.parametrize("ending", ENDINGS)
 @pytest.mark.parametrize("lines", [(), ("1", "2")])
-@pytest.mark.usefixtures("small_heap")
 def test_damaged_anywhere(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None:
     path = good(tmp_path / f"x{ending}", lines)
     data = path.read_bytes()
