@@ -55,7 +55,7 @@ from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
-from ragg_runtime.model.model import Model
+from ragg_runtime.model.model import Model, Recogniser
 
 Array = NDArray[np.float64]
 
@@ -332,8 +332,14 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
         noise = float(np.sqrt(np.mean([m.rms**2 for m in w.noise.models]) + fast))
         outputs = [n for n in x.outputs if n in f.instrument.layout.columns]
         for effect, r in f.model.recognisers.items():
-            looked_at = [columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns]
-            if any(r.present(c, np.isfinite(c) & x.valid, noise) for c in looked_at):
+            looked_at = (columns[n] for n in getattr(r, "CHANNELS", outputs) if n in columns)
+            if any(_present(r, c, x.valid, noise) for c in looked_at):
                 found.add(effect)
-            let_go(x.valid, *looked_at)
     return sorted(found)
+
+
+def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) -> bool:
+    """Whether an effect of the recorder shows in a column (N,), which is not kept in memory."""
+    found = r.present(c, np.isfinite(c) & valid, noise)
+    let_go(c, valid)
+    return found

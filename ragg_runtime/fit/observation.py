@@ -121,6 +121,11 @@ class Observation:
         return np.stack([np.where(self.record.valid, x, 0.0) for x in self.series])
 
     @property
+    def unthinned(self) -> Observation:
+        """The observation as it was recorded."""
+        return self if self.thin is None else self.thin.whole
+
+    @property
     def flight_name(self) -> str:
         """Name of the flight, without that of the output."""
         return self.name.removesuffix(f": {self.output.name}")

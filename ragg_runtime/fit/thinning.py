@@ -90,7 +90,7 @@ def _most(at: Point, o: Observation) -> int:
         short = len(pieces[0].record.time) < SHORT * len(thin[0].taps)
         if o.record.rate < every * LEAST_RATE or short or not _alike(at, thin, whole):
             continue
-        lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, thin[0]))
+        lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
         return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
     return 1
 

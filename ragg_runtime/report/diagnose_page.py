@@ -294,6 +294,8 @@ def _sections(d: Diagnosis) -> list[dict[str, Any]]:
         drawn.append(page.figure(svg, caption))
     svg = figures.in_blocks(panels.time_panels(f, lines, chosen), "blocks", "error in blocks of time")
     caption = "Error in 24 blocks of time before demodulation."
+    if any(o.thin is not None for o in f.observations):
+        caption += " Of a thinned flight, and its noise, what lies below half of the rate that is left."
     if len(chosen) < len(f.prepared):
         caption += f" The {len(chosen)} worst of {len(f.prepared)} flights are drawn."
     drawn.append(page.figure(svg, caption))

@@ -208,13 +208,16 @@ def holdout_before(f: Fitted) -> Error:
 
 def facts(f: Fitted) -> list[tuple[str, str]]:
     """What was recorded and what was fitted."""
-    records = [o.record for o in f.observations]
+    records = [o.unthinned.record for o in f.observations]
     samples = sum(len(r.time) for r in records)
     valid = sum(int(np.sum(r.valid)) for r in records)
     duration = sum(float(r.time[-1]) + 1.0 / r.rate for r in records)
     used = f"{numbers.fixed(samples, 0)} at {numbers.number(records[0].rate, 4)} Hz"
     if valid < samples:
         used += f", {numbers.fixed(samples - valid, 0)} of them not usable"
+    thin = {o.record.rate for o in f.observations if o.thin is not None}
+    if thin:
+        used += f"; thinned to {numbers.number(min(thin), 4)} Hz, which tells as much"
     effects = numbers.listed([e.id for e in f.model.effects]) or "none: the paper’s instrument"
     return [
         ("flights", numbers.listed([numbers.clean(o.name) for o in f.observations])),

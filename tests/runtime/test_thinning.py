@@ -18,6 +18,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import output, vector
 from ragg_runtime.reference.scenario import Scenario, scenario
+from ragg_runtime.report import panels
 
 RATE, EVERY = 100.0, 10
 
@@ -104,6 +105,9 @@ def test_the_diagnosis_is_that_of_the_whole_record(
     s, flight = flown
     a, b = (diagnosed(s, flight, monkeypatch, some) for some in (False, True))
     assert len(b.fitted.observations[0].record.time) * EVERY < len(flight.time)
+    assert dict(panels.facts(b.fitted))["samples"].endswith(
+        "at 100.0 Hz; thinned to 10.00 Hz, which tells as much"
+    )
     assert a.verdict == b.verdict == "missing-effect" and a.found == b.found == ("thermal-scale",)
     assert b.noise_floor == pytest.approx(a.noise_floor, rel=5e-3)
     for x, y in ((a.before, b.before), (a.after, b.after)):
@@ -193,6 +197,14 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     # beside a bridge the residual is off by less than a tenth of what it is
     assert np.max(np.abs((found - expected)[used])) < 0.1 * np.std(expected)
     assert np.std((found - expected)[used]) < 0.01 * np.std(expected)
+
+
+def test_where_many_samples_are_missing_nothing_is_thinned(flown: tuple[Scenario, Flight]) -> None:
+    """In the last third of a flight the output is recorded every tenth of a second: the low-pass would find nothing there."""
+    s, flight = flown
+    seldom = (np.arange(len(flight.time)) % 10 == 0) | (flight.time < 280.0)
+    outputs = {n: np.where(seldom, x, np.nan) for n, x in flight.outputs.items()}
+    assert thinned(s.sheet, Flight(flight.time, flight.channels, outputs, units=flight.units)).thin is None
 
 
 def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_does_not(
