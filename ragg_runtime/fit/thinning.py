@@ -61,7 +61,7 @@ MISSING = 0.25
 LOST = 0.05
 """Share of the samples that may be lost beside those that are missing."""
 
-BLOCK = 1 << 15
+BLOCK = 1 << 14
 """Samples that are made at a time."""
 
 
@@ -173,7 +173,8 @@ def _kept(o: Observation, thin: Thin) -> Observation:
     time = np.array(r.time[half :: thin.every][:size])
     series = [room_like(x, (size,)) for x in o.series]
     wide = {n: room_like(x, (size,)) for n, x in channels.items()}
-    for some in stretches(size, BLOCK):
+
+    def put(some: slice) -> None:
         rows = thin.part(some).span
         there = np.array(r.valid[rows])
         for x, found in zip(o.series, series, strict=True):
@@ -183,6 +184,9 @@ def _kept(o: Observation, thin: Thin) -> Observation:
             # of a disc's angle turns may be missing
             wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
         let_go(*o.series, *channels.values(), r.valid, *series, *wide.values())
+
+    for _ in mapped(put, stretches(size, BLOCK)):
+        pass
     record = replace(
         r,
         time=time,

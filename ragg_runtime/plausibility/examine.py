@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import one_thread
+from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
@@ -120,11 +120,14 @@ def _without_motion_spikes(flight: Flight) -> Flight:
     """Spikes of the motion record interpolated, and their samples marked as missing."""
     channels, valid = dict(flight.channels), flight.valid.copy()
     notes: dict[str, str] = {}
-    for name in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION):
-        if name not in channels:
-            continue
-        mask, x = glitches(channels[name], flight.valid)
-        let_go(channels[name])
+
+    def looked_through(name: str) -> tuple[Mask, Array]:
+        found = glitches(flight.channels[name], flight.valid)
+        let_go(flight.channels[name])
+        return found
+
+    names = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION) if n in channels]
+    for name, (mask, x) in zip(names, mapped(looked_through, names), strict=True):
         if not mask.any():
             continue
         channels[name] = x
