@@ -80,19 +80,23 @@ def thinned(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 def _most(at: Point, o: Observation) -> int:
     """One in how many of its samples is enough."""
-    if o.recorded.demodulated or not longer(o):
+    choices = [k for k in EVERY if o.record.rate >= k * LEAST_RATE]
+    if o.recorded.demodulated or not longer(o) or not choices:
         return 1
     some = spread(heard(o), EXCERPTS)
     pieces = [o.part(slice(s.rows.start, min(s.rows.start + EXCERPT, s.rows.stop))) for s in some]
     whole = [linearised(at, _everywhere(x))[:-1] for x in pieces]
-    for every in EVERY:
+
+    def enough(every: int) -> bool:
         thin = [_thin(x, every) for x in pieces]
-        short = len(pieces[0].record.time) < SHORT * len(thin[0].taps)
-        if o.record.rate < every * LEAST_RATE or short or not _alike(at, thin, whole):
-            continue
-        lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
-        return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
-    return 1
+        short = min(len(x.record.time) for x in pieces) < SHORT * len(thin[0].taps)
+        return not short and _alike(at, thin, whole)
+
+    if not enough(choices[-1]):  # a motion that shakes is soon known
+        return 1
+    every = next(k for k in choices if enough(k))
+    lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
+    return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
 
 
 def _everywhere(o: Observation) -> Observation:
@@ -139,6 +143,8 @@ def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
         o = replace(_kept(thin.whole, thin), thin=None)
         # towards an end or a gap derivatives are of one side
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
+        if 2 * np.sum(inside) < len(inside):
+            return False  # so few samples tell nothing of the rest
         wanted = thin.kept(columns)[:, :, inside]
         made = linearised(at, o)[:-1, :, inside]
         square = square + np.sum(wanted**2, axis=(1, 2))

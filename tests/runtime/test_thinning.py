@@ -199,6 +199,18 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     assert np.std((found - expected)[used]) < 0.01 * np.std(expected)
 
 
+def test_where_gaps_leave_nothing_to_compare_nothing_is_thinned(flown: tuple[Scenario, Flight]) -> None:
+    """Gaps of half a second every five: between them no sample is far enough from one for its derivatives to be judged."""
+    s, flight = flown
+    valid = np.mod(flight.time, 5.0) > 0.5
+    o = observation.observe(
+        Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units), s.sheet
+    )
+    at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
+    piece = o.part(slice(0, 12_000))
+    assert not thinning._alike(at, [thinning._thin(piece, EVERY)], [linearised(at, piece)[:-1]])
+
+
 def test_where_many_samples_are_missing_nothing_is_thinned(flown: tuple[Scenario, Flight]) -> None:
     """In the last third of a flight the output is recorded every tenth of a second: the low-pass would find nothing there."""
     s, flight = flown
