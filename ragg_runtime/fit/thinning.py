@@ -94,7 +94,7 @@ def _most(at: Point, o: Observation) -> int:
 
     if not enough(choices[-1]):  # a motion that shakes is soon known
         return 1
-    every = next(k for k in choices if enough(k))
+    every = next((k for k in choices[:-1] if enough(k)), choices[-1])
     lost = np.mean(o.record.valid) - np.mean(_supported(o.record.valid, _thin(o, every)))
     return 1 if lost > LOST or any(_has_line(at, _thin(o.part(s.rows), every)) for s in some) else every
 
