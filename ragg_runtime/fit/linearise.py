@@ -19,6 +19,7 @@ from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
+from ragg_runtime.model.record import made_of
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,16 @@ class Point:
         """Which rows of chain and signatures make which columns."""
         chain, signatures = self.model.chain, self.model.signatures
         return _Rows.of(chain, self.base, 0), _Rows.of(signatures, self.candidates, len(self.base))
+
+    @property
+    def name(self) -> tuple[Chain, bytes]:
+        """What tells the residuals of points apart."""
+        return self.model.chain, self.p.tobytes()
+
+    @cached_property
+    def channels(self) -> frozenset[str]:
+        """What of a record the outputs are made of."""
+        return made_of(self.model.chain.INPUTS)
 
 
 PART = 4096
@@ -226,7 +237,7 @@ def _left_of_the_whole(at: Point, thin: Thin, residual: Array) -> None:
         part = thin.part(some)
         rows = (part.rows.start, part.rows.stop)
         if rows not in known:
-            known[rows] = part.kept(left(at, part.source()))
+            known[rows] = part.kept(left(at, part.source(at.channels)))
         residual[:, some] = known[rows]
 
     for _ in mapped(put, stretches(residual.shape[1], PART)):
@@ -235,13 +246,12 @@ def _left_of_the_whole(at: Point, thin: Thin, residual: Array) -> None:
 
 def _known(at: Point, thin: Thin) -> dict[tuple[int, int], Array]:
     """What is known of the residual about a point: every pass over a long flight asks for the same again."""
-    point = (at.model.chain, at.p.tobytes())
     with _ONE_THREAD:
-        if point not in thin.memo:
-            while len(thin.memo) >= REMEMBERED:
-                del thin.memo[next(iter(thin.memo))]
-            thin.memo[point] = {}
-        return thin.memo[point]
+        found = thin.memo.pop(at.name, {})
+        while len(thin.memo) >= REMEMBERED:  # what was asked for longest ago
+            del thin.memo[next(iter(thin.memo))]
+        thin.memo[at.name] = found
+        return found
 
 
 _ONE_THREAD = Lock()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -146,16 +146,16 @@ class Observation:
         thin = self.thin
         if thin is not None:
             rows = slice(0, len(self.record.time))
-            thin = replace(thin, whole=thin.source().with_motion(change), rows=rows, memo={})
+            thin = replace(thin, whole=thin.source().with_motion(change), rows=rows, memo={}, taken={})
         return replace(self, record=record, thin=thin, memo=[])
 
-    def part(self, rows: slice) -> Observation:
-        """Some of the samples."""
+    def part(self, rows: slice, only: Container[str] | None = None) -> Observation:
+        """Some of the samples; ``only`` some of their channels."""
         if (rows.start, rows.stop) == (0, len(self.record.time)):
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
         let_go(*self.series)
-        record = self.record.part(rows)
+        record = self.record.part(rows, only)
         return Observation(
             recorded=self.recorded,
             record=record,
@@ -191,6 +191,8 @@ class Thin:
     rows: slice
     memo: dict[Any, dict[tuple[int, int], Array]] = field(default_factory=dict, compare=False, repr=False)
     """What the whole leaves about the last few points (:mod:`ragg_runtime.fit.linearise`): point -> rows -> residuals."""
+    taken: dict[Any, float] = field(default_factory=dict, compare=False, repr=False)
+    """What thinning took of it about points (:mod:`ragg_runtime.fit.thinning`)."""
 
     @property
     def share(self) -> float:
@@ -207,9 +209,9 @@ class Thin:
         """Which samples of the whole these are made of."""
         return slice(self.rows.start * self.every, (self.rows.stop - 1) * self.every + len(self.taps))
 
-    def source(self) -> Observation:
-        """The part of the whole that these are made of."""
-        return self.whole.part(self.span)
+    def source(self, only: Container[str] | None = None) -> Observation:
+        """The part of the whole that these are made of; ``only`` some of its channels."""
+        return self.whole.part(self.span, only)
 
     def kept(self, x: Array) -> Array:
         """Series (..., N) over the :attr:`span`, thinned: (..., n)."""

@@ -32,8 +32,8 @@ from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 
-EVERY = (10, 8, 6, 5, 4, 3, 2)
-"""One in so many samples may be kept."""
+EVERY = (12, 10, 8, 6, 5, 4, 3)
+"""One in so many samples may be kept; of one in two the whole record's residuals cost what the rest spares."""
 
 PASSED, STOPPED = 0.8, 1.2
 """Edges of the low-pass over half the rate of the samples that are kept: what folds falls between them."""
@@ -41,8 +41,8 @@ PASSED, STOPPED = 0.8, 1.2
 ATTENUATION = 100.0
 """Of the low-pass, dB: of the output, a million times the noise, what folds is a tenth of that and no motion."""
 
-LEAST_RATE = 10.0
-"""Hz, of the samples that are kept: then all up to 4 Hz passes, the fourth multiple of any spin rate and the motion about it."""
+LEAST_RATE = 8.0
+"""Hz, of the samples that are kept: then all up to 3 Hz passes, the fourth multiple of any spin rate and the motion about it."""
 
 ALIKE, NEAR = 1e-3, 0.2
 """Difference of a column made along the thinned motion from the thinned column, over the latter, up to which they are the same: of the
@@ -61,8 +61,8 @@ MISSING = 0.25
 LOST = 0.05
 """Share of the samples that may be lost beside those that are missing."""
 
-BLOCK = 1 << 14
-"""Samples that are made at a time."""
+BLOCK, TOGETHER = 1 << 12, 32
+"""Samples, and columns, that are made at a time: more take memory and no less time."""
 
 
 def thinned(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
@@ -122,10 +122,12 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
     if o.thin is None:
         return 0.0
     at = Point(model, instrument, p, with_candidates=False)
+    if at.name in o.thin.taken:
+        return o.thin.taken[at.name]
     whole, taps = o.thin.whole, o.thin.taps
 
     def taken(s: Segment) -> Array:
-        part = whole.part(s.rows)
+        part = whole.part(s.rows, at.channels)
         e = part.signs @ left(at, part)
         slow, inner = convolved(e, taps), slice(len(taps) // 2, len(e) - len(taps) // 2)
         # the whole less the slow, one sample at a time: what both hold, an unknown gradient say, cancels
@@ -133,7 +135,9 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
         return np.array([np.sum(square), len(square)])
 
     square, count = sum(mapped(taken, heard(whole)), np.zeros(2))
-    return max(0.0, float(square) / max(float(count), 1.0))
+    found = max(0.0, float(square) / max(float(count), 1.0))
+    o.thin.taken[at.name] = found
+    return found
 
 
 def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
@@ -145,10 +149,10 @@ def _alike(at: Point, pieces: Sequence[Thin], whole: Sequence[Array]) -> bool:
         inside = ndimage.binary_erosion(o.record.valid, iterations=HALO)
         if 2 * np.sum(inside) < len(inside):
             return False  # so few samples tell nothing of the rest
-        wanted = thin.kept(columns)[:, :, inside]
-        made = linearised(at, o)[:-1, :, inside]
-        square = square + np.sum(wanted**2, axis=(1, 2))
-        off = off + np.sum((made - wanted) ** 2, axis=(1, 2))
+        made = linearised(at, o)[:-1]
+        wanted = np.concatenate([thin.kept(columns[some]) for some in stretches(len(columns), TOGETHER)])
+        square = square + np.sum(wanted[:, :, inside] ** 2, axis=(1, 2))
+        off = off + np.sum((made - wanted)[:, :, inside] ** 2, axis=(1, 2))
     most = np.where(np.arange(len(off)) < len(at.base), ALIKE, NEAR)
     return bool(np.all(off <= most**2 * square))
 

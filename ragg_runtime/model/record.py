@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -185,19 +185,20 @@ class Record:
             return np.abs(self.channels[inner])
         return np.sqrt(sum((self.channels[f"{inner}_{k}"] ** 2 for k in "xyz"), np.zeros(len(self.time))))
 
-    def part(self, rows: slice) -> Record:
-        """Some of the samples, copied, with what derivatives need of their neighbours."""
+    def part(self, rows: slice, only: Container[str] | None = None) -> Record:
+        """Some of the samples, copied, with what derivatives need of their neighbours; ``only`` some channels, and the angle."""
         n = len(self.time)
         a, b = rows.start, rows.stop
         if (a, b) == (0, n):
             return self
         first, last = max(0, a - HALO), min(n, b + HALO)
-        wide = {k: np.array(x[first:last]) for k, x in self.wide.items()}
+        wanted = [k for k in self.wide if only is None or k in only or k == self.angle_column]
+        wide = {k: np.array(self.wide[k][first:last]) for k in wanted}
         for x in wide.values():
-            if not np.isfinite(np.sum(x)):  # cheap, and true wherever something is not finite
+            if not np.isfinite(x @ x):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
-        let_go(*self.wide.values(), self.valid, self.time)
+        let_go(*(self.wide[k] for k in wanted), self.valid, self.time)
         time = np.array(self.time[rows])
         halo = (a - first, last - b)
         return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
@@ -367,6 +368,11 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
         axes=None if disc.level else disc.across,
         demodulation=flight.demodulation or instrument.demodulation or OURS,
     )
+
+
+def made_of(names: Iterable[str]) -> frozenset[str]:
+    """The channels that series of these names need: themselves, and what they are time derivatives of."""
+    return frozenset(x for n in names for x in (n, n.removeprefix("d_"), n.removeprefix("d2_")))
 
 
 def quantities_of(r: Record, rows: slice) -> Callable[[str], Array]:
