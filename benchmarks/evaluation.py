@@ -31,9 +31,11 @@ STREAMING, IN_CACHE = 1_000_000, 16_000
 START, RATE = 1e4, 100.0  # s, Hz
 OURS, OURS_NUMPY = "generated C, compiled", "generated NumPy"
 TARGETS: Mapping[str, tuple[float, float]] = {
-    "heyoka cfunc": (1.4, 2.0), "JAX jit": (2.5, 2.5), "numba": (3.0, 3.0),
+    "heyoka cfunc": (1.4, 2.2), "JAX jit": (2.5, 2.5), "numba": (3.0, 3.0),
 }  # fmt: skip
 """Rival -> at least so many times our time, streaming and in cache."""
+NEAR = 1.3
+"""Most times the memory bound that ours may take, streaming."""
 GOALS: Mapping[str, tuple[float, float]] = {OURS: (15.0, 10.0), OURS_NUMPY: (350.0, 350.0)}
 """Largest time a sample, ns, on a machine of 2.5 GHz with AVX-512 and 11 GB/s."""
 SLOW = ("SymPy lambdify", "NumPy in blocks", OURS_NUMPY)
@@ -166,9 +168,11 @@ def run() -> list[Row]:
                 "nothing is computed: the memory bound", low=low, high=high)
         )  # fmt: skip
         r = ratio(times[OURS], floor)
+        extra = {"target": f"at most {NEAR:g}", "met": r.value <= NEAR} if n == STREAMING else {}
         rows.append(
-            Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high, better="lower")
-        )
+            Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high,
+                better="lower", **extra)
+        )  # fmt: skip
     rows += limits.rows(1e9 * times[OURS].median / IN_CACHE)
     rows += instruments.rows(t, x, p)
     if len(cores) > 1:

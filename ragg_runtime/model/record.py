@@ -195,7 +195,7 @@ class Record:
         wanted = [k for k in self.wide if only is None or k in only or k == self.angle_column]
         wide = {k: np.array(self.wide[k][first:last]) for k in wanted}
         for x in wide.values():
-            if not np.isfinite(x @ x):  # cheap, and true wherever something is not finite
+            if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
         let_go(*(self.wide[k] for k in wanted), self.valid, self.time)

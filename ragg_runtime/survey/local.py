@@ -26,9 +26,9 @@ from ragg_runtime.survey.task import Job, Record, examine
 ATTEMPTS = 3
 """How often a flight is tried whose worker dies or runs out of memory."""
 
-METHOD = "forkserver" if sys.platform == "linux" else "spawn"
+METHOD = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
 """How a worker begins: forked from a small process that has imported the program once for all, and holds no locks; elsewhere every
-one imports it anew (1.3 s of its processor).
+one imports it anew (1.3 s of its processor). Before Python 3.11.1 any user of the machine could reach such a process (CVE-2022-42919).
 """
 
 _SAFE_PATH = "PYTHONSAFEPATH"
