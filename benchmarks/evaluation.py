@@ -121,6 +121,19 @@ def rows_of(
     return rows
 
 
+def bound_rows(ours: Timing, floor: Timing, n: int, label: str) -> list[Row]:
+    """What the machine allows, and how near we come."""
+    low, high = (1e9 * q / n for q in floor.quartiles)
+    r = ratio(ours, floor)
+    extra = {"target": f"at most {NEAR:g}", "met": r.value <= NEAR} if n == STREAMING else {}
+    return [
+        Row(f"reading 16 series, writing one, {label}", 1e9 * floor.median / n, "ns",
+            "nothing is computed: the memory bound", low=low, high=high),
+        Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high,
+            better="lower", **extra),
+    ]  # fmt: skip
+
+
 def run() -> list[Row]:
     """Accuracy, times streaming and in cache, ratios, bounds, other instruments, threads."""
     import numpy as np
@@ -162,17 +175,7 @@ def run() -> list[Row]:
         rows += rows_of(times, n, label, which, wrong)
         slow.pop("bound")
         rows += [r for r in rows_of(slow, n, label, which, wrong) if not r.name.startswith(OURS)]
-        low, high = (1e9 * q / n for q in floor.quartiles)
-        rows.append(
-            Row(f"reading 16 series, writing one, {label}", 1e9 * floor.median / n, "ns",
-                "nothing is computed: the memory bound", low=low, high=high)
-        )  # fmt: skip
-        r = ratio(times[OURS], floor)
-        extra = {"target": f"at most {NEAR:g}", "met": r.value <= NEAR} if n == STREAMING else {}
-        rows.append(
-            Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high,
-                better="lower", **extra)
-        )  # fmt: skip
+        rows += bound_rows(times[OURS], floor, n, label)
     rows += limits.rows(1e9 * times[OURS].median / IN_CACHE)
     rows += instruments.rows(t, x, p)
     if len(cores) > 1:
