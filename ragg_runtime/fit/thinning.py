@@ -41,8 +41,8 @@ PASSED, STOPPED = 0.8, 1.2
 ATTENUATION = 100.0
 """Of the low-pass, dB: of the output, a million times the noise, what folds is a tenth of that and no motion."""
 
-LEAST_RATE = 8.0
-"""Hz, of the samples that are kept: then all up to 3 Hz passes, the fourth multiple of any spin rate and the motion about it."""
+LEAST_RATE, ABOVE = 8.0, 2.0
+"""Hz, of the samples that are kept, and of what passes beyond the fourth multiple of the spin rate: the motion about it."""
 
 ALIKE, NEAR = 1e-3, 0.2
 """Difference of a column made along the thinned motion from the thinned column, over the latter, up to which they are the same: of the
@@ -80,7 +80,8 @@ def thinned(model: Model, instrument: Instrument, observations: Sequence[Observa
 
 def _most(at: Point, o: Observation) -> int:
     """One in how many of its samples is enough."""
-    choices = [k for k in EVERY if o.record.rate >= k * LEAST_RATE]
+    least = max(LEAST_RATE, 2 * (4 * o.record.spin_frequency + ABOVE) / PASSED)
+    choices = [k for k in EVERY if o.record.rate >= k * least]
     if o.recorded.demodulated or not longer(o) or not choices:
         return 1
     some = spread(heard(o), EXCERPTS)

@@ -157,6 +157,15 @@ def _cut(flight: Flight, n: int) -> Flight:
     )
 
 
+def test_of_a_disc_that_turns_fast_more_is_kept(flown: tuple[Scenario, Flight], whole: Observation) -> None:
+    """The fourth multiple of the spin rate passes, and the motion about it, whatever the columns say."""
+    s, _ = flown
+    fast = replace(whole, record=replace(whole.record, spin_frequency=1.0))
+    (o,) = thinning.thinned(model.packaged(), s.sheet, [fast])
+    assert o.thin is not None and o.record.rate >= 15.0
+    assert thinning.PASSED * o.record.rate / 2 >= 4 * 1.0 + thinning.ABOVE
+
+
 def test_a_motion_that_shakes_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
     """A vibration at 30 Hz that comes and goes is rectified by K2 into the band: its square is slow, and must not be lost."""
     s, flight = flown
