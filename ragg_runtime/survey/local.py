@@ -11,10 +11,9 @@ import multiprocessing
 import os
 import queue
 import signal
-import sys
 import threading
 from collections import deque
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
@@ -25,11 +24,6 @@ from ragg_runtime.survey.task import Job, Record, examine
 
 ATTEMPTS = 3
 """How often a flight is tried whose worker dies or runs out of memory."""
-
-METHOD = "forkserver" if sys.platform == "linux" and sys.version_info >= (3, 11, 1) else "spawn"
-"""How a worker begins: forked from a small process that has imported the program once for all, and holds no locks; elsewhere every
-one imports it anew (1.3 s of its processor). Before Python 3.11.1 any user of the machine could reach such a process (CVE-2022-42919).
-"""
 
 _SAFE_PATH = "PYTHONSAFEPATH"
 """Set for processes that this program starts: they do not look into the current folder at all."""
@@ -103,11 +97,9 @@ class _Worker:
         return self.ready.done() and self.ready.exception() is None
 
     def _start(self) -> None:
-        context = multiprocessing.get_context(METHOD)
-        if METHOD == "forkserver":
-            context.set_forkserver_preload([examine.__module__])
+        context = multiprocessing.get_context("spawn")  # the same on every system; no locks are inherited
         with _inherited():
-            self.pool = ProcessPoolExecutor(1, context, initializer=_begin, initargs=(dict(os.environ),))
+            self.pool = ProcessPoolExecutor(1, context, initializer=_begin)
             self.ready = self.pool.submit(os.getpid)
 
     def renew(self) -> None:
@@ -167,10 +159,8 @@ def _inherited() -> Iterator[None]:
                 os.environ[name] = value
 
 
-def _begin(environment: Mapping[str, str]) -> None:
-    """First call in a worker: Ctrl-C is the parent's, and so is the environment; a worker does not outlive its parent."""
-    os.environ.clear()  # that of the process which workers are forked from is as old as the first of them
-    os.environ.update(environment)
+def _begin() -> None:
+    """First call in a worker: Ctrl-C is the parent's; a worker does not outlive its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     reuse_memory()
     parent = multiprocessing.parent_process()

@@ -142,21 +142,6 @@ def test_the_number_of_workers_changes_no_bit(flights: Flights, whole: Survey) -
     assert json.dumps(again.as_json()) == json.dumps(whole.as_json())
 
 
-def test_a_worker_has_the_environment_in_which_its_survey_was_called(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Not that of the process from which it is forked, which is as old as the first worker; nor does that look around in the folder."""
-    for value in ("first", "second"):
-        monkeypatch.setenv("A_VARIABLE_OF_THE_CALLER", value)
-        w = local._Worker()
-        try:
-            found = [
-                w.pool.submit(os.getenv, name).result()
-                for name in ("A_VARIABLE_OF_THE_CALLER", local._SAFE_PATH)
-            ]
-            assert found == [value, "1"]
-        finally:
-            w.end()
-
-
 def test_a_killed_worker_is_replaced_and_its_flight_done_again(flights: Flights, whole: Survey) -> None:
     killed: list[int] = []
 
