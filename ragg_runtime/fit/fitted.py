@@ -162,9 +162,9 @@ class Fitted:
         """What the digits of the files make in each observation."""
         return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
-    @cached_property
+    @property
     def beyond(self) -> tuple[float, ...]:
-        """Mean square, V^2, of what thinning took of each observation: no column reaches there, it is noise."""
+        """Mean square, V^2, of what thinning took of each observation, which remembers it: no column reaches there, it is noise."""
         return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)
 
     @cached_property

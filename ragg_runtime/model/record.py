@@ -370,9 +370,14 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     )
 
 
+def differentiated(name: str) -> str:
+    """What a series ``d_<channel>`` or ``d2_<channel>`` is the time derivative of; any other is itself."""
+    return name.removeprefix("d2_").removeprefix("d_")
+
+
 def made_of(names: Iterable[str]) -> frozenset[str]:
     """The channels that series of these names need: themselves, and what they are time derivatives of."""
-    return frozenset(x for n in names for x in (n, n.removeprefix("d_"), n.removeprefix("d2_")))
+    return frozenset(x for n in names for x in (n, differentiated(n)))
 
 
 def quantities_of(r: Record, rows: slice) -> Callable[[str], Array]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.instrument.units import Units
+from ragg_runtime.model.record import differentiated
 from ragg_runtime.plausibility.subsample import Rows
 
 Array = NDArray[np.float64]
@@ -76,7 +77,7 @@ def _scaled(names: tuple[str, ...], factor: float) -> Callable[[Rows], Rows]:
 
 def _stem(name: str) -> str:
     """``a`` of ``a_x`` and of its time derivative ``d_a_x``."""
-    return name.removeprefix("d_").removeprefix("d2_").rsplit("_", 1)[0]
+    return differentiated(name).rsplit("_", 1)[0]
 
 
 def _outputs(rows: Rows, units_: Units, written: Mapping[str, str]) -> Iterator[Mistake]:

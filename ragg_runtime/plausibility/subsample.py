@@ -17,7 +17,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.demodulation import kernel
-from ragg_runtime.model.record import GRADIENTS, SPIN, disc_angle, spin, spin_degree
+from ragg_runtime.model.record import GRADIENTS, SPIN, differentiated, disc_angle, spin, spin_degree
 from ragg_runtime.model.recorded import Recorded, recorded
 from ragg_runtime.signals.derivative import differentiate
 from ragg_runtime.signals.fir import convolved
@@ -285,7 +285,7 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
             derived[name] = np.broadcast_to(one, len(flight))
             continue
         order = 2 if name.startswith("d2_") else 1
-        base = name.removeprefix("d2_").removeprefix("d_")
+        base = differentiated(name)
         if base != name and base in flight.channels:
             series = flight.channels[base]
             for _ in range(order):
