@@ -24,15 +24,15 @@ def _as_json(s: Scenario, flight: Flight, threads: int, monkeypatch: pytest.Monk
 @pytest.mark.parametrize(
     ("hidden", "rows", "known"),
     [
-        pytest.param({"bias-step": {"dK0": [3e-8, 0, 0, 0], "t_step": 150.0}}, 30000, True, id="step"),
-        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 4e-7, 0]}}, 900, True, id="segments"),
-        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 4e-7, 0]}}, 30000, False, id="unknown gradient"),
+        pytest.param({"bias-step": {"dK0": [3e-8, 0, 0, 0], "t_step": 300.0}}, 30000, True, id="step"),
+        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 1700, True, id="segments"),
+        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 30000, False, id="unknown gradient"),
     ],
 )
 def test_figures_do_not_know_how_many_threads_there_were(
     hidden: Hidden, rows: int, known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    s = scenario(61, duration=300.0)
+    s = scenario(61, duration=600.0)
     flight = s.simulate(hidden, record_gradient=known).flight()
     for module in (passes, prepared_flight):
         monkeypatch.setattr(module, "ROWS", rows)
