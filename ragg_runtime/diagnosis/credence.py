@@ -6,27 +6,19 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.strong import Taken
-from ragg_runtime.evidence.probability import Probabilities, summed, weights
+from ragg_runtime.evidence import probability
+from ragg_runtime.evidence.probability import Probabilities
 from ragg_runtime.evidence.selection import Field
 
 
 def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
     """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
-    logs, effects = weights(field)
+    sets = probability.weighed(field)
     for t in steps:
-        options = (t.effect, *t.rivals)
-        made: dict[tuple[str, ...], float] = {}
-        for s, log in logs.items():
-            for o in options:
-                key = s if o in s else tuple(sorted((*s, o)))
-                own = log - math.log(len(options))
-                made[key] = own if key not in made else float(np.logaddexp(made[key], own))
-        logs, effects = made, [*effects, *options]
-    return summed(logs, sorted(set(effects)))
+        sets = sets.with_one_of((t.effect, *t.rivals))
+    return sets.probabilities()
 
 
 def with_probability(r: Ranked, found: Probabilities) -> Ranked:

@@ -15,11 +15,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain, combinations, compress
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
 
 from ragg_runtime.evidence.likelihood_ratio import sub_blocks
 from ragg_runtime.evidence.selection import Field
@@ -52,13 +51,51 @@ class Probabilities:
         Effect id -> probability that it is missing in the model.
     credible
         Smallest list of sets, the most probable first, that together hold :data:`HELD`; the empty set is ``()``.
-    sets
-        Probability of every set that has weight.
     """
 
     of: Mapping[str, float]
     credible: tuple[tuple[str, ...], ...]
-    sets: Mapping[tuple[str, ...], float]
+
+
+@dataclass(frozen=True)
+class Sets:
+    """Sets of effects and their weights; twenty thousand of them, so no set has an object of its own.
+
+    Attributes
+    ----------
+    effects
+        Effects, sorted.
+    holds
+        Which of them each set holds (sets, effects).
+    logs
+        Logarithm of each set's weight (sets,).
+    """
+
+    effects: tuple[str, ...]
+    holds: NDArray[np.bool_]
+    logs: Array
+
+    def with_one_of(self, options: Sequence[str]) -> Sets:
+        """The sets where one of ``options`` is sure to be present, each as probable as the others beforehand."""
+        effects = tuple(sorted({*self.effects, *options}))
+        holds = np.zeros((len(options), len(self.logs), len(effects)), dtype=bool)
+        holds[:, :, [effects.index(e) for e in self.effects]] = self.holds
+        for way, option in zip(holds, options, strict=True):
+            way[:, effects.index(option)] = True
+        logs = np.tile(self.logs - np.log(len(options)), len(options))
+        return Sets(effects, *_merged(holds.reshape(-1, len(effects)), logs))
+
+    def probabilities(self) -> Probabilities:
+        """What they say of each effect."""
+        top = self.logs.max()
+        kept = np.flatnonzero(self.logs > top - KEPT)
+        share = np.exp(self.logs[kept] - top)
+        share /= share.sum()
+        of = np.sum(share[:, None] * self.holds[kept], axis=0)
+        order = np.argsort(-share, kind="stable")
+        enough = int(np.searchsorted(np.cumsum(share[order]), HELD)) + 1
+        credible = tuple(tuple(compress(self.effects, self.holds[s])) for s in kept[order[:enough]])
+        return Probabilities(dict(zip(self.effects, np.minimum(of, 1.0).tolist(), strict=True)), credible)
 
 
 @dataclass(frozen=True)
@@ -71,49 +108,55 @@ class _Block:
     weight: float
 
 
-def probabilities(f: Field, given: Sequence[str] = ()) -> Probabilities:
-    """Weigh all sets of up to :data:`LARGEST` of the field's effects; ``given`` are sure and projected out beforehand."""
-    return summed(*weights(f, given))
-
-
-def weights(f: Field, given: Sequence[str] = ()) -> tuple[dict[tuple[str, ...], float], list[str]]:
-    """Logarithms of the weights of all those sets, and the effects in them."""
-    P, floor = f.P, f.floor
-    if given:
-        P, floor = f.onto([n for e in given for n, _ in f.candidates[e]])
-    blocks = [b for e in f.candidates if e not in given for b in _blocks(f, P, floor, e)]
-    effects = sorted({b.effect for b in blocks})
-    if not effects:
-        return {(): 0.0}, []
+def weighed(f: Field) -> Sets:
+    """All sets of up to :data:`LARGEST` of the field's effects, weighed."""
+    norms = np.linalg.norm(f.P, axis=0)
+    seen = norms > f.floor
+    blocks = [b for e in sorted(f.candidates) for b in _blocks(f, e, norms, seen)]
+    effects = tuple(dict.fromkeys(b.effect for b in blocks))
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
     alone = _evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
-    ways: dict[tuple[str, ...], list[float]] = {(): [0.0]}
-    for b, value in zip(blocks, alone, strict=True):
-        ways.setdefault((b.effect,), []).append(float(value) + odds)
-    logs = {s: float(logsumexp(v)) for s, v in ways.items()}
-    best = sorted(_best(blocks, alone), key=lambda b: b.effect)
+    # the shortest block first: sets then have fewer shapes, each of which is worked on at once
+    best = sorted(_best(blocks, alone), key=lambda b: (len(b.along), b.effect))
+    place = np.array([effects.index(b.effect) for b in best], dtype=np.intp)
+    every = [np.array([effects.index(b.effect) for b in blocks], dtype=np.intp)[:, None]]
+    logs = [np.zeros(1), alone + odds]
     for size in range(2, LARGEST + 1):
-        sets = np.array(list(combinations(range(len(best)), size)), dtype=np.intp).reshape(-1, size)
-        values = _evidence(best, sets) + size * odds
-        logs.update(zip(combinations((b.effect for b in best), size), values.tolist(), strict=True))
-    return logs, effects
+        flat = chain.from_iterable(combinations(range(len(best)), size))
+        sets = np.fromiter(flat, dtype=np.intp).reshape(-1, size)
+        every.append(place[sets])
+        logs.append(_evidence(best, sets) + size * odds)
+    holds = np.zeros((sum(map(len, logs)), len(effects)), dtype=bool)
+    first = 1  # the empty set
+    for sets in every:
+        holds[np.arange(first, first + len(sets))[:, None], sets] = True
+        first += len(sets)
+    return Sets(effects, *_merged(holds, np.concatenate(logs)))
 
 
-def _blocks(f: Field, P: Array, floor: Array, effect: str) -> list[_Block]:
-    """The ways in which an effect may be present, those that the record can see."""
+def _merged(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], Array]:
+    """Each set once, with the sum of its weights; in an order that depends on nothing but the sets."""
+    bits = np.packbits(holds, axis=1)
+    order = np.lexsort(np.vstack([np.zeros(len(logs), dtype=np.uint8), 255 - bits.T])[::-1])
+    bits = bits[order]
+    new = np.concatenate([[True], np.any(bits[1:] != bits[:-1], axis=1)])
+    return holds[order[new]], np.logaddexp.reduceat(logs[order], np.flatnonzero(new))
+
+
+def _blocks(f: Field, effect: str, norms: Array, seen: NDArray[np.bool_]) -> list[_Block]:
+    """The ways in which an effect may be present; of columns (of these norms) those that the record has ``seen``."""
     made = []
     for places, count in sub_blocks(f.candidates[effect]):
-        X = P[:, list(places)]
-        usable = np.linalg.norm(X, axis=0) > floor[list(places)]
-        if not usable.any():
+        usable = [k for k in places if seen[k]]
+        if not usable:
             continue
-        if len(places) == 1:
-            Q = X / np.linalg.norm(X)
+        if len(usable) == 1:
+            Q = f.P[:, usable] / norms[usable]
         else:
-            U, s, _ = np.linalg.svd(X[:, usable], full_matrices=False)
+            U, s, _ = np.linalg.svd(f.P[:, usable], full_matrices=False)
             Q = U[:, s > s[0] * 1e-7]
         weight = -float(np.log(count)) - f.penalty.get(effect, 0.0)
-        made.append(_Block(effect=effect, Q=Q, along=Q.T @ P[:, -1], weight=weight))
+        made.append(_Block(effect=effect, Q=Q, along=Q.T @ f.P[:, -1], weight=weight))
     return made
 
 
@@ -135,37 +178,31 @@ def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
     inner = Q.T @ Q
     length = np.array([len(b.along) for b in blocks])
     start = np.cumsum(length) - length
-    # the shortest block first: fewer shapes, each of which is worked on at once
-    sets = np.take_along_axis(sets, np.argsort(length[sets], axis=1, kind="stable"), axis=1)
-    chi2, freedom = np.empty(len(sets)), np.sum(length[sets], axis=1)
-    shapes, which = np.unique(length[sets], axis=0, return_inverse=True)
-    for n, shape in enumerate(shapes):
-        members = np.flatnonzero(which.ravel() == n)
-        first = start[sets[members]]
-        at = np.concatenate([first[:, [m]] + np.arange(k) for m, k in enumerate(shape)], axis=1)
-        G = inner[at[:, :, None], at[:, None, :]] + RIDGE * np.eye(at.shape[1])
-        chi2[members] = np.sum(y[at] * np.linalg.solve(G, y[at][:, :, None])[:, :, 0], axis=1)
+    lengths = length[sets]
+    chi2, freedom = np.empty(len(sets)), np.sum(lengths, axis=1)
+    shape = lengths @ (1 + length.max()) ** np.arange(sets.shape[1])
+    for s in np.unique(shape):
+        members = np.flatnonzero(shape == s)
+        first = start[sets[members]].T
+        at = np.concatenate(
+            [x + np.arange(k)[:, None] for x, k in zip(first, lengths[members[0]], strict=True)]
+        )
+        chi2[members] = _explained(inner[at[:, None], at[None, :]], y[at])
     weight = np.sum(np.array([b.weight for b in blocks])[sets], axis=1)
     shrink = STRENGTHS / (1.0 + STRENGTHS)
     each = 0.5 * chi2[:, None] * shrink - 0.5 * freedom[:, None] * np.log1p(STRENGTHS)
-    averaged: Array = np.asarray(logsumexp(each, axis=1)) - np.log(len(STRENGTHS)) + weight
+    top = each.max(axis=1)
+    averaged: Array = top + np.log(np.mean(np.exp(each - top[:, None]), axis=1)) + weight
     return averaged
 
 
-def summed(logs: Mapping[tuple[str, ...], float], effects: Sequence[str]) -> Probabilities:
-    """What logarithms of weights of sets say of each effect."""
-    top = max(logs.values())
-    kept = {s: v for s, v in logs.items() if v > top - KEPT}
-    total = float(logsumexp(list(kept.values())))
-    sets = {s: float(np.exp(v - total)) for s, v in sorted(kept.items(), key=lambda x: (-x[1], x[0]))}
-    of = dict.fromkeys(effects, 0.0)
-    for s, p in sets.items():
-        for e in s:
-            of[e] += p
-    credible, held = [], 0.0
-    for s, p in sets.items():
-        credible.append(s)
-        held += p
-        if held >= HELD:
-            break
-    return Probabilities(of={e: min(1.0, p) for e, p in of.items()}, credible=tuple(credible), sets=sets)
+def _explained(G: Array, y: Array) -> Array:
+    """y' G^-1 y (sets,) of inner products (k, k, sets) and (k, sets), by elimination in all sets at once; both are overwritten."""
+    chi2 = np.zeros(y.shape[1])
+    for j in range(len(y)):
+        pivot = G[j, j] + RIDGE
+        chi2 += y[j] ** 2 / pivot
+        factor = G[j + 1 :, j] / pivot
+        y[j + 1 :] -= factor * y[j]
+        G[j + 1 :, j + 1 :] -= factor[:, None] * G[j, j + 1 :]
+    return chi2

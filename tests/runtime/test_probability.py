@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.evidence.probability import HELD, STRENGTHS, probabilities
+from ragg_runtime.evidence.probability import HELD, STRENGTHS, weighed
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.columns import Column
 
@@ -40,9 +40,11 @@ def test_evidence_is_that_of_the_gaussian_itself() -> None:
         logs = [stats.multivariate_normal(np.zeros(30), np.eye(30) + g * H).logpdf(y) for g in STRENGTHS]
         expected[s] = np.exp(logs).mean() * (1 / 3) ** len(s) * (2 / 3) ** (3 - len(s))
     total = sum(expected.values())
-    found = probabilities(field(X, y)).sets
+    sets = weighed(field(X, y))
+    found = {tuple(np.flatnonzero(s).tolist()): log for s, log in zip(sets.holds, sets.logs, strict=True)}
+    assert sets.effects == ("e0", "e1", "e2") and found.keys() == expected.keys()
     for s, weight in expected.items():
-        assert found[tuple(f"e{k}" for k in s)] == pytest.approx(weight / total, rel=1e-6)
+        assert np.exp(found[s] - np.logaddexp.reduce(sets.logs)) == pytest.approx(weight / total, rel=1e-6)
 
 
 def test_the_credible_set_holds_the_truth_as_often_as_it_says() -> None:
@@ -58,7 +60,7 @@ def test_the_credible_set_holds_the_truth_as_often_as_it_says() -> None:
             R = np.linalg.qr(Z, mode="r")
             b = np.linalg.solve(R, rng.normal(size=len(truth))) * np.sqrt(rng.choice(STRENGTHS))
         y = Z @ b + rng.normal(size=len(X))
-        held += tuple(f"e{k}" for k in truth) in probabilities(field(X, y)).credible
+        held += tuple(f"e{k}" for k in truth) in weighed(field(X, y)).probabilities().credible
     assert held >= stats.binom.ppf(0.001, 400, HELD)
 
 
@@ -67,7 +69,7 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability() -> None:
     X = drawn(rng)
     X[:, 1] = X[:, 0]
     y = X[:, 0] * 4.0 + rng.normal(size=len(X))
-    found = probabilities(field(X, y))
+    found = weighed(field(X, y)).probabilities()
     assert found.of["e0"] == pytest.approx(found.of["e1"])
     assert 0.4 < found.of["e0"] < 0.6
     assert {("e0",), ("e1",)} <= set(found.credible)
@@ -76,6 +78,25 @@ def test_two_that_the_record_cannot_tell_apart_share_the_probability() -> None:
 def test_nothing_is_missing_in_noise() -> None:
     rng = np.random.default_rng(5)
     X = drawn(rng)
-    found = probabilities(field(X, rng.normal(size=len(X))))
+    found = weighed(field(X, rng.normal(size=len(X)))).probabilities()
     assert found.credible[0] == ()
     assert max(found.of.values()) < 0.3
+
+
+def test_what_is_sure_shares_its_place_with_its_rivals() -> None:
+    """Sets of one of two rivals more: each half of the weight, and what two ways make alike is added."""
+    sets = weighed(field(*_alike()))
+    beside = sets.with_one_of(("e1", "z"))
+    found = dict(zip((tuple(np.flatnonzero(s)) for s in beside.holds), np.exp(beside.logs), strict=True))
+    before = dict(zip((tuple(np.flatnonzero(s)) for s in sets.holds), np.exp(sets.logs), strict=True))
+    assert beside.effects == ("e0", "e1", "z")
+    assert found[1,] == pytest.approx((before[()] + before[1,]) / 2)
+    assert found[2,] == pytest.approx(before[()] / 2)
+    assert found[1, 2] == pytest.approx(before[1,] / 2)
+    assert found[0, 1] == pytest.approx((before[0,] + before[0, 1]) / 2)
+    assert sum(found.values()) == pytest.approx(sum(before.values()))
+
+
+def _alike() -> tuple[Array, Array]:
+    X = drawn(np.random.default_rng(9), 30, 2)
+    return X, X @ [0.4, 0.2] + np.random.default_rng(10).normal(size=30)
