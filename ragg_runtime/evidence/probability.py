@@ -116,8 +116,8 @@ def weighed(f: Field) -> Sets:
     effects = tuple(dict.fromkeys(b.effect for b in blocks))
     odds = -np.log(max(1, len(effects) - 1))  # of presence, with probability 1/E
     alone = _evidence(blocks, np.arange(len(blocks), dtype=np.intp)[:, None])
-    # the shortest block first: sets then have fewer shapes, each of which is worked on at once
-    best = sorted(_best(blocks, alone), key=lambda b: (len(b.along), b.effect))
+    # the longest block first: it costs nothing in a set, and all sets of one shape are worked on at once
+    best = sorted(_best(blocks, alone), key=lambda b: (-len(b.along), b.effect))
     place = np.array([effects.index(b.effect) for b in best], dtype=np.intp)
     every = [np.array([effects.index(b.effect) for b in blocks], dtype=np.intp)[:, None]]
     logs = [np.zeros(1), alone + odds]
@@ -183,11 +183,14 @@ def _evidence(blocks: Sequence[_Block], sets: NDArray[np.intp]) -> Array:
     shape = lengths @ (1 + length.max()) ** np.arange(sets.shape[1])
     for s in np.unique(shape):
         members = np.flatnonzero(shape == s)
-        first = start[sets[members]].T
-        at = np.concatenate(
-            [x + np.arange(k)[:, None] for x, k in zip(first, lengths[members[0]], strict=True)]
-        )
-        chi2[members] = _explained(inner[at[:, None], at[None, :]], y[at])
+        begins = zip(start[sets[members]].T, lengths[members[0]], strict=True)
+        at, *further = [x + np.arange(k)[:, None] for x, k in begins]
+        chi2[members] = np.sum(y[at] ** 2, axis=0)
+        if further:  # what the first block, orthonormal, leaves of the others
+            rest = np.concatenate(further)
+            shared = inner[at[:, None], rest]
+            G = inner[rest[:, None], rest] - np.einsum("aks,als->kls", shared, shared)
+            chi2[members] += _explained(G, y[rest] - np.einsum("aks,as->ks", shared, y[at]))
     weight = np.sum(np.array([b.weight for b in blocks])[sets], axis=1)
     shrink = STRENGTHS / (1.0 + STRENGTHS)
     each = 0.5 * chi2[:, None] * shrink - 0.5 * freedom[:, None] * np.log1p(STRENGTHS)
