@@ -58,7 +58,9 @@ def with_steps(
     plain = _with_penalty(f, [*available, *exact])
     first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
     unknown = [e for e in owned if e not in exact]
-    scans = dict(zip(unknown, mapped(lambda e: _scanned(f, owned[e], first), unknown), strict=True))
+    scans = dict(
+        zip(unknown, _scanned(f, [owned[e] for e in unknown], first) if unknown else (), strict=True)
+    )
     samples = {e: step.sample for e, (step, _) in scans.items()}
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
@@ -104,16 +106,17 @@ def _from(f: Fitted, exact: Mapping[str, int]) -> Fitted:
 
 
 def _scanned(
-    f: Fitted, own: Sequence[tuple[int, Column]], first: Sequence[int]
-) -> tuple[special.Step, Sequence[int]]:
-    """The most likely step with these columns, and the columns of others beside which it was found."""
+    f: Fitted, owned: Sequence[Sequence[tuple[int, Column]]], first: Sequence[int]
+) -> list[tuple[special.Step, Sequence[int]]]:
+    """The most likely step of each effect, and the columns of others beside which it was found."""
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-    found = [
-        (special.best_step(f.triangles, edges, f.n_base, given, own, f.to_nominal), given)
-        for given in ([[], first] if first else [[]])
-    ]
+    places: list[Sequence[int]] = [[], first] if first else [[]]
+    tried = mapped(lambda g: special.best_steps(f.triangles, edges, f.n_base, g, owned, f.to_nominal), places)
     # By itself, unless it explains far more beside the first choice.
-    return found[-1] if found[-1][0].test.log_p < found[0][0].test.log_p - BESIDE else found[0]
+    return [
+        (ways[-1], places[-1]) if ways[-1].test.log_p < ways[0].test.log_p - BESIDE else (ways[0], places[0])
+        for ways in zip(*tried, strict=True)
+    ]
 
 
 def _begun(

@@ -33,41 +33,47 @@ class Step:
     variants: int
 
 
-def best_step(
+def best_steps(
     triangles: Sequence[Sequence[Array]],
     edges: Sequence[int],
     n_base: int,
     given: Sequence[int],
-    columns: Sequence[tuple[int, Column]],
+    owned: Sequence[Sequence[tuple[int, Column]]],
     prior: Array,
-) -> Step:
-    """The edge between two stretches of time, of which each output has a triangle, where a step explains most.
+) -> list[Step]:
+    """For each effect the edge between two stretches of time, of which each output has a triangle, where its step explains most.
 
-    ``columns`` are those of the effect acting all the time (positions after the base); ``given`` those of
+    ``owned`` are the columns of each effect acting all the time (positions after the base); ``given`` those of
     effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
     """
+    columns = [c for own in owned for c in own]
     k, m = n_base + len(given), len(columns)
     others = [*(n_base + n for n in given), *(n_base + n for n, _ in columns), -1]
     picked = [fold([below(t, n_base, others) for t in each]) for each in zip(*triangles, strict=True)]
-    # The stretches after an edge count with the step's columns, those before it without; the prior in them.
+    # The stretches after an edge count with the steps' columns, those before it without; the prior in them.
     sheet = prior_rows(range(n_base), k + m + 1, prior)
     after: list[Array] = [np.pad(sheet, ((0, k + m + 1 - n_base), (0, 0)))]
     for t in reversed(picked[1:]):
         after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
-    best: Step | None = None
-    own = [(n, c) for n, (_, c) in enumerate(columns)]
+    best: list[Step | None] = [None] * len(owned)
+    places = np.split(np.arange(m), np.cumsum([len(own) for own in owned])[:-1])
+    named = [
+        [(int(n), c) for n, (_, c) in zip(at, own, strict=True)]
+        for at, own in zip(places, owned, strict=True)
+    ]
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
     for n, edge in enumerate(edges):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
-        T = fold([before, after[len(edges) - n]])
-        test = likelihood_ratio.test(likelihood_ratio.project(T, k), own, floor, float(np.log(2 * BLOCKS)))
-        if best is None or test.log_p < best.test.log_p:
-            best = Step(edge, test, 2 * BLOCKS)
-    assert best is not None
-    return best
+        P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
+        for e, own in enumerate(named):
+            test = likelihood_ratio.test(P, own, floor, float(np.log(2 * BLOCKS)))
+            so_far = best[e]
+            if so_far is None or test.log_p < so_far.test.log_p:
+                best[e] = Step(edge, test, 2 * BLOCKS)
+    return [step for step in best if step is not None]
 
 
 FINE = 192
@@ -107,7 +113,7 @@ def refined(
                     triangles[k] = T if before is None else join([before, T])
         empty = np.zeros((len(places) + 1, len(places) + 1))
         known = [empty if t is None else t for t in triangles]
-        step = best_step([known], [int(e) for e in edges], n_base, range(len(given)), named, prior)
+        (step,) = best_steps([known], [int(e) for e in edges], n_base, range(len(given)), [named], prior)
         reach = int(np.max(np.diff(edges), initial=1))
     return step
 
