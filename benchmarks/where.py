@@ -29,7 +29,7 @@ STEPS = (
     "fit.unknown_gradient:project",
     "fit.square_root:triangle",
     "diagnosis.step_scan:with_steps",
-    "evidence.steps:best_step",
+    "evidence.steps:best_steps",
     "evidence.selection:choose",
     "diagnosis.strong:_strongest",
     "diagnosis.contenders:left",

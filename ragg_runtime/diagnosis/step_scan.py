@@ -58,9 +58,8 @@ def with_steps(
     plain = _with_penalty(f, [*available, *exact])
     first = [n for e in selection.choose(plain).chosen for n, _ in plain.candidates[e]]
     unknown = [e for e in owned if e not in exact]
-    scans = dict(
-        zip(unknown, _scanned(f, [owned[e] for e in unknown], first) if unknown else (), strict=True)
-    )
+    likeliest = _scanned(f, [owned[e] for e in unknown], first) if unknown else []
+    scans = dict(zip(unknown, likeliest, strict=True))
     samples = {e: step.sample for e, (step, _) in scans.items()}
     scanned = {e: places[e] for e in samples}
     found: dict[str, _Found] = {}
@@ -110,12 +109,15 @@ def _scanned(
 ) -> list[tuple[special.Step, Sequence[int]]]:
     """The most likely step of each effect, and the columns of others beside which it was found."""
     edges = [int(k) for k in f.prepared[0].edges[1:-1]]
-    places: list[Sequence[int]] = [[], first] if first else [[]]
-    tried = mapped(lambda g: special.best_steps(f.triangles, edges, f.n_base, g, owned, f.to_nominal), places)
+
+    def steps(given: Sequence[int]) -> list[tuple[special.Step, Sequence[int]]]:
+        found = special.best_steps(f.triangles, edges, f.n_base, given, owned, f.to_nominal)
+        return [(step, given) for step in found]
+
     # By itself, unless it explains far more beside the first choice.
     return [
-        (ways[-1], places[-1]) if ways[-1].test.log_p < ways[0].test.log_p - BESIDE else (ways[0], places[0])
-        for ways in zip(*tried, strict=True)
+        ways[-1] if ways[-1][0].test.log_p < ways[0][0].test.log_p - BESIDE else ways[0]
+        for ways in zip(*mapped(steps, [[], first] if first else [[]]), strict=True)
     ]
 
 

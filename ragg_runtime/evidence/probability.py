@@ -137,6 +137,7 @@ def weighed(f: Field) -> Sets:
 def _merged(holds: NDArray[np.bool_], logs: Array) -> tuple[NDArray[np.bool_], Array]:
     """Each set once, with the sum of its weights; in an order that depends on nothing but the sets."""
     bits = np.packbits(holds, axis=1)
+    # a key that is the same for all: without effects there is no other
     order = np.lexsort(np.vstack([np.zeros(len(logs), dtype=np.uint8), 255 - bits.T])[::-1])
     bits = bits[order]
     new = np.concatenate([[True], np.any(bits[1:] != bits[:-1], axis=1)])

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,24 +57,18 @@ def best_steps(
     for t in reversed(picked[1:]):
         after.append(fold([after[-1], t]))
     before = np.zeros((k + m + 1, k + m + 1))
-    best: list[Step | None] = [None] * len(owned)
-    places = np.split(np.arange(m), np.cumsum([len(own) for own in owned])[:-1])
-    named = [
-        [(int(n), c) for n, (_, c) in zip(at, own, strict=True)]
-        for at, own in zip(places, owned, strict=True)
-    ]
+    place = count()
+    named = [[(next(place), c) for _, c in own] for own in owned]
     floor = np.full(m + 1, likelihood_ratio.TESTABLE)
-    for n, edge in enumerate(edges):
+    tests = []
+    for n in range(len(edges)):
         off = picked[n].copy()
         off[:, k : k + m] = 0.0
         before = fold([before, off])
         P = likelihood_ratio.project(fold([before, after[len(edges) - n]]), k)
-        for e, own in enumerate(named):
-            test = likelihood_ratio.test(P, own, floor, float(np.log(2 * BLOCKS)))
-            so_far = best[e]
-            if so_far is None or test.log_p < so_far.test.log_p:
-                best[e] = Step(edge, test, 2 * BLOCKS)
-    return [step for step in best if step is not None]
+        tests.append([likelihood_ratio.test(P, own, floor, float(np.log(2 * BLOCKS))) for own in named])
+    best = [min(zip(edges, own, strict=True), key=lambda at: at[1].log_p) for own in zip(*tests, strict=True)]
+    return [Step(edge, test, 2 * BLOCKS) for edge, test in best]
 
 
 FINE = 192
