@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import math
 
 import numpy as np
 import pytest
 
-from benchmarks import Row, bounds, page, timing
+from benchmarks import Row, bounds, page, timing, where
 from benchmarks.__main__ import LAST, main, modules, ratios
 from benchmarks.evaluation import instrument_and_motion
 from benchmarks.rivals import lambdify, numpy_blocks, program
@@ -19,6 +20,12 @@ def test_benchmarks_are_found_by_their_run() -> None:
     assert {"derivation", "evaluation"} <= set(modules())
     assert not {"timing", "page", "machine", "rivals", "bounds"} & set(modules())
     assert main(["no-such"]) == 2
+
+
+@pytest.mark.parametrize("step", where.STEPS)
+def test_the_profile_watches_functions_that_exist(step: str) -> None:
+    module, _, name = step.partition(":")
+    assert callable(getattr(importlib.import_module(f"ragg_runtime.{module}"), name))
 
 
 def test_last_run_is_of_benchmarks_that_exist() -> None:
