@@ -42,7 +42,7 @@ check: $(STAMP)  ## does the committed code match the derivation?
 # threads in each, of linear algebra or our own, would only get in the way. That they change no figure, test_threads.py asks.
 test: export OPENBLAS_NUM_THREADS := 1
 test: export RAGG_THREADS := 1
-# Memory that was freed is kept for reuse, as `ragg` has it (base/memory.py): fresh pages are a twentieth of the tests' time.
+# Memory that was freed is kept for reuse, as `ragg` has it (base/process.py): fresh pages are a twentieth of the tests' time.
 test: export MALLOC_MMAP_THRESHOLD_ := 1073741824
 test: export MALLOC_TRIM_THRESHOLD_ := 1073741824
 test: export MALLOC_ARENA_MAX := 1

@@ -15,7 +15,7 @@ import derive  # noqa: F401  (tells SymPy how much to remember, which must be be
 
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
-gc.set_threshold(20_000)  # as the commands have it (base/memory.py)
+gc.set_threshold(20_000)  # as the commands have it (base/process.py)
 
 # Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
 # worker has derived and compiled the others find.

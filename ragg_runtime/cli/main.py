@@ -14,7 +14,7 @@ from types import MappingProxyType
 import click
 
 from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.base.memory import collect_seldom, reuse_memory
+from ragg_runtime.base.process import collect_seldom, no_idle_threads, reuse_memory
 from ragg_runtime.cli.boundary import hold_streams, refusal
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
@@ -80,6 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     try:
         reuse_memory()
         collect_seldom()
+        no_idle_threads()
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)

@@ -16,7 +16,7 @@ import pyarrow as pa
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import take_room
-from ragg_runtime.base.memory import give_back
+from ragg_runtime.base.process import give_back
 from ragg_runtime.flight.record import Array, Flight, Mask
 
 COPIED = 1 << 20

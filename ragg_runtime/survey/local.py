@@ -19,7 +19,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.memory import reuse_memory
+from ragg_runtime.base.process import ONE_THREAD, reuse_memory
 from ragg_runtime.survey.task import Job, Record, examine
 
 ATTEMPTS = 3
@@ -28,7 +28,6 @@ ATTEMPTS = 3
 _SAFE_PATH = "PYTHONSAFEPATH"
 """Set for processes that this program starts: they do not look into the current folder at all."""
 
-_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def processors() -> int:
@@ -140,7 +139,7 @@ def _inherited() -> Iterator[None]:
     Python would let it look for its own modules in the current folder first, whoever's that is. Once it is up,
     it imports from where this process does.
     """
-    old = {name: os.environ.get(name) for name in (*_ONE_THREAD, _SAFE_PATH)}
+    old = {name: os.environ.get(name) for name in (*ONE_THREAD, _SAFE_PATH)}
     os.environ.update(dict.fromkeys(old, "1"))
     mask = (
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])

@@ -1,10 +1,11 @@
-"""Memory of a process that works on long flights."""
+"""A process that works on long flights: its memory, and what its libraries do beside its work."""
 
 from __future__ import annotations
 
 import atexit
 import ctypes
 import gc
+import os
 import sys
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
@@ -12,6 +13,9 @@ _TRIM_THRESHOLD, _MMAP_THRESHOLD, _ARENA_MAX = -1, -3, -8
 
 _ALLOCATIONS = 20_000
 """Objects that are made between two looks for cycles, which may hold arrays."""
+
+ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables by which a library of linear algebra learns, while it is loaded, to work on one thread."""
 
 
 def reuse_memory() -> None:
@@ -30,6 +34,15 @@ def collect_seldom() -> None:
     """
     gc.set_threshold(_ALLOCATIONS)
     atexit.register(gc.freeze)
+
+
+def no_idle_threads() -> None:
+    """Let libraries of linear algebra start no threads, which would turn idly for 0.1 s each: nothing here uses them (threads.py).
+
+    For programs, not for libraries; before NumPy is imported, or it is too late.
+    """
+    for name in ONE_THREAD:
+        os.environ.setdefault(name, "1")
 
 
 def give_back() -> None:
