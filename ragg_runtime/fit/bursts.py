@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,11 +107,11 @@ def _bursts(residual: Sequence[Array], model: NoiseModel) -> list[list[Burst]]:
     found: list[list[Burst]] = [[] for _ in residual]
     if not power:
         return found
-    median = float(np.median(power))
+    middle = median(power)
     beside = [(power[max(0, n - BESIDE) : n], power[n + 1 : n + 1 + BESIDE]) for n in range(len(power))]
-    near = [max(float(np.median(side)) for side in sides if side) for sides in beside]
+    near = [max(median(side) for side in sides if side) for sides in beside]
     loud = [n for n, v in enumerate(power) if v > LOUD * near[n]]
-    if len(loud) > FEW * len(power) or np.mean(power) < MATTERS * median:
+    if len(loud) > FEW * len(power) or np.mean(power) < MATTERS * middle:
         return found
     for n in loud:
         k, start, stop = intervals[n]

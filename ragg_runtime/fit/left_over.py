@@ -12,7 +12,7 @@ from scipy import fft, linalg
 
 from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
-from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.fit.square_root import not_zero, triangle
 from ragg_runtime.signals.fir import GROUP, filtered
 from ragg_runtime.signals.noise_spectrum import estimate
 from ragg_runtime.signals.periodogram import hann
@@ -65,6 +65,9 @@ def left_over(
     ``flat``: an edge of which an unknown gradient took its part would else leave that part as noise. Without ``rate`` (of a
     demodulated channel) neither they nor ``kept`` are looked for.
     """
+    some = not_zero(flat[:-1])
+    if len(some) < len(flat) - 1:  # of a voltage, most columns are those of other accelerometers
+        flat = flat[[*some, -1]]
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:
         return replace(left, columns=np.empty(0), directions=np.empty(0))
@@ -227,7 +230,7 @@ def _least_squares(columns: Array) -> _Fit:
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0
-    U, s, Vt = linalg.svd(R[:n, :n] / norms, lapack_driver="gesvd")
+    U, s, Vt = linalg.svd(R[:n, :n] / norms, lapack_driver="gesdd")
     faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
     inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
     solution = inverse @ (faded * (U.T @ R[:n, n]))

@@ -48,7 +48,7 @@ MANY = 8
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
     n, rows = columns.shape
-    some = _not_zero(columns)
+    some = not_zero(columns)
     if rows < WORTH_TWO:
         R = _eliminated(columns, some)
     else:  # however many threads there are: the same bytes
@@ -61,7 +61,7 @@ def triangle(columns: Array) -> Array:
     return T
 
 
-def _not_zero(columns: Array) -> NDArray[np.intp]:
+def not_zero(columns: Array) -> NDArray[np.intp]:
     """Places of the columns (n, rows) that are not zero: those of channels that were not recorded, and of other outputs, are."""
     begins = np.asarray(columns[:, :1].any(axis=1))
     return np.array([k for k, x in enumerate(columns) if begins[k] or x.any()], dtype=np.intp)
