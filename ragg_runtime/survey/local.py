@@ -29,7 +29,6 @@ _SAFE_PATH = "PYTHONSAFEPATH"
 """Set for processes that this program starts: they do not look into the current folder at all."""
 
 
-
 def processors() -> int:
     """Processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
