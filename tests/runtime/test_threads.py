@@ -11,6 +11,7 @@ from ragg_runtime.base.threads import VARIABLE
 from ragg_runtime.fit import passes, prepared_flight
 from ragg_runtime.flight import Flight
 from ragg_runtime.reference.scenario import Scenario, scenario
+from tests.rate import RATE
 from tests.runtime.diagnosed import diagnosed
 
 Hidden = Mapping[str, Mapping[str, object]]
@@ -25,14 +26,14 @@ def _as_json(s: Scenario, flight: Flight, threads: int, monkeypatch: pytest.Monk
     ("hidden", "rows", "known"),
     [
         pytest.param({"bias-step": {"dK0": [3e-8, 0, 0, 0], "t_step": 300.0}}, 30000, True, id="step"),
-        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 1700, True, id="segments"),
+        pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 850, True, id="segments"),
         pytest.param({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}, 30000, False, id="unknown gradient"),
     ],
 )
 def test_figures_do_not_know_how_many_threads_there_were(
     hidden: Hidden, rows: int, known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    s = scenario(61, duration=600.0)
+    s = scenario(61, duration=600.0, rate=RATE)
     flight = s.simulate(hidden, record_gradient=known).flight()
     for module in (passes, prepared_flight):
         monkeypatch.setattr(module, "ROWS", rows)
