@@ -14,13 +14,16 @@ PINS := $(NAMES) requirements.lock
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
+# pip works on one processor: two of them take half of the lock each, which names all that is needed (`pip check`, below).
 # What builds the project (setuptools) is in the lock too: --no-build-isolation takes it from there. Byte code is made on all
 # cores; pip makes it on one, and of the packages' own tests, a third of it, as well. What does not
 # compile (templates of old Python) is never run.
 $(STAMP): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.x")'
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --require-hashes -r requirements.lock
+	@awk '/^[A-Za-z]/ { n++ } { print > ("$(VENV)/half-" n % 2) }' requirements.lock
+	half() { $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --no-deps --require-hashes \
+	  -r $(VENV)/half-$$1; }; half 0 & first=$$!; half 1; second=$$?; wait $$first && exit $$second
 	$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
@@ -52,7 +55,8 @@ test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)  ## run the tests
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
 
-lint: $(STAMP)  ## style, types, layers
+lint: $(STAMP)  ## style, types, layers, and whether the lock is complete
+	$(BIN)/python -m pip --disable-pip-version-check check
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
