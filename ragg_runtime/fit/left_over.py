@@ -23,6 +23,12 @@ ROUNDS = 6
 """Most times that lines and jumps are looked for in what is left beside those before."""
 
 
+SPARSE = 0.5
+"""Share of columns that are not zero below which the others are left out, which takes a copy: of a voltage most are those of other
+accelerometers.
+"""
+
+
 @dataclass(frozen=True)
 class Left:
     """What columns leave of the last one.
@@ -66,7 +72,7 @@ def left_over(
     demodulated channel) neither they nor ``kept`` are looked for.
     """
     some = not_zero(flat[:-1])
-    if len(some) < len(flat) - 1:  # of a voltage, most columns are those of other accelerometers
+    if len(some) < SPARSE * len(flat):
         flat = flat[[*some, -1]]
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:
