@@ -54,6 +54,26 @@ def test_a_jump_to_which_slow_columns_bend_is_found(size: float) -> None:
     assert np.std(left.rest) == pytest.approx(1.0, rel=0.05)
 
 
+def test_columns_of_other_accelerometers_change_nothing_where_they_are_zero() -> None:
+    """Whether they are left out, where they are most, or not, where they are few; with a line fitted beside the others."""
+    rng = np.random.default_rng(3)
+    own = slow_columns(960, 20, rng)
+    y = rng.normal(size=960) + 3.0 * np.sin(2 * np.pi * 5.0 * np.arange(960) / RATE)
+    valid = np.ones(960, dtype=bool)
+    alone, *beside = [
+        left_over(
+            np.vstack([np.zeros((zeros // 2, 960)), own, np.zeros((zeros // 2, 960)), y]), valid, RATE, None
+        )
+        for zeros in (0, 10, 100)
+    ]
+    assert [d.kind for d in alone.found] == ["line"]
+    for left in beside:
+        assert left.found == alone.found
+        assert left.rank == pytest.approx(alone.rank)
+        for same in ("rest", "kept", "shapes"):
+            assert getattr(left, same) == pytest.approx(getattr(alone, same), abs=1e-9)
+
+
 def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
     """What was projected out of the data, not of the jump's own column, passed for further jumps and for noise."""
     rng = np.random.default_rng(6)

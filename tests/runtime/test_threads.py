@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Mapping
 
 import pytest
 
+from ragg_runtime.base.process import ONE_THREAD
 from ragg_runtime.base.threads import VARIABLE
 from ragg_runtime.fit import passes, prepared_flight
 from ragg_runtime.flight import Flight
@@ -40,3 +44,21 @@ def test_figures_do_not_know_how_many_threads_there_were(
     one, two = (_as_json(s, flight, threads, monkeypatch) for threads in (1, 2))
     assert next(iter(hidden)) in json.loads(one)["found"]
     assert one == two
+
+
+def test_a_command_starts_no_threads_of_linear_algebra_and_keeps_what_its_user_says() -> None:
+    program = (
+        "import os, sys; from ragg_runtime.cli.main import main\n"
+        "assert 'numpy' not in sys.modules\n"
+        "try: main(['--version'])\n"
+        "except SystemExit: pass\n"
+        "import threadpoolctl, ragg_runtime.base.threads\n"
+        "print(*{x['num_threads'] for x in threadpoolctl.threadpool_info() if x['user_api'] == 'blas'})"
+    )
+    own = {name: x for name, x in os.environ.items() if name not in ONE_THREAD}
+    two = str(min(2, os.cpu_count() or 1))
+    for said, threads in (({}, "1"), ({"OPENBLAS_NUM_THREADS": "2"}, two)):
+        done = subprocess.run(
+            [sys.executable, "-c", program], env=own | said, capture_output=True, text=True, check=True
+        )
+        assert done.stdout.splitlines()[-1] == threads
