@@ -236,7 +236,7 @@ def _least_squares(columns: Array) -> _Fit:
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)
     norms[norms == 0.0] = 1.0
-    U, s, Vt = linalg.svd(R[:n, :n] / norms, lapack_driver="gesdd")
+    U, s, Vt = linalg.svd(R[:n, :n] / norms)
     faded = s**2 / (s**2 + (ABSENT * s[0]) ** 2)
     inverse = Vt.T / np.maximum(s, 1e-300) / norms[:, None]
     solution = inverse @ (faded * (U.T @ R[:n, n]))
