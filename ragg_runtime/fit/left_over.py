@@ -12,8 +12,8 @@ from scipy import fft, linalg
 
 from ragg_runtime.base.threads import mapped, stretches
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
-from ragg_runtime.fit.square_root import not_zero, triangle
-from ragg_runtime.signals.fir import GROUP, filtered
+from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
 from ragg_runtime.signals.noise_spectrum import estimate
 from ragg_runtime.signals.periodogram import hann
 
@@ -21,12 +21,6 @@ Array = NDArray[np.float64]
 
 ROUNDS = 6
 """Most times that lines and jumps are looked for in what is left beside those before."""
-
-
-SPARSE = 0.5
-"""Share of columns that are not zero below which the others are left out, which takes a copy: of a voltage most are those of other
-accelerometers.
-"""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.segments import ROWS, THINNER, Segment, segments, spread
-from ragg_runtime.fit.square_root import triangle
+from ragg_runtime.fit.square_root import of_stretches
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
@@ -58,9 +58,13 @@ class Piece:
     windows: Sequence[Window]
     heard: slice | NDArray[np.intp]
 
-    def triangle(self, rows: slice | NDArray[np.intp] = slice(None)) -> Array:
-        """Triangular factor (n + 1, n + 1) of the whitened columns, or of some of their rows."""
-        return triangle(self.white[:, rows])
+    def triangle(self, first: int = 0, stop: int | None = None) -> Array:
+        """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
+        valid = int(np.count_nonzero(self.observation.record.valid))
+        ends = (first, np.inf if stop is None else stop)
+        a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
+        outputs = range(0, self.white.shape[1], max(1, valid))
+        return of_stretches([self.white[:, k + a : k + b] for k in outputs])
 
     @property
     def residual(self) -> Array:
@@ -205,13 +209,22 @@ def _white(
 
 def whitened_columns(columns: Array, noise: Noise, tail: Array | None, record: Record) -> Array:
     """(n + 1, rows): columns (n + 1, m, N) through the filters, over the noise's level, one output after the other."""
-    rows = []
     valid, level = record.valid, noise.level.of(record.quantity)
-    for m, taps in enumerate(noise.filters):
-        y = filtered(noise.series(columns, m), taps, None if tail is None else noise.series(tail, m))
+
+    def through(m: int) -> Array:
+        y = filtered(
+            noise.series(columns, m), noise.filters[m], None if tail is None else noise.series(tail, m)
+        )
         y = y / level if noise.level.parts else y
-        rows.append(y if valid.all() else y[:, valid])
-    return rows[0] if len(rows) == 1 else np.concatenate(rows, axis=1)
+        return y if valid.all() else y[:, valid]
+
+    if len(noise.filters) == 1:
+        return through(0)
+    width = int(np.count_nonzero(valid))
+    flat = np.empty((len(columns), len(noise.filters) * width))
+    for m in range(len(noise.filters)):
+        flat[:, m * width : (m + 1) * width] = through(m)
+    return flat
 
 
 def _past(tail: Array | None, gap: int, memory: int) -> Array | None:

@@ -120,10 +120,8 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
 
         def of_block(block: tuple[int, slice]) -> tuple[int, Array, Array]:
             b, rows = block
-            inside = np.flatnonzero((piece.sample >= rows.start) & (piece.sample < rows.stop))
-            together = len(inside) and inside[-1] - inside[0] == len(inside) - 1  # a slice saves a copy
-            some = slice(inside[0], inside[-1] + 1) if together else inside
-            return b, piece.triangle(some), piece.sums(slice(rows.start - first, rows.stop - first))
+            sums = piece.sums(slice(rows.start - first, rows.stop - first))
+            return b, piece.triangle(rows.start, rows.stop), sums
 
         return list(mapped(of_block, piece.segment.blocks))
 

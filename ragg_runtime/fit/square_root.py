@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import mapped
 from ragg_runtime.fit.lapack import entered
+from ragg_runtime.signals.fir import not_zero
 
 Array = NDArray[np.float64]
 
@@ -61,10 +62,23 @@ def triangle(columns: Array) -> Array:
     return T
 
 
-def not_zero(columns: Array) -> NDArray[np.intp]:
-    """Places of the columns (n, rows) that are not zero: those of channels that were not recorded, and of other outputs, are."""
-    begins = np.asarray(columns[:, :1].any(axis=1))
-    return np.array([k for k, x in enumerate(columns) if begins[k] or x.any()], dtype=np.intp)
+def of_stretches(stretches: Sequence[Array]) -> Array:
+    """The triangle (n, n) of stretches of rows, (n, rows) each, each by the columns that are not zero in it: of voltages, one after
+    the other, a quarter to a half of all.
+    """
+    if len(stretches) == 1:
+        return triangle(stretches[0])
+    own = [not_zero(x) for x in stretches]
+    if any(x.shape[1] < len(some) for x, some in zip(stretches, own, strict=True)):
+        return triangle(np.concatenate(stretches, axis=1))
+    return fold([_trapezoid(x, some) for x, some in zip(stretches, own, strict=True)])
+
+
+def _trapezoid(columns: Array, some: NDArray[np.intp]) -> Array:
+    """(k, n): the triangle of columns (n, rows) of which only k are not zero, below one another: row i is zero before column i."""
+    T = np.zeros((len(some), len(columns)))
+    T[:, some] = triangle(columns[some])
+    return T
 
 
 def _eliminated(columns: Array, some: NDArray[np.intp]) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from ragg_runtime.fit import columns as design
-from ragg_runtime.fit.square_root import join, triangle
+from ragg_runtime.fit.square_root import of_stretches
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -246,26 +246,13 @@ def _edges(kept: NDArray[np.bool_], voltages: int) -> list[int]:
     return [0, *np.cumsum(np.count_nonzero(kept.reshape(voltages, -1), axis=1)).tolist()]
 
 
-def _triangle(columns: Array, edges: Sequence[int]) -> Array:
-    """Triangular factor (n, n) of columns (n, rows): of each stretch of rows by the columns that are not zero there."""
-    if len(edges) <= 2:
-        return triangle(columns)
-    parts = []
-    for start, stop in pairwise(edges):
-        some = columns[:, start:stop]
-        own = np.flatnonzero(some.any(axis=1))
-        part = np.zeros((len(own), len(columns)))
-        part[:, own] = triangle(some[own])
-        parts.append(part)
-    return join(parts)
-
-
 def shrunken(X: Array, y: Array, edges: Sequence[int] = ()) -> Array:
     """Coefficients (n,) of columns X (n, rows), each with a prior of unit width; y's noise is estimated.
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
     """
-    R = _triangle(np.vstack([X, y]), edges)
+    rows = np.vstack([X, y])
+    R = of_stretches([rows[:, a:b] for a, b in pairwise(edges or (0, len(y)))])
     n = len(X)
     U, s, Vt = np.linalg.svd(R[:n, :n])
     d = U.T @ R[:n, n]

@@ -24,6 +24,18 @@ AT_A_TIME = 1 << 18
 """Points of short ones that are: so many that a call costs little besides."""
 
 
+SPARSE = 0.5
+"""Share of columns that are not zero below which the others are left out, which takes a copy: of a voltage most are those of other
+accelerometers.
+"""
+
+
+def not_zero(columns: Floats) -> NDArray[np.intp]:
+    """Places of the columns (n, rows) that are not zero: those of channels that were not recorded, and of other outputs, are."""
+    begins = np.asarray(columns[:, :1].any(axis=1))
+    return np.array([k for k, x in enumerate(columns) if begins[k] or x.any()], dtype=np.intp)
+
+
 def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int = 0) -> Floats:
     """Columns (n, N) through a causal FIR filter, in their own precision: (n, N - lead).
 
@@ -37,6 +49,11 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     if len(taps) == 1:
         return np.asarray(columns[:, lead:] * columns.dtype.type(taps[0]))
     reach = min(before + n, len(taps))
+    own = not_zero(columns) if tail is None else np.union1d(not_zero(columns), not_zero(tail))
+    if len(own) < SPARSE * len(columns):
+        result = np.zeros((len(columns), n - lead), dtype=columns.dtype)
+        result[own] = filtered(columns[own], taps, None if tail is None else tail[own], lead)
+        return result
     # What goes round in the transform may fall on samples that are not wanted.
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)

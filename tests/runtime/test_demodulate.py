@@ -12,7 +12,7 @@ from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect
 from ragg_runtime.signals.demodulate import demodulate, low_pass
 from ragg_runtime.signals.demodulators import demodulator
-from ragg_runtime.signals.fir import ROWS, convolved, thinned
+from ragg_runtime.signals.fir import ROWS, convolved, filtered, thinned
 from ragg_runtime.signals.means import between
 
 RATE = 16.0
@@ -115,3 +115,19 @@ def test_between_means_is_interpolated(few: int, n: int) -> None:
     centres = (np.arange(n // few) + 0.5) * few - 0.5
     expected = [np.interp(np.arange(n), centres, x) for x in means]
     np.testing.assert_allclose(between(means, few, n), expected, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("lead", [0, 7])
+def test_a_filter_gives_zeros_for_zeros_and_forgets_no_tail(lead: int) -> None:
+    """Columns that are zero throughout, from here on, and until here, few and many of them."""
+    rng = np.random.default_rng(lead)
+    taps = rng.normal(size=40)
+    before, after = rng.normal(size=(10, 50)), rng.normal(size=(10, 200))
+    before[:8] = 0.0
+    after[1:9] = 0.0
+    whole = np.concatenate([before, after], axis=1)
+    there = np.stack([np.convolve(x, taps)[50 + lead : 250] for x in whole])
+    for some in (slice(None), slice(0, 9), slice(1, 8)):
+        found = filtered(after[some], taps, before[some], lead)
+        assert found == pytest.approx(there[some], abs=1e-12)
+    assert not filtered(after[1:8], taps).any()

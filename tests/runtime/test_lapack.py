@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ragg_runtime.fit import lapack
-from ragg_runtime.fit.square_root import WORTH_TWO, fold, triangle
+from ragg_runtime.fit.square_root import WORTH_TWO, fold, of_stretches, triangle
 
 
 @pytest.mark.parametrize("n", [1, 7, 40, 130])
@@ -49,3 +49,21 @@ def test_many_trapezoids_are_those_one_after_the_other() -> None:
     T = fold(parts)
     assert np.allclose(T.T @ T, sum(p.T @ p for p in parts), atol=1e-12)
     assert np.array_equal(T, np.triu(T))
+
+
+@pytest.mark.parametrize("rows", [12, 90])
+def test_stretches_of_rows_are_the_whole_whatever_is_zero_in_them(rows: int) -> None:
+    """Voltages: columns of one accelerometer, of all, of a channel that was not recorded; and a stretch that all columns are in."""
+    rng = np.random.default_rng(rows)
+    stretches = [rng.normal(size=(30, rows)) for _ in range(4)]
+    for j, x in enumerate(stretches[:3]):
+        own = np.arange(30) % 4
+        x[(own != j) & (np.arange(30) < 24)] = 0.0
+    whole = np.concatenate(stretches, axis=1)
+    T = of_stretches(stretches)
+    assert T.shape == (30, 30)
+    assert np.array_equal(T, np.triu(T))
+    assert T.T @ T == pytest.approx(whole @ whole.T, abs=1e-11)
+    for x in stretches:
+        x[5] = 0.0
+    assert not of_stretches(stretches)[:, 5].any()
