@@ -63,7 +63,7 @@ def test_stretches_of_rows_are_the_whole_whatever_is_zero_in_them(rows: int) -> 
     T = of_stretches(stretches)
     assert T.shape == (30, 30)
     assert np.array_equal(T, np.triu(T))
-    assert T.T @ T == pytest.approx(whole @ whole.T, abs=1e-11)
+    assert pytest.approx(whole @ whole.T, abs=1e-11) == T.T @ T
     for x in stretches:
         x[5] = 0.0
     assert not of_stretches(stretches)[:, 5].any()
