@@ -63,8 +63,8 @@ class Piece:
         valid = int(np.count_nonzero(self.observation.record.valid))
         ends = (first, np.inf if stop is None else stop)
         a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
-        outputs = range(0, self.white.shape[1], max(1, valid))
-        return of_stretches([self.white[:, k + a : k + b] for k in outputs])
+        begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
+        return of_stretches([self.white[:, k + a : k + b] for k in begins])
 
     @property
     def residual(self) -> Array:

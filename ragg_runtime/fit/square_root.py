@@ -71,7 +71,8 @@ def of_stretches(stretches: Sequence[Array]) -> Array:
     own = [not_zero(x) for x in stretches]
     if any(x.shape[1] < len(some) for x, some in zip(stretches, own, strict=True)):
         return triangle(np.concatenate(stretches, axis=1))
-    return fold([_trapezoid(x, some) for x, some in zip(stretches, own, strict=True)])
+    found = [_trapezoid(x, some) for x, some in zip(stretches, own, strict=True) if len(some)]
+    return fold(found) if found else np.zeros((len(stretches[0]),) * 2)
 
 
 def _trapezoid(columns: Array, some: NDArray[np.intp]) -> Array:

@@ -67,3 +67,7 @@ def test_stretches_of_rows_are_the_whole_whatever_is_zero_in_them(rows: int) -> 
     for x in stretches:
         x[5] = 0.0
     assert not of_stretches(stretches)[:, 5].any()
+    nothing = [np.empty((30, 0)), np.zeros((30, rows))]
+    assert not of_stretches(nothing).any()
+    with_it = of_stretches([nothing[0], whole, nothing[1]])
+    assert with_it.T @ with_it == pytest.approx(whole @ whole.T, abs=1e-11)
