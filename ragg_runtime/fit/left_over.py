@@ -66,8 +66,8 @@ def left_over(
     demodulated channel) neither they nor ``kept`` are looked for.
     """
     some = not_zero(flat[:-1])
-    if len(some) < SPARSE * len(flat):
-        flat = flat[[*some, -1]]
+    if np.count_nonzero(some) < SPARSE * len(flat):
+        flat = flat[[*some, True]]
     left = _fitted(flat, flat, valid, rate, [])
     if rate is None:
         return replace(left, columns=np.empty(0), directions=np.empty(0))

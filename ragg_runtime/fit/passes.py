@@ -61,7 +61,7 @@ class Piece:
     def triangle(self, first: int = 0, stop: int | None = None) -> Array:
         """Triangular factor (n + 1, n + 1) of the whitened columns: of the flight's samples from ``first`` on, before ``stop``."""
         valid = int(np.count_nonzero(self.observation.record.valid))
-        ends = (first, np.inf if stop is None else stop)
+        ends = (first, self.segment.rows.stop if stop is None else stop)
         a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
         begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
         return of_stretches([self.white[:, k + a : k + b] for k in begins])

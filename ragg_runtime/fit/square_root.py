@@ -48,16 +48,11 @@ MANY = 8
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
-    n, rows = columns.shape
     some = not_zero(columns)
-    if rows < WORTH_TWO:
-        R = _eliminated(columns, some)
-    else:  # however many threads there are: the same bytes
-        halves = (columns[:, : rows // 2], columns[:, rows // 2 :])
-        R = fold(list(mapped(lambda half: _eliminated(half, some), halves)))
-    if len(some) == n:
+    R = _of_some(columns, some)
+    if some.all():
         return R
-    T = np.zeros((n, n))
+    T = np.zeros((len(columns),) * 2)
     T[np.ix_(some, some)] = R
     return T
 
@@ -68,23 +63,31 @@ def of_stretches(stretches: Sequence[Array]) -> Array:
     """
     if len(stretches) == 1:
         return triangle(stretches[0])
-    own = [not_zero(x) for x in stretches]
-    if any(x.shape[1] < len(some) for x, some in zip(stretches, own, strict=True)):
+    n, own = len(stretches[0]), [not_zero(x) for x in stretches]
+    if any(x.shape[1] < np.count_nonzero(some) for x, some in zip(stretches, own, strict=True)):
         return triangle(np.concatenate(stretches, axis=1))
-    found = [_trapezoid(x, some) for x, some in zip(stretches, own, strict=True) if len(some)]
-    return fold(found) if found else np.zeros((len(stretches[0]),) * 2)
+    trapezoids = []
+    for x, some in zip(stretches, own, strict=True):
+        if some.any():
+            trapezoids.append(np.zeros((np.count_nonzero(some), n)))
+            trapezoids[-1][:, some] = _of_some(x, some)
+    return fold(trapezoids) if trapezoids else np.zeros((n, n))
 
 
-def _trapezoid(columns: Array, some: NDArray[np.intp]) -> Array:
-    """(k, n): the triangle of columns (n, rows) of which only k are not zero, below one another: row i is zero before column i."""
-    T = np.zeros((len(some), len(columns)))
-    T[:, some] = triangle(columns[some])
-    return T
+def _of_some(columns: Array, some: NDArray[np.bool_]) -> Array:
+    """(k, k): the triangle of k of the columns (n, rows)."""
+    rows = columns.shape[1]
+    if rows < WORTH_TWO:
+        return _eliminated(columns, some)
+    # however many threads there are: the same bytes
+    halves = (columns[:, : rows // 2], columns[:, rows // 2 :])
+    return fold(list(mapped(lambda half: _eliminated(half, some), halves)))
 
 
-def _eliminated(columns: Array, some: NDArray[np.intp]) -> Array:
-    """The triangle of the columns at some places, of all rows."""
-    R = np.zeros((len(some), len(some)), order="F")
+def _eliminated(columns: Array, some: NDArray[np.bool_]) -> Array:
+    """The same, from the first row to the last."""
+    k = np.count_nonzero(some)
+    R = np.zeros((k, k), order="F")
     for start in range(0, columns.shape[1], CHUNK):
         entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     return R

@@ -30,10 +30,10 @@ accelerometers.
 """
 
 
-def not_zero(columns: Floats) -> NDArray[np.intp]:
-    """Places of the columns (n, rows) that are not zero: those of channels that were not recorded, and of other outputs, are."""
+def not_zero(columns: Floats) -> NDArray[np.bool_]:
+    """(n,): which of the columns (n, rows) are not zero: those of channels that were not recorded, and of other outputs, are."""
     begins = np.asarray(columns[:, :1].any(axis=1))
-    return np.array([k for k, x in enumerate(columns) if begins[k] or x.any()], dtype=np.intp)
+    return np.array([bool(begins[k] or x.any()) for k, x in enumerate(columns)], dtype=np.bool_)
 
 
 def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int = 0) -> Floats:
@@ -49,8 +49,8 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     if len(taps) == 1:
         return np.asarray(columns[:, lead:] * columns.dtype.type(taps[0]))
     reach = min(before + n, len(taps))
-    own = not_zero(columns) if tail is None else np.union1d(not_zero(columns), not_zero(tail))
-    if len(own) < SPARSE * len(columns):
+    own = not_zero(columns) if tail is None else not_zero(columns) | not_zero(tail)
+    if np.count_nonzero(own) < SPARSE * len(columns):
         result = np.zeros((len(columns), n - lead), dtype=columns.dtype)
         result[own] = filtered(columns[own], taps, None if tail is None else tail[own], lead)
         return result
@@ -60,13 +60,12 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     result = np.empty((len(columns), n - lead), dtype=columns.dtype)
 
     def through(some: slice) -> None:
+        if not own[some].any():
+            result[some] = 0.0
+            return
         part = columns[some]
         if tail is not None:
             part = np.concatenate([tail[some], part], axis=1)
-        # effects of channels that were not recorded; to look through all of the others takes long
-        if not part[:, :1].any() and not part.any():
-            result[some] = 0.0
-            return
         waves = fft.rfft(part, size, axis=1)
         waves *= gain
         result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
