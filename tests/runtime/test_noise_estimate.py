@@ -67,8 +67,9 @@ def test_columns_of_other_accelerometers_change_nothing_where_they_are_zero() ->
         for zeros in (0, 10, 100)
     ]
     assert [d.kind for d in alone.found] == ["line"]
-    for left in beside:
-        assert left.found == alone.found
+    for left in beside:  # but for rounding, which follows how LAPACK divides the columns
+        (line,), (same_line,) = left.found, alone.found
+        assert (line.at, line.size) == pytest.approx((same_line.at, same_line.size))
         assert left.rank == pytest.approx(alone.rank)
         for same in ("rest", "kept", "shapes"):
             assert getattr(left, same) == pytest.approx(getattr(alone, same), abs=1e-9)
