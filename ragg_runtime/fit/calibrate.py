@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.linearise import Point
-from ragg_runtime.fit.noise import estimate_noise
+from ragg_runtime.fit.noise import estimate_noise, swell
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.passes import Piece, excerpt, heard, passed
 from ragg_runtime.fit.square_root import join, with_prior
@@ -184,6 +184,15 @@ class _Task:
         everything = Point(self.model, self.instrument, self.vector(x), with_candidates=True)
         return [estimate_noise(everything, o) for o in self.observations]
 
+    def size(self, noise: Sequence[Noise]) -> float:
+        """Root of the mean power of what no column explains, V, bursts and lines among it: where all samples weigh the same it is
+        all noise.
+        """
+        floors = [float(np.mean([m.rms**2 for m in n.models])) for n in noise]
+        records = [o.record for o in self.observations]
+        powers = [f * swell(n, r) + n.line_power for f, n, r in zip(floors, noise, records, strict=True)]
+        return float(np.sqrt(np.mean(powers)))
+
     def _nowhere(self, x: Array) -> _Fall:
         """A point at which the model is no instrument: infinitely far from any record."""
         n = len(x)
@@ -255,8 +264,7 @@ def fit(
         begun = whole if some is task else _Unweighted(some)
         x = begun.fit(x, begun.promised(x)).x
         noise = task.noise(x)
-        lines = float(np.mean([n.line_power for n in noise]))
-        loud = loud or begun.left(x) ** 2 > MISFIT * (loudness(noise) ** 2 + lines)
+        loud = loud or begun.left(x) ** 2 > MISFIT * task.size(noise) ** 2
     if not loud:
         if start is None and some is not task:
             x = minimise(lambda at: some.at(at, noise), x).x
@@ -271,7 +279,7 @@ def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Cali
     """
     for _ in range(ROUNDS):
         left = p.left(x)
-        found = p.fit(x, max(loudness(noise), left / LEAN))
+        found = p.fit(x, max(p.task.size(noise), left / LEAN))
         if fixed or np.array_equal(found.x, x):
             break
         x, before, noise = found.x, noise, p.task.noise(found.x)

@@ -12,7 +12,7 @@ from scipy import linalg
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.fit import calibrate, columns, prepared_flight
+from ragg_runtime.fit import calibrate, columns, noise, prepared_flight
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation
@@ -367,12 +367,7 @@ def about(
 
 def swell(f: Fitted) -> float:
     """rms of all the noise over that of the floor: bursts are no part of it."""
-    power = [
-        float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
-        for x in f.prepared
-        for r, level in [(x.observation.record, x.noise.level.of(x.observation.record.quantity))]
-    ]
-    return float(np.sqrt(np.mean(power)))
+    return float(np.sqrt(np.mean([noise.swell(x.noise, x.observation.record) for x in f.prepared])))
 
 
 def lines(f: Fitted) -> float:

@@ -20,7 +20,7 @@ from ragg_runtime.fit.passes import Piece, flight_segments, passed
 from ragg_runtime.fit.segments import ROWS, THINNER, Segment, beginnings, spread
 from ragg_runtime.fit.slow_noise import averages
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.model.record import quantities_of
+from ragg_runtime.model.record import Record, quantities_of
 from ragg_runtime.signals import combinations, noise_level
 from ragg_runtime.signals.fir import filtered
 from ragg_runtime.signals.noise_level import Level
@@ -105,6 +105,12 @@ def estimate_noise(
     return replace(
         noise, disturbed=words, level=loud, freedom=free, combinations=apart, lines=_lines(parts, o)
     )
+
+
+def swell(n: Noise, r: Record) -> float:
+    """Power of all noise of a record over that of the floor: bursts are no part of it."""
+    level = n.level.of(r.quantity)
+    return float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
 
 
 RESOLVED = 4.0

@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from ragg_runtime.fit import calibrate, observation
 from ragg_runtime.fit.left_over import left_over
 from ragg_runtime.fit.significance import log_sf, log_sf_t
 from ragg_runtime.fit.unknown_gradient import splines
+from ragg_runtime.model import model
+from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.signals.noise_level import Level, estimated, in_words, with_bursts
 from ragg_runtime.signals.noise_spectrum import estimate
 
@@ -73,6 +76,27 @@ def test_columns_of_other_accelerometers_change_nothing_where_they_are_zero() ->
         assert left.rank == pytest.approx(alone.rank)
         for same in ("rest", "kept", "shapes"):
             assert getattr(left, same) == pytest.approx(getattr(alone, same), abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["line", "burst"])
+def test_where_all_samples_weigh_the_same_lines_and_bursts_are_noise(kind: str) -> None:
+    """Held against the floor alone, a fit down to the noise passed for one that lacks an effect, and a sheet that was off
+    could not be widened: effects that are none took up what its parameters were held from.
+    """
+    s = scenario(12, duration=320.0, rate=RATE)
+    flight = s.simulate().flight()
+    time, rms = flight.time, 4.0 * 1.6e-3
+    if kind == "line":
+        further = np.sqrt(2.0) * rms * np.sin(2 * np.pi * 5.1 * time)
+    else:
+        further = 4.0 * rms * np.random.default_rng(1).normal(size=len(time)) * (np.abs(time - 160.0) < 10.0)
+    flight = replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
+    o = observation.observe(flight, s.sheet)
+    c = calibrate.fit(model.packaged(), s.sheet, [o], unweighted=True)
+    (noise,) = c.noise
+    assert bool(noise.lines) == (kind == "line") and bool(noise.bursts) == (kind == "burst")
+    assert noise.models[0].rms < 0.6 * rms
+    assert c.excess == pytest.approx(1.0, abs=0.15)
 
 
 def test_a_jump_beside_an_unknown_gradient_leaves_nothing_of_its_edge() -> None:
