@@ -1,7 +1,8 @@
 """What was chosen by linear tests, derived into the model and fitted anew, and what that leaves.
 
 A linear test cannot tell effects apart whose signatures agree to first order. Where the chosen one, in the model, leaves
-something that stands out, and a rival that the tests hold to be as good leaves nothing, it is the rival.
+something that stands out, and a rival that the tests hold to be as good leaves nothing, it is the rival. Nor does it know how large an
+effect may be: where the model leaves more than was promised, effects that it does as well without are none.
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.diagnosis import contenders
 from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.impossible import impossible
-from ragg_runtime.diagnosis.strong import Stage
+from ragg_runtime.diagnosis.strong import Stage, unneeded
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
@@ -22,6 +24,7 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model.evaluate import vector
@@ -61,6 +64,10 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
         field = replace(field, candidates=left)
         choice = selection.choose(field)
         final = _derived(f, choice.chosen, extend)
+    if final is not None and extend is not None:
+        kept = _needed(f, field, choice, final, extend)
+        if kept is not choice:
+            choice, final = kept, _derived(f, kept.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     found = Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
@@ -74,6 +81,37 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
         if not rem.significant or rem.lines_alone:
             return Confirmed(field=field, choice=other, final=final, remainder=rem, random=random)
     return found
+
+
+def _needed(f: Fitted, field: Field, choice: Choice, final: Fitted, extend: Extend) -> Choice:
+    """The choice without effects that the model does as well without, where it leaves more than linear tests have promised.
+
+    They promise what an effect of any size explains; in the model it has the size that it may have, and all its orders.
+    """
+    promised = float(np.sum(field.P[:, -1] ** 2)) - choice.chi2
+    if final.calibration.chi2 < promised + INDISTINGUISHABLE:
+        return choice
+
+    def left(chosen: Sequence[str]) -> float:
+        held = frozenset(label for e in chosen for label in unneeded(field, e, choice.blocks[e]))
+        charged = sum(contenders.charge(field.P[:, list(choice.blocks[e])], field.rows) for e in chosen)
+        extended = contenders.derived(f, chosen, {}, extend)
+        return contenders.left(f, f.calibration.noise, held, extended).chi2 + charged
+
+    chosen = list(choice.chosen)
+    now = left(chosen)
+    while chosen:
+        fewer = {e: left([o for o in chosen if o != e]) for e in chosen}
+        e = min(chosen, key=lambda e: (fewer[e], e))
+        if fewer[e] > now + INDISTINGUISHABLE:
+            break
+        chosen.remove(e)
+        now = fewer[e]
+    blocks = {e: choice.blocks[e] for e in chosen}
+    if len(chosen) == len(choice.chosen):
+        return choice
+    chi2 = field.joint(list(blocks.values()))[0] if chosen else 0.0
+    return replace(choice, chosen=tuple(chosen), blocks=blocks, conditional=field.tests(chosen), chi2=chi2)
 
 
 def _others(field: Field, choice: Choice) -> list[Choice]:

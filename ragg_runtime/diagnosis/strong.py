@@ -205,7 +205,7 @@ def _left(
     """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
     f = first.fitted
     charged = sum(contenders.charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
-    held = frozenset(label for s, e, which in blocks for label in _others(s.field, e, which))
+    held = frozenset(label for s, e, which in blocks for label in unneeded(s.field, e, which))
     instants = dict(first.instants) | dict(end[1].instants)
     instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
     extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
@@ -213,7 +213,7 @@ def _left(
     return replace(found, chi2=found.chi2 + charged)
 
 
-def _others(field: Field, effect: str, which: Sequence[int]) -> list[str]:
+def unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
     """Labels of an effect's columns that its test does not need."""
     return [c.label for n, c in field.candidates[effect] if n not in which]
 
@@ -239,7 +239,7 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
     def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
-        held = frozenset(_others(stage.field, e, tests[e].which))
+        held = frozenset(unneeded(stage.field, e, tests[e].which))
         return held, contenders.derived(f, [e], stage.instants, extend)
 
     contest = Contest(f, entered)
