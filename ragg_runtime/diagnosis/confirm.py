@@ -67,6 +67,8 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
     if final is not None and extend is not None:
         kept = _needed(f, field, choice, final, extend)
         if kept is not choice:
+            gone = set(choice.chosen) - set(kept.chosen)
+            field = replace(field, candidates={e: c for e, c in field.candidates.items() if e not in gone})
             choice, final = kept, _derived(f, kept.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())

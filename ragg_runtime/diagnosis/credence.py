@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import replace
 
 from ragg_runtime.diagnosis.ranking import Ranked
@@ -21,14 +21,15 @@ def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
     return sets.probabilities()
 
 
-def with_probability(r: Ranked, found: Probabilities) -> Ranked:
+def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
     """The row with its effect's probability.
 
-    Random effects and those of the output channel are no columns, and not enumerated: there it is the largest that the
-    p-value allows at even odds, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    Of an effect that has ``columns`` but is in none of the sets, the model has another one that explains the same, and better, or
+    does as well without it: none. Random effects and those of the output channel are no columns, and not enumerated: there it
+    is the largest that the p-value allows at even odds, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
     """
-    if r.effect in found.of:
-        return replace(r, probability=found.of[r.effect])
+    if r.effect in found.of or r.effect in columns:
+        return replace(r, probability=found.of.get(r.effect, 0.0))
     if r.log_p >= -1.0:
         return replace(r, probability=0.5)
     bound = -math.exp(1.0 + r.log_p) * r.log_p if r.log_p > -700.0 else 0.0

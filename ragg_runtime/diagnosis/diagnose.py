@@ -107,13 +107,17 @@ def diagnose_fitted(
     by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
     whitened = sum(s.square for s in left.remainder.searches)
     ranking = _ranked(*ranked, steps, last, c, end.target, left)
-    credence = weighed(last.field, steps)
+    credence = weighed(c.field, steps)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     steady = [s for s in left.steady if s.effect in found]
     return Diagnosis(
         verdict=verdict,
         fitted=first.fitted,
-        ranking=tuple(sorted((with_probability(r, credence) for r in ranking), key=_place(chosen))),
+        ranking=tuple(
+            sorted(
+                (with_probability(r, credence, first.field.candidates) for r in ranking), key=_place(chosen)
+            )
+        ),
         found=tuple(found),
         not_testable=tuple(_not_testable(first.fitted, first.field)),
         remainder=left.remainder if left.remains else _without_terms(left.remainder),

@@ -87,3 +87,4 @@ def test_an_instrument_off_its_sheet_is_not_given_a_mount_that_bends() -> None:
     assert last.choice.chosen == ("mount-compliance",)
     found = confirm.confirmed(last, extend)
     assert found.choice.chosen == () and not found.remainder.significant
+    assert "mount-compliance" not in found.field.candidates

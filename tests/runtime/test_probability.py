@@ -7,9 +7,12 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.evidence.probability import HELD, STRENGTHS, weighed
+from ragg_runtime.diagnosis.credence import with_probability
+from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.evidence.probability import HELD, STRENGTHS, Probabilities, weighed
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.score import Error
 
 Array = NDArray[np.float64]
 
@@ -100,3 +103,17 @@ def test_what_is_sure_shares_its_place_with_its_rivals() -> None:
 def _alike() -> tuple[Array, Array]:
     X = drawn(np.random.default_rng(9), 30, 2)
     return X, X @ [0.4, 0.2] + np.random.default_rng(10).normal(size=30)
+
+
+def test_of_an_effect_that_the_model_explains_otherwise_or_does_without_it_is_none() -> None:
+    """A twin that did worse in the model is no column of what is left any more: 1.0 was said of it, by its p-value, beside the
+    1.0 of the right one. Of random effects the p-value is all there is.
+    """
+    error = Error(*(1.0,) * 6)
+    found = Probabilities({"right": 1.0, "faint": 0.02}, (("right",),))
+    said = {}
+    for effect, log_p in (("right", -900.0), ("faint", -3.0), ("twin", -890.0), ("random", -9.0)):
+        row = Ranked(effect, log_p, 1.0, 1, 0.0, error, error, error, (), (), ())
+        said[effect] = with_probability(row, found, {"right", "faint", "twin"}).probability
+    assert (said["right"], said["faint"], said["twin"]) == (1.0, 0.02, 0.0)
+    assert said["random"] == pytest.approx(1 / (1 + 9.0 * np.exp(-8.0)))
