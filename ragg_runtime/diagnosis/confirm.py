@@ -13,10 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis import contenders
 from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.impossible import impossible
-from ragg_runtime.diagnosis.strong import Stage, unneeded
+from ragg_runtime.diagnosis.strong import Stage, left_with
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
@@ -95,10 +94,8 @@ def _needed(f: Fitted, field: Field, choice: Choice, final: Fitted, extend: Exte
         return choice
 
     def left(chosen: Sequence[str]) -> float:
-        held = frozenset(label for e in chosen for label in unneeded(field, e, choice.blocks[e]))
-        charged = sum(contenders.charge(field.P[:, list(choice.blocks[e])], field.rows) for e in chosen)
-        extended = contenders.derived(f, chosen, {}, extend)
-        return contenders.left(f, f.calibration.noise, held, extended).chi2 + charged
+        blocks = [(field, e, choice.blocks[e]) for e in chosen]
+        return left_with(f, blocks, f.calibration.noise, {}, extend).chi2
 
     chosen = list(choice.chosen)
     now = left(chosen)

@@ -203,17 +203,31 @@ def _left(
     ceiling: float = np.inf,
 ) -> Left:
     """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
-    f = first.fitted
-    charged = sum(contenders.charge(s.field.P[:, list(which)], f.calibration.rows) for s, _, which in blocks)
-    held = frozenset(label for s, e, which in blocks for label in unneeded(s.field, e, which))
     instants = dict(first.instants) | dict(end[1].instants)
     instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
+    own = [(s.field, e, which) for s, e, which in blocks]
+    return left_with(first.fitted, own, noise, instants, extend, ceiling)
+
+
+def left_with(
+    f: Fitted,
+    blocks: Sequence[tuple[Field, str, Sequence[int]]],
+    noise: Sequence[Noise],
+    instants: Mapping[str, float],
+    extend: Extend,
+    ceiling: float = np.inf,
+) -> Left:
+    """What is left of flights with effects in the model, and what their coefficients are charged: of each the field that has its
+    columns, and those of them that its test needs.
+    """
+    charged = sum(contenders.charge(q.P[:, list(which)], f.calibration.rows) for q, _, which in blocks)
+    held = frozenset(label for q, e, which in blocks for label in _unneeded(q, e, which))
     extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
     found = contenders.left(f, noise, held, extended, ceiling)
     return replace(found, chi2=found.chi2 + charged)
 
 
-def unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
+def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
     """Labels of an effect's columns that its test does not need."""
     return [c.label for n, c in field.candidates[effect] if n not in which]
 
@@ -239,7 +253,7 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
     def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
-        held = frozenset(unneeded(stage.field, e, tests[e].which))
+        held = frozenset(_unneeded(stage.field, e, tests[e].which))
         return held, contenders.derived(f, [e], stage.instants, extend)
 
     contest = Contest(f, entered)

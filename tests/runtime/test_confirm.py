@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.diagnosis import first_flight
-from ragg_runtime.diagnosis import confirm, contenders, strong
+from ragg_runtime.diagnosis import confirm, strong
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import fitted, observation
 from ragg_runtime.fit.columns import Column
@@ -48,17 +48,12 @@ def test_effects_are_left_out_that_the_model_does_as_well_without(
     field, choice = chosen_of_three()
     asked: list[tuple[str, ...]] = []
 
-    def left(f: Any, noise: Any, held: Any, extended: tuple[str, ...]) -> SimpleNamespace:
-        asked.append(extended)
-        gone = [e for e in choice.chosen if e not in extended]
-        charged = sum(contenders.charge(field.P[:, list(choice.blocks[e])], field.rows) for e in gone)
-        return SimpleNamespace(chi2=final + sum(worth.get(e, 100.0) for e in gone) + charged)
+    def left(f: Any, blocks: Sequence[tuple[Field, str, Any]], *further: Any) -> SimpleNamespace:
+        asked.append(tuple(e for _, e, _ in blocks))
+        gone = [e for e in choice.chosen if e not in asked[-1]]
+        return SimpleNamespace(chi2=final + sum(worth.get(e, 100.0) for e in gone))
 
-    def derived(f: Any, ids: Sequence[str], instants: Any, extend: Any) -> tuple[str, ...]:
-        return tuple(ids)
-
-    monkeypatch.setattr(contenders, "left", left)
-    monkeypatch.setattr(contenders, "derived", derived)
+    monkeypatch.setattr(confirm, "left_with", left)
     f: Any = SimpleNamespace(calibration=SimpleNamespace(noise=()))
     in_model: Any = SimpleNamespace(calibration=SimpleNamespace(chi2=final))
     extend: Any = None
