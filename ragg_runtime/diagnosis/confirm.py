@@ -7,7 +7,7 @@ effect may be: where the model leaves more than was promised, effects that it do
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -59,15 +59,13 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
     f, field, choice = last.fitted, last.field, last.choice
     final = _derived(f, choice.chosen, extend)
     while final is not None and (wrong := impossible(final, choice.chosen)):
-        left = {e: c for e, c in field.candidates.items() if e not in wrong}
-        field = replace(field, candidates=left)
+        field = _without(field, wrong)
         choice = selection.choose(field)
         final = _derived(f, choice.chosen, extend)
     if final is not None and extend is not None:
         kept = _needed(f, field, choice, final, extend)
         if kept is not choice:
-            gone = set(choice.chosen) - set(kept.chosen)
-            field = replace(field, candidates={e: c for e, c in field.candidates.items() if e not in gone})
+            field = _without(field, set(choice.chosen) - set(kept.chosen))
             choice, final = kept, _derived(f, kept.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
@@ -106,10 +104,21 @@ def _needed(f: Fitted, field: Field, choice: Choice, final: Fitted, extend: Exte
             break
         chosen.remove(e)
         now = fewer[e]
-    blocks = {e: choice.blocks[e] for e in chosen}
     if len(chosen) == len(choice.chosen):
         return choice
-    chi2 = field.joint(list(blocks.values()))[0] if chosen else 0.0
+    return _chosen(field, choice, chosen, {e: choice.blocks[e] for e in chosen})
+
+
+def _without(field: Field, effects: Container[str]) -> Field:
+    """The field without some of its effects."""
+    return replace(field, candidates={e: c for e, c in field.candidates.items() if e not in effects})
+
+
+def _chosen(
+    field: Field, choice: Choice, chosen: Sequence[str], blocks: Mapping[str, tuple[int, ...]]
+) -> Choice:
+    """The choice with other effects chosen, of each the columns that its test needs."""
+    chi2 = field.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
     return replace(choice, chosen=tuple(chosen), blocks=blocks, conditional=field.tests(chosen), chi2=chi2)
 
 
@@ -121,9 +130,7 @@ def _others(field: Field, choice: Choice) -> list[Choice]:
         for r in rivals:
             chosen = tuple(r if o == e else o for o in choice.chosen)
             blocks = {o: choice.blocks[o] for o in chosen if o != r} | {r: tests[r].which}
-            chi2 = field.joint([blocks[o] for o in chosen])[0]
-            left = field.tests(chosen)
-            found.append(replace(choice, chosen=chosen, blocks=blocks, conditional=left, chi2=chi2))
+            found.append(_chosen(field, choice, chosen, blocks))
     return found
 
 

@@ -72,7 +72,8 @@ def test_columns_of_other_accelerometers_change_nothing_where_they_are_zero() ->
     assert [d.kind for d in alone.found] == ["line"]
     for left in beside:  # but for rounding, which follows how LAPACK divides the columns
         (line,), (same_line,) = left.found, alone.found
-        assert (line.at, line.size) == pytest.approx((same_line.at, same_line.size))
+        assert line.kind == same_line.kind
+        assert (line.at, line.size) == pytest.approx((same_line.at, same_line.size), rel=1e-13)
         assert left.rank == pytest.approx(alone.rank)
         for same in ("rest", "kept", "shapes"):
             assert getattr(left, same) == pytest.approx(getattr(alone, same), abs=1e-9)
