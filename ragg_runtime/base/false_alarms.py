@@ -8,8 +8,8 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
   + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
 
 which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
-few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN, SURVEY and
-QUALITY are remarks beside the verdict: each is the level of its own statement.
+few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
+SURVEY are remarks beside the verdict: each is the level of its own statement.
 
 What stands in a record with no doubt has no level here, because chance has no part in it: an output that clips or stands on a
 lattice (``generated.output_effects``), spikes, jumps and lines (``plausibility.spikes``, ``fit.disturbances``,
@@ -49,6 +49,3 @@ FROZEN = 0.01
 
 SURVEY = 0.01
 """Of a survey's own statements: that so many flights are no false alarms, and, for each parameter, that it varies."""
-
-QUALITY = 1e-3
-"""Of each dependence that quality control points out: of the some 30 that are looked at, by chance one in thirty surveys."""

@@ -35,7 +35,6 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "effects": "cli.model_commands",
         "convert": "cli.file_commands",
         "map": "cli.file_commands",
-        "qc": "cli.quality_command",
         "doctor": "cli.model_commands",
         "trust": "cli.model_commands",
         "build": "cli.model_commands",

@@ -1,4 +1,4 @@
-"""What a model is for: compensated channels of the flights that are open, with their band, and quality control of them."""
+"""What a model is for: compensated channels of the flights that are open, with their band."""
 
 from __future__ import annotations
 
@@ -12,14 +12,11 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import scratch
 from ragg_runtime.flight import Flight
-from ragg_runtime.report.quality_page import quality_html
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
-from ragg_runtime.survey.quality.lines import SurveyLine, read_lines
-from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after
 from ragg_runtime.workflow.after import Compensation
-from ragg_runtime.workflow.loop import Loaded, mapping_of
+from ragg_runtime.workflow.loop import Loaded
 
 Array = NDArray[np.float64]
 
@@ -71,20 +68,6 @@ def file_of(c: Compensation, name: str) -> bytes:
         return path.read_bytes()
 
 
-def lines_of(m: Loaded, paths: Sequence[Path]) -> tuple[SurveyLine, ...]:
-    """What the files hold as lines of a survey, which need no motion; nothing if they are none."""
-    try:
-        return read_lines(paths, mapping_of(m, None)).lines
-    except UserError:
-        return ()
-
-
-def channel(x: SurveyLine, unit: str) -> Pyramid:
-    """The channel of a line that this unit asks for, else its first, Eo."""
-    y = x.channels[unit if unit in x.gradients else x.gradients[0]]
-    return pyramid(0.0, 1.0 / x.rate, len(y), lambda s: y[s])
-
-
 def shown_compensation(c: Compensation) -> dict[str, Any]:
     """What the page says of it, in the digits of the terminal."""
     r = c.as_json()
@@ -114,7 +97,3 @@ def _output(x: Mapping[str, Any]) -> dict[str, Any]:
             for t in x["contributions"]
         ],
     }
-
-
-def quality_page(q: Quality, title: str, command: str) -> bytes:
-    return quality_html(q, title=title, command=command).encode()

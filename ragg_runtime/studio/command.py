@@ -9,7 +9,6 @@ from pathlib import Path
 import click
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.scheduler_options import scheduler_options
 
 NEEDED = ("starlette", "uvicorn", "latex2mathml")
 """What the extra ``studio`` brings."""
@@ -22,22 +21,16 @@ NEEDED = ("starlette", "uvicorn", "latex2mathml")
     "--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1 (default: a free one)."
 )
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
-@scheduler_options
 def studio(
     model_dir: Path | None,
     flights: Sequence[Path],
     port: int,
     no_browser: bool,
-    scheduler: str | None,
-    tls_ca: Path | None,
-    tls_cert: Path | None,
-    tls_key: Path | None,
 ) -> None:
     """The loop in a browser: compare, see where the model fails, add what it lacks, watch the error fall.
 
     Prints the address and serves until interrupted, to this machine alone. Files are read and written below the
-    folders of MODEL and FLIGHT (without them: the working directory) and nowhere else. Surveys run on this machine,
-    or on the cluster of --scheduler.
+    folders of MODEL and FLIGHT (without them: the working directory) and nowhere else.
     """
     absent = [name for name in NEEDED if importlib.util.find_spec(name) is None]
     if absent:
@@ -47,9 +40,5 @@ def studio(
             remedy="pip install 'ragg[studio]'",
         )
     from ragg_runtime.studio.serve import serve
-    from ragg_runtime.studio.surveys import Workers
-    from ragg_runtime.survey.tls import say_unproven, tls_of
 
-    workers = Workers(scheduler=scheduler, tls=tls_of(tls_ca, tls_cert, tls_key))
-    say_unproven(scheduler)
-    serve(model_dir, flights, port, click.echo, browser=not no_browser, workers=workers)
+    serve(model_dir, flights, port, click.echo, browser=not no_browser)

@@ -48,11 +48,7 @@ class Asked:
 
 def series(s: State, a: Asked) -> bytes:
     """One series, or several (``what`` joined by ``;``) one after the other, each with its length in front."""
-    if (
-        s.compared is None
-        and a.what == "measured"
-        and (found := _unexamined(s, a.flight, a.unit)) is not None
-    ):
+    if s.compared is None and a.what == "measured" and (found := _unexamined(s, a.flight)) is not None:
         return found.window(a.first, a.last, a.points)
     if a.what.startswith("compensated:"):
         c, what = s.compensated, a.what.partition(":")[2]
@@ -77,12 +73,8 @@ def _rows(time: Array, rate: float, a: Asked) -> slice:
     return slice(i, j)
 
 
-def _unexamined(s: State, flight: int, unit: str) -> Pyramid | None:
-    """The output of a flight before it is compared: of a line, of a first look at the file, or of the flight as it was read."""
-    if 0 <= flight < len(s.lines):
-        line = s.tracks.cache.get(("line", flight, unit), lambda: apply.channel(s.lines[flight], unit))
-        assert isinstance(line, Pyramid)
-        return line
+def _unexamined(s: State, flight: int) -> Pyramid | None:
+    """The output of a flight before it is compared: of a first look at the file, or of the flight as it was read."""
     if 0 <= flight < len(s.glances) and (look := s.glances[flight]) is not None:
         return look[1]
     x = s.flights[flight] if 0 <= flight < len(s.flights) else None

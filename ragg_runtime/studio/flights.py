@@ -1,4 +1,4 @@
-"""The flights that are open, as the page is told of them: examined, at a first look, or as lines without motion."""
+"""The flights that are open, as the page is told of them: examined, or at a first look."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from ragg_runtime.flight import timeline
 from ragg_runtime.flight.glance import Glance
 from ragg_runtime.studio.pyramid import Pyramid
 from ragg_runtime.studio.session import State
-from ragg_runtime.survey.quality.lines import SurveyLine
 from ragg_runtime.wording import numbers
 
 Json = dict[str, Any]
@@ -17,8 +16,6 @@ Json = dict[str, Any]
 
 def shown(s: State) -> list[Json]:
     """Every flight that is open; before it is compared, what a first look tells."""
-    if s.lines:
-        return [_line(x) for x in s.lines]
     if not s.flights:
         return [_glance(p, look) for p, look in zip(s.paths, s.glances, strict=False) if look is not None]
     observed = () if s.compared is None else s.compared.fitted.observations
@@ -62,22 +59,4 @@ def _glance(path: Path, look: tuple[Glance, Pyramid]) -> Json:
         "channels": [],
         "outputs": ["G_out"],
         "glanced": True,
-    }
-
-
-def _line(x: SurveyLine) -> Json:
-    """What is known of a line without motion."""
-    return {
-        "name": numbers.clean(x.name),
-        "path": x.flight,
-        "samples": len(x),
-        "valid": len(x) - x.missing,
-        "rate_Hz": x.rate,
-        "start_s": 0.0,
-        "duration_s": len(x) / x.rate,
-        "notes": [],
-        "channels": [],
-        "outputs": list(x.gradients),
-        "glanced": True,
-        "line": True,
     }

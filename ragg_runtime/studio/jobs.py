@@ -24,15 +24,14 @@ class Busy(Exception):
 class Status:
     """What the page shows: a count that grows with every change, and what is being worked on.
 
-    ``revision`` grows with the state alone, not with progress; ``share`` is done of it (0 ... 1), ``note`` says how
-    much in words, where it can be counted; ``error`` are the facts of the last failure.
+    ``revision`` grows with the state alone, not with progress; ``share`` is done of it (0 ... 1),
+    ``error`` are the facts of the last failure.
     """
 
     count: int = 0
     revision: int = 0
     name: str = ""
     share: float = 0.0
-    note: str = ""
     began: float = 0.0
     error: dict[str, str | None] | None = None
 
@@ -43,7 +42,6 @@ class Status:
             "revision": self.revision,
             "job": self.name,
             "share": self.share,
-            "note": self.note,
             "spent_s": spent,
             "error": self.error,
         }
@@ -67,7 +65,7 @@ class Jobs:
             if self._thread is not None and self._thread.is_alive() and self.status.name:
                 raise Busy
             self._cancel.clear()
-            self._tell(name=name, share=0.0, note="", began=time.monotonic(), error=None)
+            self._tell(name=name, share=0.0, began=time.monotonic(), error=None)
             self._thread = threading.Thread(target=self._run, args=(work,), name="work", daemon=True)
             self._thread.start()
 
@@ -79,10 +77,6 @@ class Jobs:
         """Until the work has ended."""
         if self._thread is not None:
             self._thread.join(seconds)
-
-    def note(self, text: str) -> None:
-        """How much is done of what is being worked on, in words."""
-        self._tell(note=text)
 
     def changed(self) -> None:
         """Something that the page shows has changed."""
@@ -108,7 +102,7 @@ class Jobs:
             if self._cancel.is_set():
                 raise Cancelled
             total, done = max(amount, 1.0), 0.0
-            self._tell(name=name, share=0.0, note="", began=time.monotonic())
+            self._tell(name=name, share=0.0, began=time.monotonic())
 
         error: dict[str, str | None] | None = None
         try:
@@ -127,7 +121,7 @@ class Jobs:
             traceback.print_exc()
             error = {"what": "this is a fault of the program, not of your input; the terminal shows where"}
         finally:
-            self._tell(name="", share=0.0, note="", error=error)
+            self._tell(name="", share=0.0, error=error)
 
 
 def _shown(name: object) -> str | None:

@@ -375,8 +375,6 @@ ACTIONS: Mapping[str, Callable[[Session, Mapping[str, Any]], None]] = {
         _text(body, "calibration", 40), _text(body, "demodulator", 40)
     ),
     "calibrate": lambda session, body: session.calibrate(),
-    "quality": lambda session, body: session.control(),
-    "survey": lambda session, body: session.survey(session.places.inside(_text(body, "folder"))),
     "cancel": lambda session, body: session.jobs.cancel(),
 }
 """What the page can do, by the last part of the address."""

@@ -16,7 +16,6 @@ from ragg_runtime.studio.guard import Guard, Keys
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.routes import UPLOAD, application
 from ragg_runtime.studio.session import Session
-from ragg_runtime.studio.surveys import Workers
 
 LOOPBACK = "127.0.0.1"
 
@@ -34,14 +33,13 @@ def serve(
     say: Callable[[str], None],
     *,
     browser: bool,
-    workers: Workers = Workers(),  # noqa: B008 (frozen)
 ) -> None:
-    """Open model and flights and serve the page; ``say`` is told its address once. ``workers`` do the surveys."""
+    """Open model and flights and serve the page; ``say`` is told its address once."""
     for path in (*([model] if model else []), *flights):
         if not path.exists():
             raise UserError("there is no such file or folder", where=path)
     sys.setswitchinterval(SWITCH)
-    session = Session(Places.of(model, flights), workers)
+    session = Session(Places.of(model, flights))
     with _listening(port) as listening:
         keys = Keys()
         own = int(listening.getsockname()[1])

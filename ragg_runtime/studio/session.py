@@ -22,12 +22,8 @@ from ragg_runtime.studio import apply
 from ragg_runtime.studio.jobs import Busy, Jobs
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
-from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below, surveyed
 from ragg_runtime.studio.tracks import Tracks
-from ragg_runtime.survey.quality.lines import SurveyLine
-from ragg_runtime.survey.quality.qc import Quality
 from ragg_runtime.workflow import after, loop, versions
-from ragg_runtime.workflow import quality as control
 from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.branches import branches, text_of
 from ragg_runtime.workflow.loop import Added, Loaded
@@ -54,18 +50,14 @@ class State:
         The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
     glances
         A first look at each file, and its output as it is drawn until the flight is compared.
-    lines
-        Instead of flights, where the files hold demodulated channels alone: no model can be held against these.
     compared, diagnosed, unwhitened
         Results for exactly these.
     previous
         The comparison before the last step, for before and after.
     beside
         A state of the history, by its step, and its comparison on the same flights.
-    compensated, quality
+    compensated
         What was made of these flights with this model.
-    survey
-        That of a folder's flights, with this model or one that it was.
     trial
         An effect of the user's own that was tried and is not kept yet: its id, expression, units, and the result.
     """
@@ -76,16 +68,13 @@ class State:
     read: tuple[Flight, ...] = ()
     cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
     glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
-    lines: tuple[SurveyLine, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     unwhitened: Unwhitened | None = None
     previous: Comparison | None = None
     beside: tuple[int, Comparison] | None = None
     trial: tuple[str, str, Mapping[str, str], Added] | None = None
-    survey: Surveyed | None = None
     compensated: Compensation | None = None
-    quality: Quality | None = None
     tracks: Tracks = field(default_factory=Tracks)
 
     @property
@@ -105,9 +94,8 @@ class State:
 class Session:
     """The state and the only ways to change it; long ones run as jobs."""
 
-    def __init__(self, places: Places, workers: Workers = Workers()) -> None:  # noqa: B008 (frozen)
+    def __init__(self, places: Places) -> None:
         self.places = places
-        self.workers = workers
         self.jobs = Jobs()
         self._lock = threading.Lock()
         self._state = State()
@@ -134,13 +122,9 @@ class Session:
             part("reading the flights", 1.0)
             g0 = self.state.model.instrument.g0
             looks = tuple(_drawn(glance(p, g0)) for p in flights)
-            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks, lines=())
+            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks)
             part("reading and examining the flights", 1.0)
-            try:
-                read = tuple(loop.read_flights(self.state.model, flights))
-            except UserError:
-                self._put(lines=apply.lines_of(self.state.model, flights))
-                raise
+            read = tuple(loop.read_flights(self.state.model, flights))
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
             self._put(**_nothing(), paths=places, flights=read, read=read, cuts=((),) * len(read))
         self._look(part)
@@ -304,7 +288,7 @@ class Session:
         def work(part: Part) -> None:
             s = self.state
             part("compensating", PASSES["compare"] * s.samples)
-            self._put(compensated=apply.compensated(s.model, s.flights, kind, demodulator), quality=None)
+            self._put(compensated=apply.compensated(s.model, s.flights, kind, demodulator))
 
         self.jobs.start("compensating", work)
 
@@ -320,27 +304,6 @@ class Session:
 
         self.jobs.start("calibrating", work)
 
-    def control(self) -> None:
-        """Quality control of the flights that are open."""
-
-        def work(part: Part) -> None:
-            s = self.state
-            part("quality control", s.samples)
-            self._put(quality=control.quality(s.model, s.paths, s.flights, s.compensated))
-
-        self.jobs.start("quality control", work)
-
-    def survey(self, folder: Path) -> None:
-        """Diagnose every flight of a folder, each by itself."""
-        m = self.state.model
-        files = flights_below(folder, self.places)
-
-        def work(part: Part) -> None:
-            part("starting the survey", 1.0)
-            self._put(survey=surveyed(m, folder, files, self.workers, part, self.jobs.note))
-
-        self.jobs.start("surveying", work)
-
     def _idle(self) -> None:
         if self.jobs.status.name:
             raise Busy
@@ -355,5 +318,5 @@ def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
 
 def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
-    names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated", "quality")
+    names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated")
     return dict.fromkeys(names) | {"tracks": Tracks()}

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import io
 import json
-import shlex
 import zipfile
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.compare_page import compare_html
 from ragg_runtime.report.diagnose_page import diagnose_html
-from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.studio import apply, views
 from ragg_runtime.studio.session import State
-from ragg_runtime.survey.result import Survey
 from ragg_runtime.workflow import after, loop, origin
 from ragg_runtime.workflow.branches import branches
 
@@ -100,38 +96,6 @@ def _compensated(s: State, name: str) -> File:
     return name, kind, apply.file_of(s.compensated, name)
 
 
-def _quality(s: State) -> File:
-    if s.quality is None:
-        raise UserError("there is no quality control yet", remedy="do it under Apply")
-    names = ", ".join(x.name for x in (s.flights or s.lines))
-    return "quality.html", HTML, apply.quality_page(s.quality, names, _qc(s))
-
-
-def _qc(s: State) -> str:
-    """The commands that do the same as the quality control here."""
-    if s.compensated is None:
-        return "ragg qc " + " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
-    return f"{_command(s, 'compensate')}; ragg qc compensated.csv"
-
-
-def _survey(s: State) -> tuple[Survey, dict[str, object], dict[str, Any]]:
-    """The survey, and where it comes from: the model that it was made with, and its own flights."""
-    if s.survey is None:
-        raise UserError("there is no survey yet", remedy="do it under Survey")
-    x = s.survey
-    return x.survey, *origin.of_survey(x.model, x.survey, _command(s, "survey"))
-
-
-def _survey_json(s: State) -> File:
-    survey, told, _ = _survey(s)
-    return "survey.json", JSON, _json(survey.as_json() | told)
-
-
-def _survey_report(s: State) -> File:
-    survey, _, about = _survey(s)
-    return "survey.html", HTML, survey_html(survey, **about).encode()
-
-
 def _model(s: State) -> File:
     return "model.toml", "application/toml", s.model.directory.text.encode()
 
@@ -159,9 +123,6 @@ FILES: Mapping[str, Callable[[State], File]] = {
     "diagnosis.json": _diagnose_json,
     "compensated.csv": lambda s: _compensated(s, "compensated.csv"),
     "compensated.parquet": lambda s: _compensated(s, "compensated.parquet"),
-    "quality.html": _quality,
-    "survey.html": _survey_report,
-    "survey.json": _survey_json,
     "model.toml": _model,
     "model-c.zip": lambda s: _exported(s, "c"),
     "model-numpy.zip": lambda s: _exported(s, "numpy"),

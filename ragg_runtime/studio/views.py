@@ -10,12 +10,10 @@ from typing import Any
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight.record import left_out
-from ragg_runtime.report import diagnose_page, panels, parameters, quality_page
+from ragg_runtime.report import diagnose_page, panels, parameters
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.studio import apply, flights, maths
 from ragg_runtime.studio.session import State
-from ragg_runtime.studio.surveys import shown_survey
-from ragg_runtime.survey.task import divided
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import sheet
 from ragg_runtime.workflow.branches import branches, tree
@@ -40,8 +38,6 @@ def overview(s: State, version: str) -> Json:
         "sheet": None if s.loaded is None else sheet.shown(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
-        "quality": None if s.quality is None else quality_page.shown(s.quality),
-        "survey": None if s.survey is None or s.loaded is None else shown_survey(s.survey, s.loaded),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -325,9 +321,7 @@ def commands(s: State) -> list[str]:
     model = shlex.quote(str(s.loaded.directory.path))
     files = " ".join(shlex.quote(str(p)) for p in dict.fromkeys(s.paths))
     found = [f"ragg history {model}", f"ragg export {model} model-c --c"]
-    if s.lines:
-        found.append(f"ragg qc {files}")
-    elif s.paths:
+    if s.paths:
         found = [f"ragg {c} {model} {files}" for c in ("compare", "diagnose")] + found
         chosen = s.diagnosed.found if s.diagnosed is not None else ()
         found[2:2] = [f"ragg add {model} {shlex.quote(e)} {files}" for e in chosen]
@@ -336,8 +330,5 @@ def commands(s: State) -> list[str]:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
-    if s.survey is not None:
-        every = dict.fromkeys(str(divided(r["file"])[0]) for r in s.survey.survey.records)
-        found.append(f"ragg survey {model} {shlex.join([*every, *s.survey.workers.options])}")
     cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
     return [*_done(s, model, files), *cut, *found]

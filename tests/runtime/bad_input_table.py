@@ -912,12 +912,6 @@ TABLE: dict[str, tuple[Row, ...]] = {
             (".xls", ".xlsx"),
             ("convert", "flight.csv", "flight.xls"),
         ),
-        Row(
-            "quality control of a record without gradients",
-            flown(same),
-            ("no gradient", "ragg map"),
-            ("qc", "flight.csv"),
-        ),
     ),
 }
 

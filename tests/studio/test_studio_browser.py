@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
 import os
 import re
 import shutil
@@ -296,11 +295,8 @@ def test_09_the_test_sheet_is_edited_and_what_is_no_number_is_not_saved(page: Pa
     idle(page)
 
 
-def test_10_compensated_channels_and_their_quality(page: Page) -> None:
+def test_10_compensated_channels(page: Page) -> None:
     page.keyboard.press("6")
-    page.get_by_role("button", name="Control the quality").click()
-    expect(page.locator("#trouble")).to_contain_text("compensate them first")
-    page.keyboard.press("Escape")
     page.get_by_role("button", name="Compensate", exact=True).click()
     expect(page.locator(".channels .u-over")).to_have_count(2, timeout=PATIENCE)
     table = page.locator("section", has_text="Compensated channels").locator("tbody tr")
@@ -318,45 +314,11 @@ def test_10_compensated_channels_and_their_quality(page: Page) -> None:
         "The model keeps a calibration of 2", timeout=PATIENCE
     )
     idle(page)
-    page.get_by_role("button", name="Control the quality").click()
-    expect(page.locator(".view-apply .headline")).to_contain_text("1 line", timeout=PATIENCE)
-    idle(page)
     picture = shown(page, ".channels figure:first-child .plot")
     box = in_view(page, ".channels figure:first-child .u-over")
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 20)
     page.mouse.wheel(0, -300)
     changes(page, ".channels figure:first-child .plot", picture)
-
-
-def test_10_a_folder_is_surveyed(page: Page, server: Served) -> None:
-    days = server.folder / "days"  # type: ignore[attr-defined]
-    days.mkdir()
-    brief(days / "monday.parquet")
-    brief(days / "tuesday.parquet", start=2 * 60 * 16)
-    (days / "wednesday.csv").write_text("a,b\n1,2\n")
-    (days / "away").symlink_to("/etc")
-    page.keyboard.press("7")
-    page.get_by_role("button", name="days", exact=True).click()
-    expect(page.get_by_label("flights in")).to_have_value(str(days))
-    page.get_by_role("button", name="Survey", exact=True).last.click()
-    expect(page.locator(".view-survey .headline")).to_contain_text("3 flights: ", timeout=PATIENCE)
-    expect(page.locator(".view-survey .headline")).to_contain_text("1 in error")
-    expect(page.locator(".view-survey .channels .u-over")).to_have_count(2)
-    rows = page.locator(".view-survey tbody tr[id]")
-    expect(rows).to_have_count(2)
-    assert [float(t) < 10.0 for t in rows.locator("td").nth(7).all_text_contents()] == [True]
-    picture = shown(page, ".channels figure .plot >> nth=1")
-    page.get_by_label("Parameter", exact=True).select_option(index=1)
-    changes(page, ".channels figure .plot >> nth=1", picture)
-    with page.expect_download() as got:
-        page.get_by_role("link", name="As JSON").click()
-    told = json.loads(Path(got.value.path()).read_text())
-    names = ["monday.parquet", "tuesday.parquet", "wednesday.csv"]
-    assert [x["flight"] for x in told["flights"]] == names
-    made = told["provenance"]  # of the survey, not of the flight that is open
-    assert [Path(x["path"]).name for x in made["flights"]] == names
-    assert all(str(days / n) in made["command"] for n in names)
-    idle(page)
 
 
 def test_11_of_foreign_columns_only_what_the_file_leaves_open_is_asked(page: Page) -> None:
@@ -442,7 +404,7 @@ def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
             taken = Path(got.value.path()).read_bytes()
             assert taken.startswith(begin)
             assert name == "PNG" or ElementTree.fromstring(taken).find("{*}text").text  # type: ignore[union-attr]
-    page.keyboard.press("8")
+    page.keyboard.press("7")
     with page.expect_download() as got:
         page.get_by_role("link", name="Commands").or_(page.get_by_role("link", name="The commands")).click()
     commands = Path(got.value.path()).read_text()

@@ -6,7 +6,6 @@ import errno
 import math
 import os
 import re
-import shlex
 import struct
 import time
 import tomllib
@@ -27,14 +26,13 @@ from ragg_runtime.flight import write_flight
 from ragg_runtime.flight.timeline import missing
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.history import Step
-from ragg_runtime.studio import drawing, mapping, session, views
+from ragg_runtime.studio import mapping, session, views
 from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
 from ragg_runtime.studio.session import Session
-from ragg_runtime.studio.surveys import Surveyed, Workers, flights_below
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.branches import branches, tree
 from ragg_runtime.workflow.simulate import simulated
@@ -214,35 +212,6 @@ def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(t
             mapping.keep(m, path, bad, replace=True)
 
 
-def test_a_survey_takes_the_flights_of_a_folder_and_nothing_beside(tmp_path: Path) -> None:
-    root, beside = tmp_path / "root", tmp_path / "beside"
-    for place in (root / "a" / "b", beside):
-        place.mkdir(parents=True)
-        (place / "flight.csv").write_text("time [s]\n")
-    (root / "link").symlink_to(beside)
-    (root / "flight.csv").symlink_to(beside / "flight.csv")
-    (root / "notes.txt").write_text("")
-    (root / ".hidden.csv").write_text("")
-    places = Places((root.resolve(),))
-    assert flights_below(root, places) == [root / "a" / "b" / "flight.csv"]
-    with pytest.raises(UserError, match="a survey needs flights"):
-        flights_below(root / "link", places)
-
-
-def test_the_shell_is_told_who_examined_the_flights_of_a_survey(tmp_path: Path) -> None:
-    m = loop.new(tmp_path / "model")
-    (tmp_path / "a day").mkdir()
-    path = tmp_path / "a day" / "y.csv"
-    path.write_text("x\n1\n")
-    s = Session(Places((tmp_path,)))
-    found = loop.survey(m, [path], jobs=1)
-    workers = Workers("tcp://10.0.0.1:8786")
-    s._put(loaded=m, survey=Surveyed(folder=path.parent, model=m, survey=found, workers=workers))
-    said = shlex.split(views.commands(s.state)[-1])
-    assert said[:2] == ["ragg", "survey"]
-    assert said[2:] == [str(tmp_path / "model"), str(path), "--scheduler", "tcp://10.0.0.1:8786"]
-
-
 def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: Path) -> None:
     """Its reading, and its failure, ended in a fault of the program: what was left out of the flight before was kept."""
     m = loop.new(tmp_path / "model")
@@ -256,30 +225,6 @@ def test_another_flight_that_cannot_be_read_leaves_a_page_to_look_at(tmp_path: P
     assert s.jobs.status.error is not None
     assert views.overview(s.state, "0")["flights"] == []
     assert views.commands(s.state)
-
-
-def test_a_record_without_motion_is_drawn_and_its_quality_controlled(tmp_path: Path) -> None:
-    m = loop.new(tmp_path / "model")
-    t = np.arange(400.0)
-    rows = np.column_stack([t, 30.0 * np.sin(0.05 * t), np.cos(0.05 * t)])
-    path = tmp_path / "line.csv"
-    np.savetxt(path, rows, delimiter=",", header="time [s],inline [Eo],cross [Eo]", comments="")
-    s = Session(Places((tmp_path,)))
-    s._put(loaded=m)
-    s.open(None, [path])
-    s.jobs.wait(60)
-    assert s.jobs.status.error is not None  # what a model lacks is told
-    told = views.overview(s.state, "0")["flights"]
-    assert [(x["name"], x["rate_Hz"], x["outputs"]) for x in told] == [("line", 1.0, ["inline", "cross"])]
-    for k, unit in enumerate(("inline", "cross")):
-        asked = drawing.Asked("measured", unit, 0, 0, (), 0.0, 400.0, 400)
-        sent = drawing.series(s.state, asked)
-        assert np.frombuffer(sent[HEAD.size :], "<f4") == pytest.approx(rows[:, 1 + k], rel=1e-6)
-    s.control()
-    s.jobs.wait(60)
-    assert s.state.quality is not None
-    assert len(s.state.quality.lines) == 1
-    assert views.commands(s.state)[-1].startswith("ragg qc ")
 
 
 def test_an_output_is_told_from_those_of_other_flights(tmp_path: Path) -> None:

@@ -14,7 +14,6 @@ import { sheetView } from "./views/sheet.js";
 import { historyView } from "./views/history.js";
 import { filesView } from "./views/files.js";
 import { applyView } from "./views/apply.js";
-import { surveyView } from "./views/survey.js";
 import { takeView } from "./views/take.js";
 import { help } from "./views/help.js";
 
@@ -25,7 +24,6 @@ const VIEWS = [
   ["history", "History", historyView],
   ["files", "Files", filesView],
   ["apply", "Apply", applyView],
-  ["survey", "Survey", surveyView],
   ["take", "Take away", takeView],
 ];
 const $ = (id) => document.getElementById(id);
@@ -67,11 +65,10 @@ function job(status) {
   if (!busy) return;
   if (box.dataset.job !== status.job) {
     box.dataset.job = status.job;
-    fill(box, h("span.name", {}, status.job), h("span.count"), h("progress", { max: 1, "aria-label": status.job }), h("span.left"), h("button.quiet", { type: "button", onclick: () => doing("cancel") }, "Cancel"));
+    fill(box, h("span.name", {}, status.job), h("progress", { max: 1, "aria-label": status.job }), h("span.left"), h("button.quiet", { type: "button", onclick: () => doing("cancel") }, "Cancel"));
   }
   const bar = box.querySelector("progress");
   if (status.share > 0.02) bar.value = status.share;
-  box.querySelector(".count").textContent = status.note;
   const beyond = status.share > 0.985; // nobody knows how long what takes longer than foreseen will take
   const left = status.share > 0.05 && !beyond ? (status.spent_s * (1 - status.share)) / status.share : null;
   box.querySelector(".left").textContent = beyond ? "longer than foreseen" : left !== null && left > 3 ? `about ${left < 100 ? `${Math.round(left)} s` : `${Math.round(left / 60)} min`} left` : "";

@@ -1,4 +1,4 @@
-// What a model is for: compensated channels with their band, quality control of the flights, and both as files.
+// What a model is for: compensated channels with their band, and as files.
 import { Refused, series } from "../api.js";
 import { counted, fill, h } from "../dom.js";
 import { look, on, server, view } from "../store.js";
@@ -23,8 +23,8 @@ const choice = (id, label, options) => [
 const head = (names) => h("thead", {}, h("tr", {}, names.map((n, k) => h(k ? "th.n" : "th", { scope: "col" }, n))));
 
 export function applyView(main) {
-  const box = h("section.card"), figures = h("section.card.channels", { hidden: true }), control = h("section.card");
-  fill(main, box, figures, control);
+  const box = h("section.card"), figures = h("section.card.channels", { hidden: true });
+  fill(main, box, figures);
   let plots = [], shown = "", window_ = null;
 
   const flown = (state) => state.flights.length > 0 && !state.flights[0].glanced;
@@ -85,27 +85,12 @@ export function applyView(main) {
     draw();
   };
 
-  const quality = (state) => {
-    const q = state.quality, busy = Boolean(state.status.job);
-    fill(control, h("h2", {}, "Quality control"),
-      h("p.note", {}, "What ragg qc says of these flights as lines of a survey: of the files where they hold demodulated channels, else of what compensation made of them."),
-      h("div.row", {}, h("button", { type: "button", disabled: busy || !state.flights.length, onclick: () => doing("quality") }, "Control the quality"),
-        q ? h("a", { href: "/api/take/quality.html", download: "quality.html" }, "The report") : null),
-      q ? [
-        h(`div.verdict.${q.state}`, {}, h("p.headline", {}, q.headline), q.lead.map((t) => h("p.lead", {}, t))),
-        q.refused.map(([name, lines]) => h("p.note", {}, h("b", {}, name), ` ${lines.join(" ")}`)),
-        q.limits.length ? h("div.wide", {}, h("table.numbers", {}, head(["limit", "allowed", "median", "worst", "lines beyond"]), h("tbody", {}, q.limits.map((x) => h("tr", {}, h("th", { scope: "row", title: x.what }, x.name), [x.value, x.median, x.worst, String(x.failed)].map((t) => h("td.n", {}, t))))))) : null,
-        h("div.wide", {}, h("table.numbers", {}, head(["line", ...q.heads.map(([name, unit]) => `${name}, ${unit}`), "beyond"]), h("tbody", {}, q.rows.map((r) => h("tr", {}, h("th", { scope: "row" }, r.name), r.cells.map((t) => h("td.n", {}, t)), h("td.n", {}, r.failed)))))),
-      ] : null);
-  };
-
   const known = () => {
     const { state } = server;
     if (!state || !state.model) return void fill(main, h("p.empty-note", {}, "Open a model and a flight to apply it."));
-    if (!box.isConnected) fill(main, box, figures, control);
+    if (!box.isConnected) fill(main, box, figures);
     compensation(state);
     curves(state);
-    quality(state);
   };
   known();
   const offs = [on("server", known), on("flight", known)];

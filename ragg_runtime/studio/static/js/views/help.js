@@ -2,7 +2,7 @@
 import { h } from "../dom.js";
 
 const KEYS = [
-  ["1 … 8", "the views, from left to right"],
+  ["1 … 7", "the views, from left to right"],
   ["j, k", "next and previous effect"],
   ["Space", "tick or untick the effect"],
   ["Enter", "on an effect: open or close what is known of it"],

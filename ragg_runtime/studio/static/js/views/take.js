@@ -9,8 +9,6 @@ const FILES = [
   ["diagnosis.json", "Diagnosis as JSON", "every number, with what it was made of"],
   ["compare.json", "Comparison as JSON", "errors before and after calibration, terms, outputs"],
   ["compensated.csv", "Compensated channels", "inline and cross with their standard uncertainties, once they are made under Apply"],
-  ["quality.html", "Report of the quality control", "of the flights as lines of a survey, once it is made under Apply"],
-  ["survey.html", "Report of the survey", "of the flights of a folder, once it is made under Survey"],
   ["model.toml", "The model", "test sheet and effects with their calibrated values"],
   ["model-c.zip", "The model in C", "a C17 program with the calibration that is kept (under Apply), else the sheet’s values"],
   ["model-numpy.zip", "The model for NumPy", "the same as a folder that runs with NumPy alone"],
@@ -20,7 +18,7 @@ const FILES = [
 export function takeView(main) {
   const known = () => {
     const { state } = server;
-    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "compensated.csv": state && state.compensated, "quality.html": state && state.quality, "survey.html": state && state.survey, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
+    const ready = { "diagnosis.html": state && state.effects.length, "diagnosis.json": state && state.effects.length, "compare.html": state && state.banner, "compare.json": state && state.banner, "steps.html": state && state.before && state.banner, "compensated.csv": state && state.compensated, "model.toml": state && state.model, "model-c.zip": state && state.model, "model-numpy.zip": state && state.model, "commands.sh": state && state.model };
     fill(
       main,
       h("section.card", {}, h("h2", {}, "Files"),

@@ -1,1 +1,0 @@
-"""Quality control of surveys in the industry's terms: noise by line, crossovers, dependences, steps from day to day."""
