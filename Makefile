@@ -5,25 +5,19 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign promises package test-oldest lock sbom audit
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign package lock
 
 # The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
-NAMES := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p'
-PINS := $(NAMES) requirements.lock
+PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
 
 help:  ## list the targets
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
-# pip works on one processor: two of them take half of the lock each, which names all that is needed (`pip check`, below).
-# What builds the project (setuptools) is in the lock too: --no-build-isolation takes it from there. Byte code is made on all
-# cores; pip makes it on one, and of the packages' own tests, a third of it, as well. What does not
-# compile (templates of old Python) is never run.
+# What builds the project (setuptools) is in the lock too: --no-build-isolation takes it from there. Byte code is made on all cores.
 $(STAMP): requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed: make PYTHON=python3.x")'
 	$(PYTHON) -m venv $(VENV)
-	@awk '/^[A-Za-z]/ { n++ } { print > ("$(VENV)/half-" n % 2) }' requirements.lock
-	half() { $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --no-deps --require-hashes \
-	  -r $(VENV)/half-$$1; }; half 0 & first=$$!; half 1; second=$$?; wait $$first && exit $$second
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile --no-deps --require-hashes -r requirements.lock
 	$(BIN)/python -m compileall -qq -j 0 -x '/tests?/' $(VENV)/lib || true
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
@@ -97,40 +91,16 @@ fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for long
 fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off
 	$(BIN)/python -m tests.fuzz --campaign 1000000 --seconds 1e9
 
-promises: $(STAMP)  ## measure and write the figures of docs/trust.md
-	$(BIN)/python -m tests.promises
-
 package:  ## build wheel and sdist, install into an empty environment, run the demo there
 	PYTHON=$(PYTHON) .ci/package
 
-# The oldest versions that pyproject.toml allows; Python 3.11, for which they have wheels.
-test-oldest: export OPENBLAS_NUM_THREADS := 1
-test-oldest:  ## run the tests of the runtime with the oldest dependencies
-	$(PYTHON) -m venv .venv-oldest
-	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-oldest.lock
-	.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
-	.venv-oldest/bin/python -m pytest -q -n 2 --dist loadfile -W default tests/runtime tests/fuzz tests/derive/test_expression.py
-
-# What works on the lock itself: an environment of its own, so that nothing of it is in the lock.
-TOOLS := .venv-tools/.complete
-$(TOOLS): Makefile
+lock:  ## put the hashes of all files of each release into the lock (after adding a line NAME==VERSION)
 	$(PYTHON) -m venv .venv-tools
-	.venv-tools/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9 cyclonedx-bom==7.5.0 pip-audit==2.10.1
-	@touch $@
-
-lock: $(TOOLS)  ## put the hashes of all files of each release into both locks (after adding a line NAME==VERSION)
-	for lock in requirements.lock requirements-oldest.lock; do $(NAMES) $$lock > .venv-tools/pins.in; \
-	  .venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
-	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null || exit 1; \
-	  cp .venv-tools/pins.lock $$lock; done
-
-sbom: $(STAMP) $(TOOLS)  ## write sbom.json (CycloneDX): the packages of the lock, what is vendored, their licences
-	$(PINS) | PYTHONWARNINGS=ignore .venv-tools/bin/cyclonedx-py requirements - --pyproject pyproject.toml \
-	  --short-PURLs --output-reproducible --of JSON > .venv-tools/bom.json
-	$(BIN)/python .ci/sbom.py < .venv-tools/bom.json > sbom.json
-
-audit:  ## look the packages of the lock up in the list of known vulnerabilities, where it can be reached
-	@.ci/audit
+	.venv-tools/bin/python -m pip install --quiet --disable-pip-version-check uv==0.13.9
+	$(PINS) > .venv-tools/pins.in
+	.venv-tools/bin/uv pip compile --quiet --no-config --no-deps --universal --python-version 3.11.5 --generate-hashes \
+	  --no-header --no-annotate --no-emit-index-url .venv-tools/pins.in -o .venv-tools/pins.lock > /dev/null
+	cp .venv-tools/pins.lock requirements.lock
 
 docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; warnings are errors)
 	$(BIN)/python -m sphinx -q -b html -W --keep-going docs docs/_build/html
@@ -141,4 +111,4 @@ pages: $(STAMP)  ## write the generated pages of docs/ anew
 	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
-	rm -rf docs/_build docs/_made $(VENV) .venv-oldest .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf docs/_build docs/_made $(VENV) .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

@@ -7,8 +7,6 @@ they were.
 from __future__ import annotations
 
 import gzip
-import hashlib
-import json
 import tempfile
 from pathlib import Path
 
@@ -93,16 +91,6 @@ STEPS = """{"version": 1, "written_by": "ragg 0.1.0", "steps": [
 """
 CHANGE = """{"version": 1, "written_by": "ragg 0.1.0", "folders": {"generated": 7}, "files": ["model.toml", "history.json"],
 "removed": ["calibration.json"]}"""
-HEAD = '{"kind":"ragg survey","version":1,"model":"%s","program":{"ragg":"fuzzed"}}'
-LANDMARKS = {
-    "rate": 8.0,
-    "rows": [100, 300],
-    "columns": {"a_x": [1.0, 2.0], "a_y": [0.5, None]},
-    "digit": {"a_x": 0.0, "a_y": 1e-3},
-    "spread": {"a_x": 0.5, "a_y": 0.25},
-}
-JOB = "a3b2388f1cc32ea82e2b6528d1f3fd558b178f703cfe77fd8a3b30c978b0c375"
-"""SHA-256 of the model.toml of ``kept.JOB``."""
 SAVED = """{"version": 1, "written_by": "ragg 0.1.0", "calibrations": [
 {"time": "2026-11-22T03:47:29+00:00", "converged": true, "model": {"effects": ["lag"], "form": "paper", "derivation": "00"},
  "values": {"radius": [0.1], "K1": [1.0, 1.0]}, "sheet": {"radius": [0.1], "K1": [1.0, 1.5]},
@@ -139,17 +127,8 @@ def make() -> dict[str, dict[str, bytes]]:
 
 
 def _results() -> bytes:
-    """A results file: the records of 0.1.0 in short, with what later versions put there, and one in error."""
-    kept = Path(__file__).parents[1] / "fixtures" / "0.1.0" / "results.jsonl"
-    lines = [HEAD % JOB]
-    for name, line in zip(("a.csv", "b.csv"), kept.read_text("utf-8").splitlines()[2:], strict=True):
-        digest = hashlib.sha256(name.encode()).hexdigest()
-        record = json.loads(line) | {"flight": name, "file": f"/flights/{name}", "sha256": digest}
-        record["parameters"], record["ranking"] = record["parameters"][:3], record["ranking"][:2]
-        record["terms"], record["landmarks"] = [{"harmonic": "cos 2", "term": "a_x"}], LANDMARKS
-        lines.append(json.dumps(record, separators=(",", ":")))
-    lines.append('{"flight":"c.csv","file":"/flights/c.csv","error":{"kind":"input","message":"none"}}')
-    return ("\n".join(lines) + "\n").encode()
+    """A results file of a survey, as it was written once: two flights, and one in error."""
+    return (CORPUS / "resume" / "seed-0").read_bytes()
 
 
 def _table(name: str) -> bytes:
