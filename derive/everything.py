@@ -8,7 +8,7 @@ from pathlib import Path
 
 import sympy
 
-from derive import audit, pages, pipeline, tree
+from derive import audit, pipeline, tree
 from derive.pipeline import derive_base
 from derive.simplify.page import page as simplified_page
 
@@ -22,7 +22,7 @@ def folders(*, docs: bool = True) -> Mapping[str, Mapping[str, str]]:
     """Folder of the project -> path in it -> text; the pages, half of the work, if ``docs`` are wanted."""
     found: dict[str, Mapping[str, str]] = {GENERATED: derive_base()}
     if docs:
-        found[DOCS] = {"errata.md": audit.page(), "simplified.md": simplified_page(), **pages.effects()}
+        found[DOCS] = {"errata.md": audit.page(), "simplified.md": simplified_page()}
     return found
 
 

@@ -1,4 +1,4 @@
-"""Documentation pages of the effects, written from the effects themselves."""
+"""Documentation pages of the effects, written from the effects themselves when the site is built (docs/conf.py)."""
 
 from __future__ import annotations
 

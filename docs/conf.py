@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 HERE = Path(__file__).parent
 ROOT = HERE.parent
-sys.path[:0] = [str(ROOT), str(HERE)]
+sys.path[:0] = [str(ROOT)]
 
-import house  # noqa: E402
 from latex2mathml.converter import convert  # noqa: E402
 
 if TYPE_CHECKING:
@@ -65,14 +64,17 @@ def _block(self: Any, node: Any) -> None:
 
 
 def _made(app: Sphinx, config: Any) -> None:
-    """What is not written by hand: the notebook, the reports of the demonstration, the picture of the house."""
+    """What is not written by hand: the effects' pages, the notebook, the reports of the demonstration."""
+    from derive import pages
     from ragg_runtime.cli import demo
 
     made = HERE / "_made"
     made.mkdir(exist_ok=True)
     for name in ("first-steps.ipynb", "demo-flight.parquet"):
-        _copied(ROOT / "examples" / name, made / name)
-    (made / "house.svg").write_text(house.drawn(ROOT), "utf-8")
+        _written(made / name, (ROOT / "examples" / name).read_bytes())
+    (made / "effects").mkdir(exist_ok=True)
+    for name, text in pages.effects().items():
+        _written(made / name, text.encode())
     reports = made / "extra" / "reports"
     if not (reports / "report.html").exists():
         shutil.rmtree(made / "extra", ignore_errors=True)
@@ -81,10 +83,10 @@ def _made(app: Sphinx, config: Any) -> None:
         shutil.rmtree(reports / "model")
 
 
-def _copied(source: Path, target: Path) -> None:
+def _written(target: Path, content: bytes) -> None:
     """Only where it differs: a page that is as before is not built again."""
-    if not target.exists() or target.read_bytes() != source.read_bytes():
-        shutil.copyfile(source, target)
+    if not target.exists() or target.read_bytes() != content:
+        target.write_bytes(content)
 
 
 def setup(app: Sphinx) -> None:

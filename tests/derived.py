@@ -17,6 +17,5 @@ def derived(*, docs: bool = True) -> dict[str, dict[str, str]]:
     place = ROOT / GENERATED
     names = {GENERATED: json.loads((place / "manifest.json").read_text("utf-8"))["files"]}
     if docs:
-        pages = sorted(f"effects/{p.name}" for p in (ROOT / DOCS / "effects").glob("*.md"))
-        names[DOCS] = ["errata.md", "simplified.md", "effects.md", *pages]
+        names[DOCS] = ["errata.md", "simplified.md"]
     return {folder: {n: (ROOT / folder / n).read_text("utf-8") for n in own} for folder, own in names.items()}

@@ -1,4 +1,4 @@
-"""From the raw packets of the array to two flights: its rests, and its motion; and the packets of that.
+"""From the raw packets of the array to two flights: its rests, and its motion.
 
     python -m examples.mimu.record RAW.bin.gz FOLDER
 
@@ -14,7 +14,6 @@ from __future__ import annotations
 import gzip
 import sys
 from collections.abc import Iterator, Sequence
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -175,9 +174,6 @@ def main(raw: str, folder: str) -> None:
     write_flight(rests(force[:start], rate[:start], quiet[:start]), there / "rests.parquet")
     moving = [x[start:end] for x in (force, rate, saturated)]
     write_flight(motion(*moving), there / "motion.parquet")
-    plain = gzip.decompress(Path(raw).read_bytes())
-    kept = b"".join(plain[p] for p in islice(whole_packets(plain), start, end))
-    (there / "motion.bin.gz").write_bytes(gzip.compress(kept, mtime=0))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,11 +9,8 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 import pyarrow.parquet as pq
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 from scipy.optimize import least_squares
 
 from examples.mimu.record import G0
@@ -131,31 +127,6 @@ def diagnosed_of(i: Instrument, both: Sequence[Flight]) -> Diagnosis:
     return diagnose(derive.model_of(i), i, both, partial(derive.with_effects, i))
 
 
-BESIDE = 1
-"""Samples on either side of a saturated one at which a derivative would be a guess."""
-
-
-def without_acceleration(folder: Path) -> Path:
-    """The motion without the measured angular acceleration: the reader then derives it from the rate.
-
-    It is given a fair chance: samples beside saturated ones are left out.
-    """
-    table = pq.read_table(HERE / "motion.parquet")
-    guessed = binary_dilation(np.isnan(table["omega_x"].to_numpy()), np.ones(2 * BESIDE + 1))
-    for n in [n for n in table.column_names if n.startswith("V_")]:
-        values = pa.array(np.where(guessed, np.nan, table[n].to_numpy()))
-        table = table.set_column(table.column_names.index(n), table.schema.field(n), values)
-    path = folder / "derived.parquet"
-    pq.write_table(table.select([n for n in table.column_names if not n.startswith("omegadot")]), path)
-    return path
-
-
-def residuals(found: Found) -> list[Array]:
-    """What is left of the motion's voltages, each by itself, m/s^2."""
-    (piece,) = found.fitted.prepared[1].each(lambda p: p)
-    return [G0 * e[piece.observation.record.valid] for e in piece.residual]
-
-
 TOLERANCE = 0.03
 """Of a chip's scale by its data sheet (InvenSense MPU-9150, initial calibration), relative."""
 
@@ -181,28 +152,6 @@ def gravity() -> tuple[float, float, float]:
     axes = G0 / gains
     g = float(np.mean(axes))
     return g, g * TOLERANCE / float(np.sqrt(3 * CHIPS)), float(np.std(axes, ddof=1))
-
-
-def figure(cases: Mapping[str, Found]) -> bytes:
-    """How large what is left is: sorted sizes of the voltages' residuals, of each case; and the arms. PNG."""
-    fig = Figure(figsize=(7.0, 3.4), layout="constrained")
-    left, right = fig.subplots(1, 2)
-    for name, found in cases.items():
-        e = np.sort(np.abs(np.concatenate(residuals(found))))
-        left.loglog(e, 1 - np.arange(len(e)) / len(e), label=name, lw=1.4)
-    left.set(xlabel="|residual| of a voltage, m/s²", ylabel="share above", xlim=(1e-2, 100), ylim=(1e-3, 1))
-    left.legend(fontsize=7, frameon=False)
-    for n, (name, found) in enumerate(cases.items()):
-        if "derived" in name:
-            continue
-        x = np.arange(4) + 0.18 * n
-        right.errorbar(x - 0.27, found.arm[0], 3 * found.arm[1], fmt="o", ms=3, lw=1, color=f"C{n}")
-    right.axhline(RADIUS, color="0.5", lw=0.8)
-    right.set(xticks=range(4), xticklabels=["A1", "A2", "A3", "A4"], ylabel="arm, mm (bars: 3 sigma)")
-    right.text(0.5, RADIUS, "survey", fontsize=7, color="0.4", ha="center", va="bottom")
-    made = io.BytesIO()
-    fig.savefig(made, dpi=140, metadata={"Software": None})
-    return made.getvalue()
 
 
 def pm(value: float, std: float, digits: int = 2) -> str:
@@ -250,28 +199,3 @@ def ranked(d: Diagnosis, most: int = 4) -> str:
     left = [f"{x['harmonic']} × `{x['term']}`" for x in d.terms()[:3]] if d.verdict == "unexplained" else []
     more = [f"left over: {', '.join(left)}"] if left else []
     return table(("effect", "log10 p", "parameters"), rows) + "; ".join([said, *more]) + "."
-
-
-def left_over(d: Diagnosis, most: int = 6) -> str:
-    """What a diagnosis finds left, term by term."""
-    rows = [
-        (
-            f"{x['harmonic']} × `{x['term']}`",
-            f"{x['coefficient']:+.3f} V/(m/s²)",
-            f"{abs(float(str(x['z']))):.0f}",
-        )
-        for x in d.terms()[:most]
-    ]
-    return table(("left over", "coefficient", "sigma"), rows) + f"\n\nVerdict: `{d.verdict}`."
-
-
-def treatments(cases: Mapping[str, Found]) -> str:
-    """What is left of the voltages, case by case."""
-    sizes = {n: np.concatenate(residuals(f)) for n, f in cases.items()}
-    return table(
-        ("treatment", "rms of a voltage's residual", "median"),
-        [
-            (n, f"{np.sqrt(np.mean(e**2)):.2f} m/s²", f"{np.median(np.abs(e)):.2f} m/s²")
-            for n, e in sizes.items()
-        ],
-    )

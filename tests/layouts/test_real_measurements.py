@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from examples.mimu import by_hand, clocks, record, story, variants, what_remains
+from examples.mimu import record, story
 from examples.mimu.sheet import sheet
 from ragg_runtime.evidence.sheet import doubtful
 from ragg_runtime.fit.calibrate import Calibration
@@ -125,48 +125,6 @@ def test_the_length_of_one_arm_alone_is_no_arm_length() -> None:
     f = calibrated_beside(i)
     assert "not what all accelerometers have in common" in str(doubtful(f, "arm-length"))
     assert "stands still" in str(doubtful(f, "bearing-run-out"))
-
-
-def test_saturation_that_is_left_unmarked_is_found(tmp_path: Path) -> None:
-    d = story.diagnosed(story.UNLIFTED, motion=variants.unmarked(tmp_path))
-    assert d.verdict == "missing-effect"
-    assert set(d.found) == {"imu-saturation", "gyro-delay"}
-
-
-def test_the_clocks_of_the_chips_are_the_rest(tmp_path: Path) -> None:
-    """By the gyroscopes alone; the accelerometers follow them, and the diagnosis finds them beside the record."""
-    slips = [c.slip for c in variants.told()]
-    assert slips == pytest.approx([2.55, 2.25, 0.33, 2.45, 0.83, 0.04, 1.12, 0.65], abs=0.01)
-    here, other = by_hand.of_clocks(*record.read(variants.PACKETS))
-    assert here > 0.65
-    assert other < 0.25
-    own, _ = what_remains.slips_of(tmp_path)
-    assert np.all(np.diag(own) > 0.5)
-    assert np.all(np.diag(own) > 2 * np.max(np.abs(own - np.diag(np.diag(own))), axis=1))
-    d = story.diagnosed(story.UNLIFTED, motion=variants.synchronous(tmp_path, outputs=False))
-    left = {str(x["term"]): np.sign(float(str(x["coefficient"]))) for x in d.terms()[:4]}
-    assert left == {"slip_1": 1, "slip_2": 1, "slip_3": -1, "slip_4": -1}
-
-
-def test_a_clock_is_told_from_what_it_does() -> None:
-    """Eight gyroscopes, each with a clock of its own, of a rotation that is known."""
-    rng = np.random.default_rng(8)
-    t = np.arange(2500) / record.RATE
-    f, phase = rng.uniform(0.5, 4.0, (2, 3, 6)) * np.array([1.0, 1.6])[:, None, None]
-    true = [
-        clocks.Clock(slip, float(rng.uniform()), float(rng.choice([-1, 1])), 1.0)
-        for slip in np.linspace(0.2, 3.0, 8)
-    ]
-    at = np.stack([t - c.age(t) for c in true], axis=1)
-    rate = 4.0 * np.sin(2 * np.pi * f * at[:, :, None, None] + phase).sum(axis=3) + 0.02 * rng.normal(
-        size=(2500, 8, 3)
-    )
-    told = clocks.clocks(rate, np.ones(2500, dtype=bool))
-    for c, known in zip(told, true, strict=True):
-        assert c.slip == pytest.approx(known.slip, abs=3e-3)
-        assert c.sign == known.sign
-        age = np.stack([c.age(t), known.age(t)])
-        assert np.median(np.abs(age[0] - age[1])) < 0.1 * clocks.PERIOD
 
 
 def test_the_grade_of_a_sheet_is_that_of_its_sigmas() -> None:
