@@ -1,4 +1,1 @@
-"""What every room stands on: errors, files written whole, locks, progress, threads, memory.
-
-Imports nothing of ours.
-"""
+"""What every room stands on: errors, files written whole, locks, progress, threads, memory."""

@@ -1,4 +1,1 @@
-"""The command line, ``ragg``: commands, terminal texts, the demonstration.
-
-Imports ``base``, ``flight``, ``report``, ``survey`` and ``workflow``.
-"""
+"""The command line, ``ragg``: commands, terminal texts, the demonstration."""

@@ -2,6 +2,4 @@
 
 ``compensate`` works on whole flights, ``recursive`` sample by sample; ``saved`` and ``frozen`` are calibrations that are kept.
 ``export`` writes the same as a C program, as NumPy or as JSON; it imports nothing above ``fit``.
-
-Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model`` and ``signals``.
 """

@@ -1,4 +1,1 @@
-"""Evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects.
-
-Imports ``base`` and ``fit``.
-"""
+"""Evidence for effects of the catalogue: likelihood ratios, selection, steps, random effects."""

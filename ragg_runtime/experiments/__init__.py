@@ -5,6 +5,4 @@ Gradiometer*: a test mass about a perfect instrument (Section III.A), an imperfe
 (III.B, Tables V and VI) and in air turbulence (III.C, Tables VII and VIII). The numerical model of Eq. 49 to
 53 stands for the instrument, the derived analytical and simplified models for themselves. Nothing is tuned:
 where the paper leaves an input open, the choice is said, and what depends on it is shown.
-
-Imports ``base``, ``generated``, ``instrument``, ``reference`` and ``signals``.
 """

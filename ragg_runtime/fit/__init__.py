@@ -1,4 +1,1 @@
-"""Fitting a model to flights: nonlinear least squares on the triangles of whitened columns.
-
-Imports ``base``, ``flight``, ``generated``, ``instrument``, ``model`` and ``signals``.
-"""
+"""Fitting a model to flights: nonlinear least squares on the triangles of whitened columns."""

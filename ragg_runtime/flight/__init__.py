@@ -1,7 +1,4 @@
-"""Flights: records of motion and output, read from and written to the field's files.
-
-Imports ``base``, ``instrument`` and ``signals``.
-"""
+"""Flights: records of motion and output, read from and written to the field's files."""
 
 from ragg_runtime.flight.files import iter_flight_chunks, read_flight, read_flights, write_flight
 from ragg_runtime.flight.record import Flight

@@ -1,4 +1,1 @@
-"""The instrument: nominal parameters, units and effects of one gradiometer, read from ``model.toml``.
-
-Imports ``base``.
-"""
+"""The instrument: nominal parameters, units and effects of one gradiometer, read from ``model.toml``."""

@@ -1,4 +1,1 @@
-"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder.
-
-Imports ``base``, ``fit``, ``flight``, ``model`` and ``signals``.
-"""
+"""What no known effect explains: a dictionary of generic terms, searched in the whitened remainder."""

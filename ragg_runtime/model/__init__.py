@@ -1,4 +1,1 @@
-"""Derived models as Python objects: the packaged one, or one derived for a list of effects, evaluated on records.
-
-Imports ``base``, ``flight``, ``generated``, ``instrument`` and ``signals``.
-"""
+"""Derived models as Python objects: the packaged one, or one derived for a list of effects, evaluated on records."""

@@ -1,4 +1,1 @@
-"""A model directory: reading, changing it whole or not at all, deriving its code.
-
-Imports ``base``, ``derive``, ``instrument`` and ``model``.
-"""
+"""A model directory: reading, changing it whole or not at all, deriving its code."""

@@ -1,7 +1,4 @@
-"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them.
-
-Imports ``base``, ``fit``, ``flight``, ``generated``, ``instrument``, ``model`` and ``signals``.
-"""
+"""Does a record look as it should? Likely mistakes by their physics, spikes, and what was done about them."""
 
 from ragg_runtime.model.settings import check_settings
 from ragg_runtime.plausibility.examine import examined

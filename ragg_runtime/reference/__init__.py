@@ -2,8 +2,6 @@
 
 Built from vectors, rotations and cross products, not from the derivation's algebra, and free of its
 truncations where asked (``rotations="exact"``, Newton's law, effects in full form). It never sees ``derive`` or ``generated``.
-
-Imports ``base``, ``flight`` and ``instrument``.
 """
 
 from __future__ import annotations

@@ -3,6 +3,4 @@
 ``compare_page``, ``diagnose_page`` and ``add_page`` turn results into pages; the same input gives the same bytes.
 Numbers come from the results, words from ``wording``, series for figures from ``series``. Words alone (``in_words``)
 need nothing that draws: it takes a second to import.
-
-Imports ``base``, ``diagnosis``, ``fit``, ``survey`` and ``wording``.
 """

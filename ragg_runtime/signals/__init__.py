@@ -1,4 +1,1 @@
-"""Signal processing without physics: FIR filters, derivatives, demodulation, spectra of noise.
-
-Imports ``base``.
-"""
+"""Signal processing without physics: FIR filters, derivatives, demodulation, spectra of noise."""

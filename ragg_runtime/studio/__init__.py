@@ -1,4 +1,1 @@
-"""The loop in a browser: a server for one user on this machine, and the page that it serves.
-
-Imports ``base``, ``diagnosis``, ``flight``, ``report``, ``wording`` and ``workflow``.
-"""
+"""The loop in a browser: a server for one user on this machine, and the page that it serves."""

@@ -2,6 +2,4 @@
 
 ``run.survey`` does it; ``task`` is what is done with one flight, ``local`` and ``cluster`` where, ``journal``
 the file that an interrupted survey continues from, ``summary`` what the flights say together.
-
-Imports ``base``, ``diagnosis``, ``fit``, ``flight``, ``instrument``, ``model_dir``, ``plausibility`` and ``wording``.
 """

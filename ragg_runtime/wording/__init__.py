@@ -1,4 +1,1 @@
-"""How numbers, units and evidence are put into words and tables.
-
-Imports ``base``.
-"""
+"""How numbers, units and evidence are put into words and tables."""
