@@ -10,7 +10,6 @@ import click
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.scheduler_options import scheduler_options
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command, OutputFile, asked
@@ -144,7 +143,11 @@ def diagnose(
 @click.option(
     "--jobs", type=click.IntRange(1), help="Processes on this machine (default: one per processor)."
 )
-@scheduler_options
+@click.option(
+    "--scheduler",
+    metavar="tcp://HOST:PORT",
+    help="Let the workers of a Dask cluster do it. What answers there can run code here: trusted addresses only.",
+)
 @click.option(
     "--resume",
     type=DIRECTORY,
@@ -167,9 +170,6 @@ def survey(
     mapping: Path | None,
     jobs: int | None,
     scheduler: str | None,
-    tls_ca: Path | None,
-    tls_cert: Path | None,
-    tls_key: Path | None,
     resume: Path | None,
     table_file: str | None,
     json_file: str | None,
@@ -179,22 +179,18 @@ def survey(
     from ragg_runtime.report import survey_text as text
     from ragg_runtime.survey import progress
     from ragg_runtime.survey.table import check_place
-    from ragg_runtime.survey.tls import say_unproven, tls_of
     from ragg_runtime.workflow import loop
     from ragg_runtime.workflow.origin import of_survey
 
-    tls = tls_of(tls_ca, tls_cert, tls_key)
     m = load(model_dir)
     if table_file is not None:
         check_place(Path(table_file))
-    say_unproven(scheduler)
     with progress.results_file(resume) as file, progress.shown() as show:
         s = loop.survey(
             m,
             flights,
             jobs=jobs,
             scheduler=scheduler,
-            tls=tls,
             resume=file,
             progress=show,
             mapping=mapping,

@@ -1,7 +1,7 @@
 """The file that an interrupted survey continues from: one line of JSON for every flight that is done.
 
-The first line says what was asked (digest of model.toml, versions). A line is written by one call, so that
-it is there or not; what a killed process left of a line is cut off by the next one.
+The first line says what was asked (digest of model.toml, versions), every other holds a record and its digest. A line
+is written by one call, so that it is there or not; what a killed process left of a line is cut off by the next one.
 """
 
 from __future__ import annotations
@@ -15,10 +15,9 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
 from ragg_runtime.base.form_version import Form
-from ragg_runtime.survey.shape import misshapen
 from ragg_runtime.survey.task import Job, Record, divided
 
 KIND = "ragg survey"
@@ -53,7 +52,10 @@ class Journal:
 
     def append(self, record: Record) -> None:
         """Add a record; on return it is on the disc."""
-        line = (json.dumps(record, allow_nan=False, separators=(",", ":")) + "\n").encode()
+        self._write({"digest": _digest(record), "record": record})
+
+    def _write(self, content: Record) -> None:
+        line = (_text(content) + "\n").encode()
         try:
             end = os.lseek(self._handle, 0, os.SEEK_END)
             try:
@@ -77,18 +79,21 @@ class Journal:
         lines = self._lines()
         if lines:
             self._compare(lines[0], job)
-        wanted = dict.fromkeys(files)
         found: dict[str, Record] = {}
         for number, line in enumerate(lines[1:], 2):
-            record = self._parsed(line, number)
-            file = record.get("file")
-            if isinstance(file, str) and file in wanted:
-                found[file] = self._shaped(record, number)
+            kept = self._parsed(line, number)
+            record = kept.get("record")
+            if isinstance(record, dict) and kept.get("digest") == _digest(record):  # else it is done again
+                found[record["file"]] = record
         # Only now is it certain that the file is a survey's, and what follows its last line one that was cut off.
         os.ftruncate(self._handle, sum(map(len, lines)))
         if not lines:
-            self.append(head(job))
-        return {file: r for file, r in found.items() if "verdict" in r and r["sha256"] == sha256(Path(file))}
+            self._write(head(job))
+        return {
+            file: found[file]
+            for file in files
+            if "verdict" in found.get(file, {}) and found[file]["sha256"] == sha256(Path(file))
+        }
 
     def _lines(self) -> list[bytes]:
         """The whole lines of the file, with their ends. UserError if it does not begin as a survey's does."""
@@ -126,18 +131,6 @@ class Journal:
             raise self._foreign(f"line {number}: {line[:80].decode(errors='replace')}")
         return record
 
-    def _shaped(self, record: Record, number: int) -> Record:
-        """The record, if it is in error (and done again) or as a survey writes it."""
-        place = misshapen(record) if "verdict" in record else None
-        if place is not None:
-            raise UserError(
-                "this record is none that a survey writes",
-                where=f"{self.path}, line {number}",
-                found=one_line(f"the record{place} is missing or of another kind"[:120]),
-                remedy="remove the line (its flight is then done again), or name another results file",
-            )
-        return record
-
     def _foreign(self, found: str) -> UserError:
         return UserError(
             "not a results file of a survey",
@@ -146,6 +139,15 @@ class Journal:
             expected="a file that `ragg survey --resume` has written, or none",
             remedy="name another file",
         )
+
+
+def _text(content: Record) -> str:
+    return json.dumps(content, allow_nan=False, separators=(",", ":"))
+
+
+def _digest(record: Record) -> str:
+    """Of a record as it is written: a line that was changed does not count."""
+    return hashlib.sha256(_text(record).encode()).hexdigest()[:16]
 
 
 def _refused(name: str) -> None:

@@ -13,7 +13,6 @@ from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import BETWEEN, LANDMARKS, Job, Record, divided, expanded, job
-from ragg_runtime.survey.tls import Tls
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
@@ -26,7 +25,6 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
-    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
     mapping: tuple[str, str, bool] | None = None,
@@ -43,9 +41,7 @@ def survey(
         Worker processes on this machine (default: one per processor).
     scheduler
         Address of a dask.distributed scheduler, ``tcp://host:port``: its workers do it instead. What answers there
-        can run code in this process: name addresses that you trust.
-    tls
-        Certificates for a scheduler at ``tls://host:port``; by default those of Dask's own configuration.
+        can run code in this process: name addresses that you trust. Certificates are Dask's own configuration.
     resume
         Results file: what stands in it is not done again (flights in error are), what is done is added.
     mapping
@@ -68,7 +64,7 @@ def survey(
             progress(len(records), len(files), None)
         left = [f for f in files if f not in records]
         if left:
-            with contextlib.closing(_examined(given, left, jobs, scheduler, tls)) as found:
+            with contextlib.closing(_examined(given, left, jobs, scheduler)) as found:
                 for file, record in found:
                     records[file] = record = record | {"flight": names[file]}
                     if kept is not None:
@@ -123,10 +119,10 @@ def ordered(flights: Sequence[Path | str]) -> list[str]:
 
 
 def _examined(
-    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None, tls: Tls | None
+    given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None
 ) -> Generator[tuple[str, Record]]:
     if scheduler is not None:
-        return cluster.examined(given, files, scheduler, tls)
+        return cluster.examined(given, files, scheduler)
     return local.examined(given, files, jobs or local.processors())
 
 

@@ -7,13 +7,11 @@ algebra runs on one thread while a flight is looked at.
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import platform
 import socket
-import threading
 import traceback
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache, partial
 from importlib import metadata
@@ -21,12 +19,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import threadpoolctl
 from numpy.typing import NDArray
 
 import ragg_runtime
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import alone
+from ragg_runtime.base.threads import alone, one_thread
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.diagnose import diagnose_fitted
 from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
@@ -130,25 +127,25 @@ def examine(given: Job, file: str) -> Record:
                 expected="a file system that all workers share, under the same path",
                 remedy="put the flights where every worker can read them, or survey without --scheduler",
             )
-        with _one_thread(), alone():
-            instrument = _parsed(given.text, given.path)
-            model = derive.model_of(instrument)
-            read = read_flight(
-                path,
-                instrument.g0,
-                accelerometers=instrument.layout,
-                mapping=given.mapped(),
-                line=line,
-            )
-            flight = examined(model, instrument, read)
-            f = fit(model, instrument, observations_of([flight], instrument))
-            return record | _figures(f, flight)
+        with alone():
+            return record | _diagnosed(given, path, line)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
     except (MemoryError, OSError):
         raise
     except Exception as error:
         return record | {"error": {"kind": "fault", "message": _fault(error)}}
+
+
+@one_thread
+def _diagnosed(given: Job, path: Path, line: str | None) -> Record:
+    instrument = _parsed(given.text, given.path)
+    model = derive.model_of(instrument)
+    read = read_flight(
+        path, instrument.g0, accelerometers=instrument.layout, mapping=given.mapped(), line=line
+    )
+    flight = examined(model, instrument, read)
+    return _figures(fit(model, instrument, observations_of([flight], instrument)), flight)
 
 
 def expanded(given: Job, files: Sequence[str]) -> list[str]:
@@ -193,32 +190,6 @@ def _fault(error: Exception) -> str:
 @lru_cache(maxsize=8)
 def _parsed(text: str, path: str) -> Instrument:
     return parse_instrument(text, Path(path))
-
-
-class _Limit:
-    """One thread for linear algebra as long as anybody in the process needs it so."""
-
-    def __init__(self) -> None:
-        self.lock = threading.Lock()
-        self.users = 0
-        self.limit: Any = None
-
-    @contextlib.contextmanager
-    def __call__(self) -> Iterator[None]:
-        with self.lock:
-            self.users += 1
-            if self.users == 1:
-                self.limit = threadpoolctl.threadpool_limits(1)
-        try:
-            yield
-        finally:
-            with self.lock:
-                self.users -= 1
-                if not self.users:
-                    self.limit.restore_original_limits()
-
-
-_one_thread = _Limit()
 
 
 def _figures(f: Fitted, flight: Flight) -> Record:

@@ -46,7 +46,6 @@ from ragg_runtime.workflow.loaded import read_flights as read_flights
 if TYPE_CHECKING:
     from ragg_runtime.survey.result import Survey
     from ragg_runtime.survey.run import Progress
-    from ragg_runtime.survey.tls import Tls
 
 
 def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
@@ -109,7 +108,6 @@ def survey(
     *,
     jobs: int | None = None,
     scheduler: str | None = None,
-    tls: Tls | None = None,
     resume: Path | None = None,
     progress: Progress | None = None,
     mapping: Path | None = None,
@@ -128,7 +126,6 @@ def survey(
         flights,
         jobs=jobs,
         scheduler=scheduler,
-        tls=tls,
         resume=resume,
         progress=progress,
         mapping=None if how is None else (read_text(how.path), str(how.path.resolve()), how.kept),

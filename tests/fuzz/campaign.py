@@ -21,7 +21,6 @@ BATCH = {
     "mapping": 20_000,
     "history": 20_000,
     "unfinished": 8000,
-    "resume": 20_000,
     "calibration": 20_000,
     "flight_csv": 4000,
     "flight_parquet": 4000,

@@ -1,8 +1,7 @@
-"""Targets that read what this program keeps: histories, records of changes, results files, calibrations, mappings."""
+"""Targets that read what this program keeps: histories, records of changes, calibrations, mappings."""
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from pathlib import Path
@@ -13,17 +12,9 @@ from ragg_runtime.compensation import saved
 from ragg_runtime.flight.mapping import parse_mapping
 from ragg_runtime.model_dir.directory import MODEL, NAMES
 from ragg_runtime.model_dir.history import history_text, read_history
-from ragg_runtime.report import in_words, survey_text
-from ragg_runtime.survey import journal, task
-from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.run import once
+from ragg_runtime.report import in_words
 
 from .places import Outcome, place, shown
-
-JOB = task.Job("effects = []\n", "/model/model.toml", (("ragg", "fuzzed"),))
-FLIGHTS = ("a.csv", "b.csv")
-HERE = b"/flights"
-"""What the inputs say for the folder of the flights, whose content is their names."""
 
 
 def history(data: bytes) -> Outcome:
@@ -61,27 +52,6 @@ def unfinished(data: bytes) -> Outcome:
         assert victim.read_bytes() == b"mine"
         assert sorted(os.listdir(folder)) == ["model", "victim"]
     assert not transaction.is_committing(folder / "model")
-    return "read"
-
-
-def resume(data: bytes) -> Outcome:
-    """The results file of a survey: what is none stays as it is; of what is one, the records that hold are summed up."""
-    path = place("results.jsonl", data.replace(HERE, bytes(place("", None))))
-    for name in FLIGHTS:
-        place(name, name.encode())
-    files = [str(place(name, None)) for name in FLIGHTS]
-    before = path.read_bytes()
-    try:
-        with journal.journal(path) as kept:
-            records = kept.read(JOB, files)
-        found = Survey(tuple(once([records[f] for f in files if f in records])))
-    except UserError as error:
-        assert path.read_bytes() == before
-        return shown(error)
-    json.dumps(found.as_json(), allow_nan=False)
-    survey_text.surveyed(found, "model")
-    lines = path.read_bytes().splitlines()
-    assert json.loads(lines[0])["kind"] == journal.KIND
     return "read"
 
 

@@ -112,7 +112,6 @@ def make() -> dict[str, dict[str, bytes]]:
         "mapping": {"seed-0": MAPPING.encode(), "seed-1": SECONDS.encode()},
         "history": {"seed-0": STEPS.encode(), "seed-1": b'{"steps": []}'},
         "unfinished": {"seed-0": CHANGE.encode(), "seed-1": b'{"folders": {}, "files": [], "removed": []}'},
-        "resume": {"seed-0": _results(), "seed-1": _results()[:-40], "seed-2": b""},
         "calibration": {"seed-0": SAVED.encode()},
         "generated_model": {f"seed-{n}": str(n).encode() for n in range(3)},
         "flight_csv": {
@@ -124,11 +123,6 @@ def make() -> dict[str, dict[str, bytes]]:
         "flight_parquet": {"seed-0": _table("flight.parquet")},
         "flight_netcdf": {"seed-0": _table("flight.nc")},
     }
-
-
-def _results() -> bytes:
-    """A results file of a survey, as it was written once: two flights, and one in error."""
-    return (CORPUS / "resume" / "seed-0").read_bytes()
 
 
 def _table(name: str) -> bytes:

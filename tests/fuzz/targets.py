@@ -22,7 +22,7 @@ from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model_dir import derive
 
 from .grammar import generated_model
-from .kept import calibration, history, mapping, resume, unfinished
+from .kept import calibration, history, mapping, unfinished
 from .places import Outcome, place, shown
 
 _CONTEXT = Context(Tape(), recorded_motion())
@@ -111,7 +111,6 @@ TARGETS: Mapping[str, Callable[[bytes], Outcome]] = {
         mapping,
         history,
         unfinished,
-        resume,
         calibration,
         flight_csv,
         flight_parquet,

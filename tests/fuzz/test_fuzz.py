@@ -19,7 +19,6 @@ EXECUTIONS = {
     "mapping": 500,
     "history": 500,
     "unfinished": 500,
-    "resume": 500,
     "calibration": 500,
     "flight_csv": 800,
     "flight_parquet": 500,

@@ -305,6 +305,16 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
 
+def test_a_record_that_was_changed_is_done_again(flights: Flights, tmp_path: Path) -> None:
+    m, kept = loop.load(flights[0]), tmp_path / "kept.jsonl"
+    first = loop.survey(m, flights[1][1:2], jobs=1, resume=kept)
+    whole = kept.read_text()
+    assert '"verdict":"adequate"' in whole
+    kept.write_text(whole.replace('"verdict":"adequate"', '"verdict":"unexplained"'))
+    assert loop.survey(m, flights[1][1:2], jobs=1, resume=kept).records == first.records
+    assert kept.read_text().count('"verdict":"adequate"') == 1
+
+
 def test_two_surveys_do_not_write_to_one_file(flights: Flights, tmp_path: Path) -> None:
     m = loop.load(flights[0])
     kept = tmp_path / "kept.jsonl"
