@@ -108,7 +108,6 @@ docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; 
 
 pages: $(STAMP)  ## write the generated pages of docs/ anew
 	$(BIN)/ragg derive
-	$(BIN)/python -m ragg_runtime.experiments docs
 
 clean:  ## remove the environment and caches
 	rm -rf docs/_build docs/_made $(VENV) .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

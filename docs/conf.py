@@ -64,9 +64,13 @@ def _block(self: Any, node: Any) -> None:
 
 
 def _made(app: Sphinx, config: Any) -> None:
-    """What is not written by hand: the effects' pages, the notebook, the reports of the demonstration."""
+    """What is not written by hand: pages of the effects and experiments, the notebook, the reports of the demonstration."""
     from derive import pages
     from ragg_runtime.cli import demo
+    from ragg_runtime.experiments.dynamic import dynamic
+    from ragg_runtime.experiments.multifrequency import multifrequency
+    from ragg_runtime.experiments.page import page
+    from ragg_runtime.experiments.turbulence import turbulence
 
     made = HERE / "_made"
     made.mkdir(exist_ok=True)
@@ -75,6 +79,7 @@ def _made(app: Sphinx, config: Any) -> None:
     (made / "effects").mkdir(exist_ok=True)
     for name, text in pages.effects().items():
         _written(made / name, text.encode())
+    _written(made / "experiments.md", page([multifrequency(), dynamic(), turbulence()]).encode())
     reports = made / "extra" / "reports"
     if not (reports / "report.html").exists():
         shutil.rmtree(made / "extra", ignore_errors=True)

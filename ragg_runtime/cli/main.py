@@ -40,7 +40,6 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "build": "cli.model_commands",
         "derive": "cli.model_commands",
         "demo": "cli.model_commands",
-        "experiment": "experiments.command",
         "studio": "studio.command",
     }
 )

@@ -1,28 +1,51 @@
-"""``python -m ragg_runtime.experiments docs [FILE]`` writes the page; else as ``ragg experiment``."""
+"""``python -m ragg_runtime.experiments [NAME...]``: the paper's experiments beside ours, as Markdown or JSON."""
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import click
 
+from ragg_runtime.base import provenance
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.experiments.command import experiment
-from ragg_runtime.experiments.page import DEFAULT, page
+from ragg_runtime.base.files import write_text
+from ragg_runtime.experiments.dynamic import dynamic
+from ragg_runtime.experiments.multifrequency import multifrequency
+from ragg_runtime.experiments.page import page
+from ragg_runtime.experiments.result import Result
+from ragg_runtime.experiments.turbulence import turbulence
+
+EXPERIMENTS: Mapping[str, Callable[[], Result]] = {
+    "multifrequency": multifrequency,
+    "dynamic": dynamic,
+    "turbulence": turbulence,
+}
 
 
-@experiment.command("docs")
-@click.argument("file", type=click.Path(dir_okay=False, path_type=Path), default=DEFAULT)
-def docs(file: Path) -> None:
-    """Write docs/experiments.md anew."""
-    file.write_text(page(), encoding="utf-8")
-    click.echo(f"wrote {file}", err=True)
+@click.command()
+@click.argument("names", nargs=-1, metavar="[NAME...]", type=click.Choice(list(EXPERIMENTS)))
+@click.option("--json", "json_file", metavar="FILE", help="Write the results as JSON (- is stdout).")
+def main(names: Sequence[str], json_file: str | None) -> None:
+    """Repeat the paper's experiments (Section III): multifrequency, dynamic, turbulence; without a name all."""
+    results = {name: EXPERIMENTS[name]() for name in names or EXPERIMENTS}
+    if json_file is None:
+        click.echo(page(list(results.values())), nl=False)
+        return
+    made = provenance.provenance(provenance.command())
+    found = provenance.versioned({n: r.as_json() for n, r in results.items()} | {"provenance": made})
+    text = json.dumps(found, indent=1, allow_nan=False) + "\n"
+    if json_file == "-":
+        click.echo(text, nl=False)
+    else:
+        write_text(Path(json_file), text)
 
 
 if __name__ == "__main__":
     try:
-        experiment(prog_name="python -m ragg_runtime.experiments")
+        main(prog_name="python -m ragg_runtime.experiments")
     except UserError as problem:
         click.echo(f"error: {problem.message}", err=True)
         sys.exit(2)

@@ -10,7 +10,6 @@ from typing import Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.units import EOTVOS
 from ragg_runtime.reference import Simulation, disc_angle
 from ragg_runtime.signals.demodulate import demodulate
@@ -38,20 +37,10 @@ def harmonic_models() -> Mapping[str, HarmonicModel]:
     return {"analytical": cast(HarmonicModel, analytical), "simplified": cast(HarmonicModel, simplified)}
 
 
-def output(name: str, run: Simulation, instrument: Instrument | None = None) -> Array:
-    """G_out, (N,) V, of a derived model that is given the recorded motion and gradients of a run.
-
-    Parameters
-    ----------
-    name
-        ``analytical`` or ``simplified``.
-    run
-        Record of the numerical model, gradients included.
-    instrument
-        Whose parameters to use; ``None``: those of the run.
-    """
+def output(name: str, run: Simulation) -> Array:
+    """G_out, (N,) V, of the ``analytical`` or ``simplified`` model, given the motion and gradients of a run."""
     model = harmonic_models()[name]
-    known = run.instrument if instrument is None else instrument
+    known = run.instrument
     values: dict[str, Array] = {
         "radius": np.array([known.radius]),
         "spin_frequency": np.array([known.spin_frequency]),
@@ -96,8 +85,3 @@ def over_turns(G: Array, run: Simulation) -> tuple[float, float]:
     phi = disc_angle(run.instrument.spin_frequency, run.time[whole])
     g = G[whole] / (run.instrument.scale_factor * EOTVOS)
     return float(np.mean(4 * g * np.sin(2 * phi))), float(-np.mean(2 * g * np.cos(2 * phi)))
-
-
-def rms(values: Array) -> float:
-    """Root mean square."""
-    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,31 +1,21 @@
-"""``docs/experiments.md``, written from the results: no number in it is typed by hand."""
+"""The results as a page of Markdown: no number in it is typed by hand."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 
 from ragg_runtime.experiments import paper
-from ragg_runtime.experiments.dynamic import dynamic
-from ragg_runtime.experiments.multifrequency import multifrequency
-from ragg_runtime.experiments.result import COLUMNS, Result, Row, cells, markdown, reasons
-from ragg_runtime.experiments.turbulence import turbulence
-
-DEFAULT = Path("docs/experiments.md")
+from ragg_runtime.experiments.result import COLUMNS, Result, cells, markdown, reasons
 
 _HEAD = """# The paper's experiments, repeated
 
-<!-- Written by ragg_runtime.experiments: do not edit; `python -m ragg_runtime.experiments docs` does. -->
-
 Section III of
 {citation}:
-our numbers beside the printed ones. `ragg experiment multifrequency`, `dynamic` and `turbulence` give the
-tables below, as JSON with `--json`, and the figures with `--figures`.
+our numbers beside the printed ones (`python -m ragg_runtime.experiments`, as JSON with `--json`).
 
 The numerical model of Eq. 49 to 53 stands for the instrument; the analytical (Eq. 17 to 19) and the
-simplified model (Eq. 42 to 47) are the derived ones. The misprints of the printed equations
-([errata](errata.md)) cost too little to show here.
+simplified model (Eq. 42 to 47) are the derived ones. The misprints of the printed equations cost too little to show here.
 
 Of {rows} printed numbers, **{agree} agree**, **{open} hang on an input that the paper does not state**, and
 **{unexplained} are unexplained**.
@@ -38,32 +28,22 @@ Of {rows} printed numbers, **{agree} agree**, **{open} hang on an input that the
 
 No parameter of the instrument or the models is adjusted to meet the paper. Two choices were made with the
 printed numbers in view, because the paper leaves them open: the sign of a model error, numerical minus
-model (the other sign would make every printed error of Section III.B differ in sign from ours), and the
-sampling of the turbulence. On the latter rests the agreement of the four sigmas of the simplified model in
-experiments 2 and 3 and of their two noise densities, {inferred} of the {agree}; the tables below say what
-other samplings give.
+model (the other would make every printed error of Section III.B differ in sign from ours), and the
+sampling of the turbulence, on which the simplified model's sigmas in experiments 2 and 3 rest.
 """
 
 
-def page(results: Sequence[Result] | None = None) -> str:
-    """The page; ``results`` are the three experiments at their defaults unless given."""
-    found = (multifrequency(), dynamic(), turbulence()) if results is None else results
-    verdicts = Counter(row.verdict for r in found for row in r.rows)
+def page(results: Sequence[Result]) -> str:
+    """The page of some experiments."""
+    verdicts = Counter(row.verdict for r in results for row in r.rows)
     head = _HEAD.format(
         citation=paper.CITATION,
         rows=sum(verdicts.values()),
         agree=verdicts["agrees"],
         open=verdicts["open input"],
         unexplained=verdicts["unexplained"],
-        inferred=sum(_inferred(row) for r in found for row in r.rows),
     )
-    return "\n".join([head, *(_section(r) for r in found)])
-
-
-def _inferred(row: Row) -> bool:
-    """Whether an agreement rests on the sampling that was inferred from Table VIII."""
-    simplified = row.quantity.endswith("simplified") and any(n in row.quantity for n in ("sigma", "density"))
-    return row.verdict == "agrees" and row.quantity.startswith("exp.") and simplified
+    return "\n".join([head, *(_section(r) for r in results)])
 
 
 def _section(r: Result) -> str:

@@ -101,9 +101,6 @@ DIFFERENCE: Mapping[str, Printed] = {
 }
 """Differences of the demodulated outputs from the centre gradients."""
 
-ANGULAR_ACCELERATION = (1e-3, 1e-2)
-"""rad/s^2, Section IV: "in the order of 1e-3 ~ 1e-2" in the turbulence experiments."""
-
 BANDWIDTH = 0.2
 """Hz, by which the paper turns a standard deviation into a noise density."""
 

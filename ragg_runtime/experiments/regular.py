@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ragg_runtime.experiments import paper
@@ -20,15 +18,14 @@ WITH_MASS = PointMass(paper.MASS, paper.MASS_POSITION)
 """The test mass of Section III.A where it starts."""
 
 
-def regular_motion(phases: Mapping[str, float] | None = None) -> Motion:
-    """Table VI, sin(Omega t + phase) with the phases (rad) of the named channels; 0 as printed."""
+def regular_motion() -> Motion:
+    """Table VI."""
     g0, frequency = table_v().g0, table_v().spin_frequency
 
     def signal(name: str) -> Sinusoids:
         unit = g0 if name.startswith("a") else paper.DEGREE_PER_HOUR
         mean, amplitude = paper.TABLE_VI[name]
-        phase = 0.0 if phases is None else phases.get(name, 0.0)
-        return Sinusoids(mean * unit, [amplitude * unit], [frequency], [phase])
+        return Sinusoids(mean * unit, [amplitude * unit], [frequency], [0.0])
 
     a_x, a_y, a_z, w_x, w_y, w_z = (signal(n) for n in ("a_x", "a_y", "a_z", "omega_x", "omega_y", "omega_z"))
     return Motion((a_x, a_y, a_z), (w_x, w_y, w_z))
@@ -37,7 +34,6 @@ def regular_motion(phases: Mapping[str, float] | None = None) -> Motion:
 def regular_run(
     instrument: Instrument | None = None,
     *,
-    motion: Motion | None = None,
     gravity: Gravity | None = None,
     rotations: Rotations = "first-order",
     effects: EffectValues | None = None,
@@ -52,7 +48,7 @@ def regular_run(
     known = table_v() if instrument is None else instrument
     return simulate(
         known,
-        regular_motion() if motion is None else motion,
+        regular_motion(),
         float(np.rint(turns / known.spin_frequency)),
         rate,
         gravity=gravity,

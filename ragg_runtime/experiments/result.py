@@ -1,13 +1,11 @@
-"""A number of the paper beside ours, with a verdict; and tables of them as text, Markdown and JSON."""
+"""A number of the paper beside ours, with a verdict; and tables of them as Markdown and JSON."""
 
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Literal, Protocol
+from typing import Literal
 
 Verdict = Literal["agrees", "open input", "unexplained"]
 """``open input``: the number hangs on something that the paper does not state, and the printed one is within
@@ -149,40 +147,22 @@ class Table:
         }
 
 
-class Result(Protocol):
-    """What every experiment gives."""
+@dataclass(frozen=True)
+class Result:
+    """An experiment: its title, settings, the printed numbers beside ours, and what they hang on."""
 
-    @property
-    def title(self) -> str: ...
-    @property
-    def settings(self) -> Mapping[str, str]: ...
-    @property
-    def rows(self) -> tuple[Row, ...]: ...
-    @property
-    def tables(self) -> tuple[Table, ...]: ...
-    def as_json(self) -> Json: ...
-    def text(self) -> str: ...
-    def figures(self, folder: Path) -> list[Path]: ...
+    title: str
+    settings: Mapping[str, str]
+    rows: tuple[Row, ...]
+    tables: tuple[Table, ...]
 
-
-def as_json(result: Result) -> Json:
-    """An experiment as JSON: settings, rows, tables."""
-    return {
-        "title": result.title,
-        "settings": dict(result.settings),
-        "rows": [r.as_json() for r in result.rows],
-        "checks": [t.as_json() for t in result.tables],
-    }
-
-
-def as_text(result: Result) -> str:
-    """An experiment as plain text: the comparison, the reasons, the checks."""
-    parts = [result.title, "\n".join(f"  {k}: {v}" for k, v in result.settings.items())]
-    parts.append(plain(COLUMNS, [cells(r) for r in result.rows]))
-    parts += [_wrap(text) for text in reasons(result.rows)]
-    for t in result.tables:
-        parts.append(f"{_wrap(t.title)}\n{plain(t.columns, t.rows)}\n{_wrap(t.finding)}")
-    return "\n\n".join(parts) + "\n"
+    def as_json(self) -> Json:
+        return {
+            "title": self.title,
+            "settings": dict(self.settings),
+            "rows": [r.as_json() for r in self.rows],
+            "checks": [t.as_json() for t in self.tables],
+        }
 
 
 COLUMNS = ("quantity", "paper", "ours", "runs from ... to", "unit", "verdict")
@@ -213,20 +193,8 @@ def number(value: float) -> str:
     return f"{value:.3g}" if 1e-3 <= abs(value) < 1e4 else f"{value:.2e}"
 
 
-def _wrap(text: str) -> str:
-    return textwrap.fill(text, 110, break_on_hyphens=False)
-
-
 def _text(cell: Cell) -> str:
     return cell if isinstance(cell, str) else number(cell)
-
-
-def plain(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:
-    """A table in columns of equal width."""
-    lines = [list(columns), *([_text(c) for c in r] for r in rows)]
-    widths = [max(len(line[n]) for line in lines) for n in range(len(columns))]
-    padded = ["  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in lines]
-    return "\n".join([padded[0], "  ".join("-" * w for w in widths), *padded[1:]])
 
 
 def markdown(columns: Sequence[str], rows: Sequence[Sequence[Cell]]) -> str:

@@ -19,15 +19,12 @@ from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.paper import Turbulent
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.reference import Motion, Simulation, instants, simulate
-from ragg_runtime.reference.accelerometer_noise import Noise
 from ragg_runtime.reference.effects import EffectValues
 from ragg_runtime.reference.instruments import table_v
-from ragg_runtime.reference.rotation import Rotations
 
 Array = NDArray[np.float64]
 
 Derivative = Literal["central", "backward"]
-Horizontal = Literal["mean and deviation", "deviation alone"]
 
 RATE = 20.0
 DURATION = 600.0
@@ -73,12 +70,10 @@ def turbulent_motion(
     duration: float,
     rate: float,
     derivative: Derivative = "central",
-    horizontal: Horizontal = "mean and deviation",
 ) -> Motion:
     """A row of Table VII. Components are independent of each other.
 
-    The horizontal accelerations have 15 percent of the vertical one's rms: 15 percent of its mean and of its
-    standard deviation, or no mean and all of the rms as standard deviation.
+    The horizontal accelerations have 15 percent of the vertical one's mean and of its standard deviation.
     """
     size, milli_g = round(duration * rate), 1e-3 * table_v().g0
 
@@ -87,8 +82,6 @@ def turbulent_motion(
 
     a_z = draw(row.a_mean, row.a_std, milli_g)
     mean, std = paper.HORIZONTAL * row.a_mean, paper.HORIZONTAL * row.a_std
-    if horizontal == "deviation alone":
-        mean, std = 0.0, float(np.hypot(mean, std))
     a_x, a_y = draw(mean, std, milli_g), draw(mean, std, milli_g)
     w_x, w_y, w_z = (draw(row.omega_mean, row.omega_std, paper.DEGREE_PER_HOUR) for _ in range(3))
     return Motion((a_x, a_y, a_z), (w_x, w_y, w_z))
@@ -102,10 +95,7 @@ def turbulent_run(
     duration: float = DURATION,
     rate: float = RATE,
     derivative: Derivative = "central",
-    horizontal: Horizontal = "mean and deviation",
-    rotations: Rotations = "first-order",
     effects: EffectValues | None = None,
-    noise: Noise | None = None,
 ) -> Simulation:
     """The numerical model in turbulence experiment 1, 2 or 3.
 
@@ -116,15 +106,14 @@ def turbulent_run(
         raise UserError("the paper has three turbulence experiments", found=experiment, expected="1, 2 or 3")
     instants(duration, rate)  # refuses what is no record, before numbers are drawn for it
     rng = np.random.default_rng(seed)
-    motion = turbulent_motion(rng, paper.TABLE_VII[experiment - 1], duration, rate, derivative, horizontal)
+    motion = turbulent_motion(rng, paper.TABLE_VII[experiment - 1], duration, rate, derivative)
     return simulate(
         table_v() if instrument is None else instrument,
         motion,
         duration,
         rate,
-        rotations=rotations,
+        rotations="first-order",
         effects=effects,
-        noise=noise,
         seed=seed,
         auxiliaries={},
     )
