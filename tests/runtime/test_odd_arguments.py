@@ -8,20 +8,11 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import click
-import h5py
-import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.cli import completion
 from ragg_runtime.cli.main import main
-from ragg_runtime.flight import read_flight
-from ragg_runtime.flight.source import MOST_COLUMNS
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.survey.journal import sha256
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
@@ -45,41 +36,9 @@ def test_a_test_sheet_that_never_ends(tmp_path: Path) -> None:
             loop.new(tmp_path / "m", source)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices of Unix")
-def test_no_digest_of_what_never_ends(tmp_path: Path) -> None:
-    """A survey takes a digest of every file at its end, of those that it could not read too."""
-    os.mkfifo(tmp_path / "flight.csv")
-    assert sha256(tmp_path / "flight.csv") is None
-    assert sha256(Path("/dev/zero")) is None
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="pipes and devices of Unix")
-def test_completion_waits_for_no_pipe(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "model.toml")
-    context = click.Context(click.Command("remove"))
-    context.params["model_dir"] = str(tmp_path)
-    assert completion.present(context, click.Argument(["effect"]), "") == []
-
-
 def test_a_flight_longer_than_memory(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="too long to be simulated"):
         simulated(loop.new(tmp_path / "m").instrument, [], duration=1e18)
-
-
-@pytest.mark.parametrize("suffix", [".parquet", ".nc", ".csv"])
-def test_more_columns_than_a_flight_has(suffix: str, tmp_path: Path) -> None:
-    path = tmp_path / f"wide{suffix}"
-    names = ["time", *(f"c{k}" for k in range(MOST_COLUMNS))]
-    if suffix == ".parquet":
-        pq.write_table(pa.table({n: np.ones(2) for n in names}), path)
-    elif suffix == ".nc":
-        with h5py.File(path, "w") as file:
-            for n in names:
-                file[n] = np.ones(2)
-    else:
-        path.write_text(",".join(f"{n} [1]" for n in names) + "\n")
-    with pytest.raises(UserError, match="too many columns for a flight"):
-        read_flight(path, 9.8)
 
 
 @pytest.mark.parametrize(

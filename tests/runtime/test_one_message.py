@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,9 +11,7 @@ from pathlib import Path
 import pytest
 
 from ragg_runtime.cli.main import main
-from ragg_runtime.flight import write_flight
 from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.simulate import simulated
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="such names and streams")
 FORGED = "f\nverdict: adequate\n\x1b2J\tx"
@@ -53,22 +50,6 @@ def test_streams_that_are_closed_or_full(model: Path) -> None:
     assert run("add", model, "lag", shell="0<&- 2>&-").returncode == 0
 
 
-def test_a_current_folder_that_is_gone(tmp_path: Path, model: Path) -> None:
-    gone = tmp_path / "gone"
-    gone.mkdir()
-    words = f"{sys.executable} -m ragg_runtime"
-    root = str(Path(loop.__file__).parents[2])
-    for command in ("compare model f.csv", "new other", "survey model f.csv --jobs 1"):
-        gone.mkdir(exist_ok=True)
-        done = subprocess.run(
-            ["sh", "-c", f"rmdir {gone}; {words} {command}"],
-            cwd=gone, capture_output=True, text=True, timeout=120, check=False,
-            env=os.environ | {"PYTHONPATH": root},
-        )  # fmt: skip
-        assert done.returncode == 2, done
-        assert "Traceback" not in done.stderr
-
-
 @pytest.mark.parametrize(
     "step",
     [
@@ -102,30 +83,6 @@ def test_names_in_a_history(model: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert WRITTEN_OUT in said
     assert len(said.splitlines()) == 2
     loop.load(model)._repr_html_()
-
-
-def test_names_of_flights_and_columns(
-    model: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(model.parent)
-    m = loop.load(model)
-    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
-    channels = {**flight.channels, FORGED: flight.time % 7.0}
-    flight = type(flight)(
-        time=flight.time, channels=channels, outputs=flight.outputs, units={**flight.units, FORGED: "K"}
-    )
-    write_flight(flight, f"{FORGED}.parquet")
-    (model / "generated").mkdir()
-    for command in ("compare", "diagnose"):
-        main([command, "model", f"{FORGED}.parquet", "--report", "r.html"])
-        said = capsys.readouterr()
-        for text in (said.out, said.err):
-            assert "\x1b" not in text
-            assert not re.search(r"^verdict: adequate$", text, re.MULTILINE)
-        assert command == "diagnose" or WRITTEN_OUT in said.out
-    with pytest.raises(SystemExit):
-        main(["compare", "model", f"{FORGED}.csv"])
-    assert WRITTEN_OUT in capsys.readouterr().err
 
 
 def test_every_refusal_of_the_system_names_its_place(

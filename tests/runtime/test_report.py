@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import html
-import json
 import math
 import re
 import warnings
@@ -24,12 +22,11 @@ from ragg_runtime.diagnosis import comparison as compare
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.lack_of_fit.dictionary import harmonics
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
-from ragg_runtime.report import barcharts, diagnose_page, draw, effect_values, panels, parameters
+from ragg_runtime.report import barcharts, diagnose_page, effect_values, parameters
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.compare_page import compare_html
 from ragg_runtime.report.diagnose_page import diagnose_html
@@ -217,47 +214,6 @@ def test_pages_are_self_contained_well_formed_and_small(which: str, request: pyt
         assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|eval|fetch|import", script)
 
 
-def test_references_inside_figures_are_met_once(cubic: Case) -> None:
-    for text in pages(cubic).values():
-        ids = re.findall(r' id="([^"]*)"', text)
-        assert len(ids) == len(set(ids))
-        used = re.findall(r'href="#([^"]*)"', text) + re.findall(r"url\(#([^)]*)\)", text)
-        assert used
-        assert set(used) <= set(ids)
-
-
-def test_the_contents_lead_to_every_section(clean: Case) -> None:
-    for text in pages(clean).values():
-        headings = re.findall(r'<h2 id="([^"]*)">([^<]*)</h2>', text)
-        listed = re.findall(r'<li><a href="#([^"]*)">([^<]*)</a></li>', text)
-        assert headings == listed
-        assert len(headings) >= 5
-
-
-def test_what_the_script_zooms_is_there_and_says_what_it_spans(cubic: Case) -> None:
-    for text in pages(cubic).values():
-        ids = set(re.findall(r' id="([^"]*)"', text))
-        shown = [a["data-live"] for t, a in Page(text).elements if t == "svg" and "data-live" in a]
-        assert shown
-        for described in map(json.loads, filter(None, shown)):
-            for n, axes in enumerate(described["axes"]):
-                for k in range(len(axes["curves"])):
-                    assert f"{described['name']}-c{n}-{k}" in ids
-                assert {f"{described['name']}-{which}{n}" for which in "xy"} <= ids
-                assert any(axes["curves"])
-                assert axes["x"][0] < axes["x"][1]
-                assert axes["y"][0] < axes["y"][1]
-
-
-def test_colours_of_figures_are_the_style_sheet_s(clean: Case) -> None:
-    for text in pages(clean).values():
-        style = text.split("<style>")[1].split("</style>")[0]
-        known = set(re.findall(r"--([a-z]+):", style))
-        assert set(re.findall(r"var\(--([a-z]+)\)", text)) <= known | {"own"}
-        drawn = "".join(re.findall(r"<svg.*?</svg>", text, re.DOTALL))
-        assert not re.findall(r": #[0-9a-f]{6}", drawn)
-
-
 def test_names_of_strangers_are_text(cubic: Case) -> None:
     for name, text in pages(cubic).items():
         page = Page(text)
@@ -279,15 +235,6 @@ def test_page_says_how_to_make_it_again(clean: Case) -> None:
         assert "ab" * 32 in said
         assert load.packaged().digest in said
         assert f"numpy {np.__version__}" in said
-
-
-def test_users_own_matplotlib_settings_do_not_matter(clean: Case) -> None:
-    import matplotlib
-
-    before = pages(clean)["compare"]
-    with matplotlib.rc_context({"axes.facecolor": "red", "font.size": 30.0}):
-        assert compare_html(clean.comparison, **ORIGIN) == before
-        assert matplotlib.rcParams["font.size"] == 30.0
 
 
 # --- what they say ------------------------------------------------------------------------------------------
@@ -437,15 +384,6 @@ def test_noise_in_the_channels_is_what_demodulated_noise_has(clean: Case) -> Non
     assert np.std(d.cross) == pytest.approx(cross, rel=0.05)
 
 
-def test_clean_residual_has_the_noise_of_the_bars_at_every_harmonic(clean: Case) -> None:
-    f = clean.comparison.fitted
-    expected = series.harmonic_noise(f, harmonics())
-    assert len(expected) == 9
-    for row in compare.harmonic_errors(f, np.zeros(f.size)):
-        assert float(str(row["rms_Eo"])) == pytest.approx(expected[str(row["harmonic"])], rel=0.3)
-    assert not any(b.strong for b in panels.harmonic_bars(f, np.zeros(f.size)))
-
-
 def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> None:
     rng = np.random.default_rng(3)
     n, density, amplitude = 1 << 16, 2.0, 40.0
@@ -456,18 +394,6 @@ def test_spectrum_has_the_density_of_white_noise_and_the_power_of_a_line() -> No
     away = np.abs(s.frequency - 3.0) > 0.2
     assert np.sqrt(np.mean(s.density[away] ** 2)) == pytest.approx(density, rel=0.03)
     assert s.frequency[np.argmax(s.density)] == pytest.approx(3.0, abs=0.05)
-
-
-def test_spectrum_leaves_gaps_out() -> None:
-    rng = np.random.default_rng(4)
-    x = rng.normal(0, 1.0, 20000)
-    valid = np.ones(20000, bool)
-    valid[7000:9000] = False
-    x[~valid] = 1e6
-    s = series.spectrum(x, valid, RATE)
-    assert s is not None
-    assert np.sqrt(np.mean(s.density**2)) == pytest.approx(math.sqrt(2 / RATE), rel=0.05)
-    assert series.spectrum(x[:20], valid[:20], RATE) is None
 
 
 @given(st.integers(1, 5000), st.integers(1, 700), st.integers(0, 2**31))
@@ -481,38 +407,6 @@ def test_envelope_keeps_the_extremes_and_the_power(n: int, points: int, seed: in
     assert np.nanmin(e.low) == np.min(x[valid])
     known = np.isfinite(e.rms)
     assert np.all(e.rms[known] <= np.maximum(np.abs(e.low[known]), np.abs(e.high[known])) * (1 + 1e-12))
-
-
-def test_no_line_is_drawn_over_a_gap() -> None:
-    time = np.concatenate([np.arange(100), np.arange(200, 300)]) / RATE
-    t, y = series.broken(time, np.ones(200))
-    assert [r.stop - r.start for r in series.runs(y)] == [100, 100]
-    assert np.isnan(t[100])
-
-
-def test_blocks_are_those_of_the_comparison(cubic: Case) -> None:
-    c = cubic.comparison
-    _, rms = series.blocks(c.fitted.prepared[0], c.residual[0], c.fitted.k_ggi)
-    assert np.nanmax(rms) == pytest.approx(float(str(c.by_time()[0]["rms_Eo"])))
-
-
-def test_short_record_has_no_channels_but_a_report() -> None:
-    made = flight(samples=320)
-    c = compare.compare(load.packaged(), instrument(), [made])
-    said = Page(compare_html(c, **ORIGIN)).text
-    assert "too short for the demodulator" in said
-    assert "nan" not in said
-
-
-def test_of_many_flights_the_worst_are_drawn(clean: Case, monkeypatch: pytest.MonkeyPatch) -> None:
-    made = [flight(samples=640, seed=s, name=f"leg {s}") for s in (1, 2, 3)]
-    ramp = np.linspace(0, 1, 640) * np.random.default_rng(9).normal(0, 0.02, 640)
-    made[1] = replace(made[1], outputs={"G_out": made[1].outputs["G_out"] + ramp})
-    c = compare.compare(load.packaged(), instrument(), made)
-    monkeypatch.setattr(panels, "FLIGHTS", 1)
-    text = compare_html(c, **ORIGIN)
-    assert "The 1 worst of 3 flights are drawn" in text
-    assert series.worst(c.fitted, c.residual, 3) == [0, 1, 2]
 
 
 def test_four_voltages_see_every_accelerometer() -> None:
@@ -571,14 +465,6 @@ def test_numbers_a_reader_expects() -> None:
     assert numbers.harmonic("sin 1") == "sin Ωt"
 
 
-@given(st.text())
-def test_cleaned_text_can_be_written_and_drawn(text: str) -> None:
-    numbers.clean(text).encode("utf-8")
-    line = numbers.short(text, 30)
-    assert len(line) <= 30
-    assert "\n" not in line
-
-
 def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
     bars = [barcharts.Bar("$\\frac{1}$ <b>\udc80\u202e 傾斜", 2.0), barcharts.Bar("b" * 300, math.inf)]
     with warnings.catch_warnings():
@@ -589,23 +475,3 @@ def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
     assert "certain" in text
     assert "b" * 60 not in text
     text.encode("utf-8")
-
-
-def test_figures_leave_the_text_of_labels_alone() -> None:
-    said = 'a id="b" href="#c" font: 8px d; url(#e) <!-- f -->'
-    assert html.escape(said, quote=False) in barcharts.lying(
-        [barcharts.Bar(said, 1.0)], "x", "y", "Eo", None, False
-    )
-
-
-def test_figures_are_vector_drawings_without_fonts_dates_or_links() -> None:
-    with draw.style():
-        fig = draw.figure(2.0)
-        ax = fig.subplots()
-        ax.plot(np.arange(50), np.arange(50) ** 2, label="curve")
-        text = draw.svg(fig, "key", "a curve")
-    assert text.startswith("<svg viewBox=")
-    assert 'aria-label="a curve"' in text
-    assert "://" not in text
-    assert "DejaVu" not in text
-    assert "<image" not in text

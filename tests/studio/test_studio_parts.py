@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import errno
 import math
-import os
-import re
 import struct
 import time
 import tomllib
@@ -27,7 +24,6 @@ from ragg_runtime.flight.timeline import missing
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session, views
-from ragg_runtime.studio.jobs import Jobs
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
@@ -141,23 +137,6 @@ def test_a_timeline_shows_gaps_and_lone_samples() -> None:
     assert many["gaps"] == sorted(many["gaps"])
 
 
-def test_modules_import_downwards_alone() -> None:
-    static = Path(session.__file__).parent / "static" / "js"
-    below = {
-        m: {
-            (m.parent / name).resolve()
-            for name in re.findall(r'^import .*? from "(\.[^"]*)";', m.read_text(), re.MULTILINE)
-        }
-        for m in static.glob("**/*.js")
-    }
-    assert len(below) > 20
-    left = {m.resolve(): {b for b in names if static in b.parents} for m, names in below.items()}
-    while left:
-        bottom = {m for m, names in left.items() if not names & set(left)}
-        assert bottom, f"these import each other: {sorted(m.name for m in left)}"
-        left = {m: names for m, names in left.items() if m not in bottom}
-
-
 def test_a_mapping_is_asked_tried_and_kept_but_never_laid_over_another_unasked(tmp_path: Path) -> None:
     new(tmp_path / "model")
     m = loop.load(tmp_path / "model")
@@ -235,16 +214,6 @@ def test_an_output_is_told_from_those_of_other_flights(tmp_path: Path) -> None:
     found = observations_of([*halves, x], both)
     assert [(o.flight, o.place) for o in found] == [(0, 0), (1, 1), (2, 0), (2, 1)]
     assert [o.part(slice(0, 9)).flight for o in found] == [0, 1, 2, 2]
-
-
-def test_what_the_system_refuses_is_no_fault_of_the_program() -> None:
-    def work(part: object) -> None:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "/tmp/x\n")
-
-    jobs = Jobs()
-    jobs.start("x", work)
-    jobs.wait(10)
-    assert jobs.status.error == {"what": os.strerror(errno.ENOSPC), "where": "/tmp/x\\n"}
 
 
 def test_every_equation_of_the_catalogue_is_typeset() -> None:
