@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo studio derive check test lint bench bench-diagnosis docs pages clean faults fuzz fuzz-campaign package lock
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs clean faults fuzz fuzz-campaign package lock
 
 # The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
 PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
@@ -29,7 +29,7 @@ studio: $(STAMP)  ## open the demonstration in a browser: look, tick, derive, wa
 	@test -d demo-studio || $(BIN)/ragg new demo-studio > /dev/null
 	$(BIN)/ragg studio demo-studio examples/demo-flight.parquet
 
-derive: $(STAMP)  ## derive every model and generate all code and pages anew
+derive: $(STAMP)  ## derive every model and generate all code anew
 	$(BIN)/ragg derive
 
 check: $(STAMP)  ## does the committed code match the derivation?
@@ -105,9 +105,6 @@ lock:  ## put the hashes of all files of each release into the lock (after addin
 docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; warnings are errors)
 	$(BIN)/python -m sphinx -q -b html -W --keep-going docs docs/_build/html
 	@echo "open docs/_build/html/index.html"
-
-pages: $(STAMP)  ## write the generated pages of docs/ anew
-	$(BIN)/ragg derive
 
 clean:  ## remove the environment and caches
 	rm -rf docs/_build docs/_made $(VENV) .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

@@ -1,4 +1,4 @@
-"""All that ``ragg derive`` writes: the generated package, and the pages that the derivation itself makes."""
+"""All that ``ragg derive`` writes: the generated package."""
 
 from __future__ import annotations
 
@@ -8,27 +8,15 @@ from pathlib import Path
 
 import sympy
 
-from derive import audit, pipeline, tree
+from derive import pipeline, tree
 from derive.pipeline import derive_base
-from derive.simplify.page import page as simplified_page
 
 GENERATED, MANIFEST = "generated", "manifest.json"
 
 
-DOCS = "docs"
-
-
-def folders(*, docs: bool = True) -> Mapping[str, Mapping[str, str]]:
-    """Folder of the project -> path in it -> text; the pages, half of the work, if ``docs`` are wanted."""
-    found: dict[str, Mapping[str, str]] = {GENERATED: derive_base()}
-    if docs:
-        found[DOCS] = {"errata.md": audit.page(), "simplified.md": simplified_page()}
-    return found
-
-
-def below(root: Path) -> Mapping[str, Mapping[str, str]]:
-    """As :func:`folders`, but only what concerns this root: an installed package carries no docs."""
-    return folders(docs=(root / DOCS).is_dir())
+def folders() -> Mapping[str, Mapping[str, str]]:
+    """Folder of the project -> path in it -> text."""
+    return {GENERATED: derive_base()}
 
 
 def difference(root: Path) -> str:
@@ -37,11 +25,10 @@ def difference(root: Path) -> str:
     The version of SymPy in the manifest does not count: another one may well yield the same code.
     """
     parts = []
-    for folder, files in below(root).items():
-        if folder == GENERATED:
-            version = committed_with(root)
-            files = {n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in files.items()}
-        found = tree.difference(files, root / folder, exclusive=folder == GENERATED)
+    for folder, files in folders().items():
+        version = committed_with(root)
+        same = {n: _with_version(t, version) if n.endswith(MANIFEST) else t for n, t in files.items()}
+        found = tree.difference(same, root / folder, exclusive=True)
         if found:
             parts.append(f"{folder}/ differs from the derivation:\n{found}")
     return "\n".join(parts)

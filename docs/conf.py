@@ -64,8 +64,9 @@ def _block(self: Any, node: Any) -> None:
 
 
 def _made(app: Sphinx, config: Any) -> None:
-    """What is not written by hand: pages of the effects and experiments, the notebook, the reports of the demonstration."""
-    from derive import pages
+    """What is not written by hand: pages of effects, audit and experiments, the notebook, the reports of the demonstration."""
+    from derive import audit, pages
+    from derive.simplify.page import page as simplified
     from ragg_runtime.cli import demo
     from ragg_runtime.experiments.dynamic import dynamic
     from ragg_runtime.experiments.multifrequency import multifrequency
@@ -79,6 +80,8 @@ def _made(app: Sphinx, config: Any) -> None:
     (made / "effects").mkdir(exist_ok=True)
     for name, text in pages.effects().items():
         _written(made / name, text.encode())
+    _written(made / "errata.md", audit.page().encode())
+    _written(made / "simplified.md", simplified().encode())
     _written(made / "experiments.md", page([multifrequency(), dynamic(), turbulence()]).encode())
     reports = made / "extra" / "reports"
     if not (reports / "report.html").exists():

@@ -6,16 +6,14 @@ import json
 from functools import cache
 from pathlib import Path
 
-from derive.everything import DOCS, GENERATED
+from derive.everything import GENERATED
 
 ROOT = Path(__file__).parents[1]
 
 
 @cache
-def derived(*, docs: bool = True) -> dict[str, dict[str, str]]:
+def derived() -> dict[str, dict[str, str]]:
     """Folder of the project -> path in it -> text."""
     place = ROOT / GENERATED
-    names = {GENERATED: json.loads((place / "manifest.json").read_text("utf-8"))["files"]}
-    if docs:
-        names[DOCS] = ["errata.md", "simplified.md"]
-    return {folder: {n: (ROOT / folder / n).read_text("utf-8") for n in own} for folder, own in names.items()}
+    names = json.loads((place / "manifest.json").read_text("utf-8"))["files"]
+    return {GENERATED: {n: (place / n).read_text("utf-8") for n in names}}

@@ -1,6 +1,6 @@
 """The paper's printed equations, compared term by term with the derived ones.
 
-``audit()`` gives the result, ``page()`` the page docs/errata.md. The printed equations are data for the
+``audit()`` gives the result, ``page()`` the page of errata. The printed equations are data for the
 audit alone: the derivation never sees them.
 """
 

@@ -1,4 +1,4 @@
-"""Prints the page of errata: ``python -m derive.audit > docs/errata.md``."""
+"""Prints the page of errata: ``python -m derive.audit``."""
 
 import sys
 

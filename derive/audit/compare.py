@@ -171,7 +171,7 @@ def derived_amplitude(collected: Collected, name: str) -> PolyElement:
 
 
 @cache
-def redundant(laplace: bool = True) -> Mapping[str, PolyElement]:
+def redundant() -> Mapping[str, PolyElement]:
     """The redundant motion numbers by the independent ones (the square of omega_im, for that one).
 
     All follow from T and S as linear functions of M (Eq. 16), except omega_im^2, for which Laplace's
@@ -183,15 +183,14 @@ def redundant(laplace: bool = True) -> Mapping[str, PolyElement]:
         "S_5": g["T_2"] + g["T_6"],
         "omegadot_x": (g["S_2"] - g["T_3"]) / 2,
         "omegadot_y": (g["T_4"] - g["S_1"]) / 2,
-        **({"omega_im": g["T_5"] + g["S_4"] / 2} if laplace else {}),
+        "omega_im": g["T_5"] + g["S_4"] / 2,
     }
 
 
-def expand_motion(laplace: bool = True) -> Expansion:
+def expand_motion() -> Expansion:
     """Rewrites a printed monomial of :data:`MODEL_RING` in the twelve independent motion numbers."""
     meanings = {
-        _NAMES.index(name): (value, 2 if name == "omega_im" else 1)
-        for name, value in redundant(laplace).items()
+        _NAMES.index(name): (value, 2 if name == "omega_im" else 1) for name, value in redundant().items()
     }
 
     def expand(powers: Monomial) -> PolyElement:
@@ -221,31 +220,3 @@ def select(p: PolyElement, keep: Callable[[Mapping[str, int]], bool]) -> PolyEle
 def printed_order(powers: Mapping[str, int]) -> bool:
     """The order of counting of Eq. 18 and 19: beta_z to the first power, everything else multiplied out."""
     return powers.get("beta_z", 0) <= 1
-
-
-def classify(powers: Mapping[str, int]) -> str:
-    """The category of an error term in Section II.B.1 of the paper, "a" to "f"; "" for what is not one."""
-    second = any(n in powers for n in ("K2", "K4", "K5", "K6", "K7", "K8"))
-    angular = any(n[:2] in ("T_", "S_") for n in powers)
-    linear = any(n.startswith("a_") for n in powers)
-    angles = _angles(powers)
-    if second:
-        return "d" if angular and linear else "a" if angular else "b"
-    if angles:
-        return "e" if angular else "f"
-    return "c" if linear else ""
-
-
-def _angles(powers: Mapping[str, int]) -> int:
-    return sum(p for n, p in powers.items() if n.startswith(("beta_", "vartheta_")))
-
-
-def simplified_order(powers: Mapping[str, int]) -> bool:
-    """What Section II.B.1 keeps of the analytical model.
-
-    No second-order coefficient with angular motion (a, d); one misalignment angle at most with angular
-    motion (e) and two at most with linear motion (f).
-    """
-    limit = {"a": -1, "d": -1, "e": 1, "f": 2}
-    kind = classify(powers)
-    return kind not in limit or _angles(powers) <= limit[kind]

@@ -64,13 +64,9 @@ class Cost:
     cross: float
 
 
-Instrument = Mapping[str, tuple[float, ...]]
-"""Four values of every parameter, by the names of :data:`MODEL_RING`."""
-
-
 @cache
-def accelerometers() -> Instrument:
-    """Table V, in the paper's units, angles in radians."""
+def accelerometers() -> Mapping[str, tuple[float, ...]]:
+    """Four values of every parameter by the names of :data:`MODEL_RING`: Table V, in the paper's units, angles in radians."""
     values = {"R": tuple((RADIUS + 1e-6 * d) / G0 for d in TABLE_V["dR"]), "vartheta_x": (0.0,) * 4}
     values["k1"] = tuple(1e-3 * GAIN * k for k in TABLE_V["K1"])
     scale = {"b": ARCSEC, "v": ARCSEC, "K": 1e-6}
@@ -123,9 +119,9 @@ MOTION_PLACES = slice(len(COEFFICIENT_PARAMETERS), len(COEFFICIENT_PARAMETERS) +
 _WEIGHTS = {"D12": (1, -1, 0, 0), "D34": (0, 0, 1, -1), "D1234": (1, 1, -1, -1), "Sigma": (1, 1, 1, 1)}
 
 
-def series(p: PolyElement, instrument: Instrument | None = None) -> tuple[float, ...]:
+def series(p: PolyElement) -> tuple[float, ...]:
     """One revolution of a polynomial of :data:`MODEL_RING` in the twelve motion numbers, V."""
-    instrument = accelerometers() if instrument is None else instrument
+    instrument = accelerometers()
     constants: dict[tuple[int, ...], float] = {}
     for powers, value in p.terms():
         named = [(n, k) for n, k in zip(_NAMES, powers, strict=True) if k]
@@ -148,26 +144,21 @@ def _moving(powers: tuple[int, ...]) -> tuple[float, ...]:
     return tuple(math.prod(v[n] ** k for v, k in columns) for n in range(SAMPLES))
 
 
-def output(amplitudes: Mapping[str, PolyElement], instrument: Instrument | None = None) -> tuple[float, ...]:
+def output(amplitudes: Mapping[str, PolyElement]) -> tuple[float, ...]:
     """One revolution of G_out with these amplitudes (A_0, A_1c, A_1s ...), V (Eq. 17)."""
     total = [0.0] * SAMPLES
     for name, p in amplitudes.items():
         h = int(name[2])
         wave = math.sin if name.endswith("s") else math.cos
-        for n, v in enumerate(series(p, instrument)):
+        for n, v in enumerate(series(p)):
             total[n] += v * wave(h * angle(n))
     return tuple(total)
 
 
 def cost(amplitudes: Mapping[str, PolyElement]) -> Cost:
     """What a difference in the amplitudes costs."""
-    return price(output(amplitudes))
-
-
-def price(difference: Sequence[float]) -> Cost:
-    """What one revolution of a difference in G_out (V) costs."""
     unit = scale_factor() * EOTVOS
-    G = [v / unit for v in difference]
+    G = [v / unit for v in output(amplitudes)]
     rms = math.sqrt(sum(v * v for v in G) / SAMPLES)
     T1 = sum(2 * v * math.sin(2 * angle(n)) for n, v in enumerate(G)) / SAMPLES
     T2 = sum(2 * v * math.cos(2 * angle(n)) for n, v in enumerate(G)) / SAMPLES

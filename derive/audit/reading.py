@@ -159,11 +159,10 @@ RATE_RING = ring_of(
 """Ring of Eq. 16; omega_im is the magnitude of the angular rate."""
 
 
-def model_reader(theta_holds_k1: bool = True) -> Reader:
+def model_reader() -> Reader:
     """Reader of Eq. 18, 19 and 43-47, into :data:`MODEL_RING`.
 
-    ``k_p`` is k1 K_p and, if ``theta_holds_k1``, ``theta`` is k1 vartheta (Eq. 6a); otherwise theta is
-    taken for a misprinted vartheta. Upper and lower case subscripts of the angles mean the same.
+    ``k_p`` is k1 K_p and ``theta`` is k1 vartheta (Eq. 6a). Upper and lower case subscripts of the angles mean the same.
     """
     g = generators(MODEL_RING)
     table = {n: g[n] for n in (*MOTION_NUMBERS, "S_3", "S_5", "R", *COMBINATIONS)}
@@ -174,7 +173,7 @@ def model_reader(theta_holds_k1: bool = True) -> Reader:
             if axis != "y":
                 table[rf"\beta_{printed}"] = g[f"beta_{axis}"]
             table[rf"\vartheta_{printed}"] = g[f"vartheta_{axis}"]
-            table[rf"\theta_{printed}"] = g[f"vartheta_{axis}"] * (g["k1"] if theta_holds_k1 else 1)
+            table[rf"\theta_{printed}"] = g[f"vartheta_{axis}"] * g["k1"]
     return Reader(MODEL_RING, table)
 
 
@@ -188,11 +187,11 @@ def transducer_reader() -> Reader:
     return Reader(ANGLE_RING, table)
 
 
-def motion_reader(sign_of_gradient: int = 1) -> Reader:
-    """Reader of Eq. 16, into :data:`RATE_RING`, with T_xx ... read as +-Gamma_xx ..."""
+def motion_reader() -> Reader:
+    """Reader of Eq. 16, into :data:`RATE_RING`, with T_xx ... read as Gamma_xx ..."""
     g = generators(RATE_RING)
     table = {rf"\omega_im{k}": g[f"omega_{k}"] for k in "xyz"}
     table |= {r"\omega_im": g["omega_im"], r"\omega_i\max": g["omegadot_x"]}
     table |= {rf"\omega_ima{k}": g[f"omegadot_{k}"] for k in "yz"}
-    table |= {f"T_{k}": sign_of_gradient * g[f"Gamma_{k}"] for k in COMPONENTS}
+    table |= {f"T_{k}": g[f"Gamma_{k}"] for k in COMPONENTS}
     return Reader(RATE_RING, table)

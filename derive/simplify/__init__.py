@@ -2,15 +2,12 @@
 
 Section II.B of the paper, computed. :func:`simplified` gives Eq. 42-47 for the paper's envelope, and the
 model that follows from the same rule for any other; :func:`certified_bound` says what the dropped part can
-amount to, with proof, :func:`order_bound` what an order of counting leaves out of the exact instrument;
-:func:`critical_conditions` gives Tables I to III.
+amount to, with proof; :func:`critical_conditions` gives Tables I to III.
 """
 
 from derive.simplify.bound import Certificate, certified_bound
 from derive.simplify.critical import AngularMotion, Condition, critical_conditions
 from derive.simplify.envelope import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope
-from derive.simplify.extent import extent
-from derive.simplify.of_order import order_bound
 from derive.simplify.terms import Size, dropped, simplified, sizes
 
 __all__ = [
@@ -24,8 +21,6 @@ __all__ = [
     "certified_bound",
     "critical_conditions",
     "dropped",
-    "extent",
-    "order_bound",
     "simplified",
     "sizes",
 ]

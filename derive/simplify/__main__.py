@@ -1,4 +1,4 @@
-"""Prints the page on the simplified model: ``python -m derive.simplify > docs/simplified.md``."""
+"""Prints the page on the simplified model: ``python -m derive.simplify``."""
 
 import sys
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from functools import cache, lru_cache
-from typing import Any, TypeVar
+from typing import Any
 
 import sympy as sp
 
@@ -16,7 +16,6 @@ from derive.stages import Kinematics
 from derive.symbols import MOTION, SPIN_ACCELERATION, SPIN_RATE, symbol
 
 Vector = tuple[float, float, float]
-N = TypeVar("N", Fraction, float)
 
 EOTVOS = Fraction(1, 10**9)
 """1 Eo in s^-2."""
@@ -137,13 +136,7 @@ class Envelope:
 
     def motion(self) -> Mapping[str, Fraction]:
         """Bounds of a, T and S (:data:`MOTION_NUMBERS`) over the envelope, through Eq. 16."""
-        return self.motion_in(Fraction)
-
-    def motion_in(self, number: Callable[[Fraction], N]) -> Mapping[str, N]:
-        """As :meth:`motion`, in exact numbers or rough ones."""
-        return _ranges(
-            tuple(number(self.channel(n)) for n in _channels(self.kinematics)), self.kinematics, number
-        )
+        return _ranges(tuple(self.channel(n) for n in _channels(self.kinematics)), self.kinematics)
 
     def scaled(self, names: Sequence[str], factor: float) -> Envelope:
         """The envelope with these bounds multiplied by a factor."""
@@ -161,18 +154,16 @@ def ranges(
 
     A square keeps its sign: T_1 = (omega_y^2 - omega_x^2 + ...) / 2 is smaller than the sum of its terms.
     """
-    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics, Fraction)
+    return _ranges(tuple(Fraction(bound(name)) for name in _channels(kinematics)), kinematics)
 
 
 @lru_cache(maxsize=64)
-def _ranges(
-    channels: tuple[N, ...], kinematics: Kinematics, number: Callable[[Fraction], N]
-) -> Mapping[str, N]:
+def _ranges(channels: tuple[Fraction, ...], kinematics: Kinematics) -> Mapping[str, Fraction]:
     bounds = {}
     for name, terms in _polynomials(kinematics).items():
-        low = high = number(Fraction(0))
+        low = high = Fraction(0)
         for powers, c in terms:
-            size = number(abs(c)) * product(channels, powers)
+            size = abs(c) * product(channels, powers)
             square = all(n % 2 == 0 for n in powers)
             if c < 0 or not square:
                 low -= size
@@ -201,9 +192,9 @@ def _polynomials(kinematics: Kinematics) -> dict[str, tuple[tuple[tuple[int, ...
     }
 
 
-def product(bounds: Sequence[N], powers: Sequence[int]) -> N:
+def product(bounds: Sequence[Fraction], powers: Sequence[int]) -> Fraction:
     """Product of bounds to their powers."""
-    return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=type(bounds[0])(1))
+    return math.prod((b**n for b, n in zip(bounds, powers, strict=True) if n), start=Fraction(1))
 
 
 G0 = 9.8
@@ -218,7 +209,7 @@ PAPER_ENVELOPE = Envelope(
     # The greatest rate of the dynamic experiment: 2000 + 800 deg/h (Table VI).
     omega=(2800 * _PER_HOUR,) * 3,
     # "the angular acceleration is in the order of 1e-3 ~ 1e-2 rad/s^2" (Section IV): the lower end.
-    # Only there does the paper drop nothing that its own rule would keep (docs/simplified.md).
+    # Only there does the paper drop nothing that its own rule would keep (the page on the simplified model).
     omegadot=(1e-3,) * 3,
     # "The maximum gravitational gradient is of the order of 10^3 Eo" (below Eq. 32).
     Gamma=1e3 * 1e-9,

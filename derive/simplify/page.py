@@ -1,23 +1,20 @@
-"""Writes docs/simplified.md: Section II.B of the paper, computed. The same bytes for the same derivation."""
+"""Writes the page on the simplified model, for the documentation: Section II.B of the paper, computed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 import jinja2
 
-from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected, collect
+from derive.propagation import COEFFICIENT_PARAMETERS, MOTION_NUMBERS, Collected
 from derive.simplify.bound import certified_bound
 from derive.simplify.critical import Condition, critical_conditions
 from derive.simplify.envelope import DYNAMIC_EXPERIMENT, EOTVOS, G0, PAPER_ENVELOPE, Envelope
-from derive.simplify.extent import extent
-from derive.simplify.of_order import order_bound
 from derive.simplify.terms import Size, simplified, sizes
-from derive.stages import EXACT, PAPER, Order
 from derive.symbols import ACCELEROMETER, ANGLES, SECOND_ORDER
 
 Row = tuple[str, ...]
@@ -36,17 +33,6 @@ _PRINTED: dict[str, tuple[str, ...]] = {
 }
 """As printed: T_n in Eo, rate in deg/s, acceleration in deg/s^2, amplitude in deg/s; or a_n in g."""
 
-_CATEGORIES = {
-    "a": ("second-order coefficients, angular motion", "none"),
-    "b": ("second-order coefficients, linear motion", "all"),
-    "c": ("scale-factor imbalance, linear motion", "all"),
-    "d": ("second-order coefficients, linear and angular motion", "none"),
-    "e": ("misalignment, angular motion", "one angle"),
-    "f": ("misalignment, linear motion", "up to two angles"),
-    "": ("the signal, the null bias, and imbalance with angular motion", "all"),
-}
-"""The kinds of Section II.B.1 a) to f), and what the paper keeps of each."""
-
 
 def page() -> str:
     """The page on the simplified model, Markdown."""
@@ -60,98 +46,45 @@ def page() -> str:
 
 
 def _context() -> dict[str, Any]:
-    paper = sizes(PAPER_ENVELOPE)
-    kept = [s for s in paper if _is_kept(s, PAPER_ENVELOPE)]
-    second = Order(rotation=2, misalignment=2)
-    dynamic = [
-        s for s in sizes(DYNAMIC_EXPERIMENT) if _is_kept(s, DYNAMIC_EXPERIMENT) and not _named(s, kept)
-    ]
-    return {
-        "allotted": number(PAPER_ENVELOPE.allotted),
-        "kept": str(len(kept)),
-        "all": str(len(paper)),
-        "amplitudes": ", ".join(f"${_amplitude(n)}$" for n in simplified().amplitudes),
-        "smallest": number(min(s.eotvos for s in kept)),
-        "largest": number(max(s.eotvos for s in paper if not _is_kept(s, PAPER_ENVELOPE))),
-        "envelope": _bounds(PAPER_ENVELOPE, DYNAMIC_EXPERIMENT),
-        "numbers": _numbers(PAPER_ENVELOPE, DYNAMIC_EXPERIMENT),
-        "terms": [
-            (n, _terms(s for s in kept if s.harmonic == h)) for n, h in (("43", 2), ("45", 1), ("47", 0))
-        ],
-        "categories": _categories(paper),
-        "extents": _extents(),
-        "dynamic": _terms(dynamic),
-        "dynamic_count": str(len(dynamic)),
-        "dynamic_categories": ", ".join(sorted({category(s) for s in dynamic})),
-        "acceleration": number(max(DYNAMIC_EXPERIMENT.omegadot)),
-        "second": _terms(
-            s
-            for s in sizes(PAPER_ENVELOPE, collect(second))
-            if _is_kept(s, PAPER_ENVELOPE) and not _named(s, kept)
-        ),
-        "bounds": _bounds_of_models(),
-        "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
-        "full": [
-            (title, *_bound(e, m))
-            for title, e, m in (
-                ("paper's, Eq. 42 to 47", _in_full(PAPER_ENVELOPE), simplified()),
-                ("paper's, its own model", _in_full(PAPER_ENVELOPE), simplified(_in_full(PAPER_ENVELOPE))),
-                (
-                    "dynamic experiment, its own model",
-                    _in_full(DYNAMIC_EXPERIMENT),
-                    simplified(_in_full(DYNAMIC_EXPERIMENT)),
-                ),
-            )
-        ],
-        "order": [
-            (
-                title,
-                *(number(order_bound(_in_full(e), o).exact) for e in (PAPER_ENVELOPE, DYNAMIC_EXPERIMENT)),
-            )
-            for title, o in _LADDER
-        ],
-        "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
-    }
-
-
-_LADDER = (
-    ("the paper's", PAPER),
-    ("and angles in second-order terms", replace(PAPER, second_order_angles=True)),
-    ("and misalignment exact", replace(EXACT, rotation=1)),
-    ("and mounting to the second power", replace(EXACT, rotation=2)),
-)
-"""Orders of a model, each with one simplification less; the next is the exact one, which leaves nothing out."""
-
-
-def _bounds_of_models() -> list[tuple[str, ...]]:
+    every = sizes(PAPER_ENVELOPE)
+    kept = [s for s in every if s.eotvos > PAPER_ENVELOPE.allotted]
+    in_dynamic = [s for s in sizes(DYNAMIC_EXPERIMENT) if s.eotvos > DYNAMIC_EXPERIMENT.allotted]
+    paper, dynamic = (replace(e, kinematics="full") for e in (PAPER_ENVELOPE, DYNAMIC_EXPERIMENT))
     models = (
         ("paper's, Eq. 42 to 47", PAPER_ENVELOPE, simplified()),
         ("dynamic experiment, Eq. 42 to 47", DYNAMIC_EXPERIMENT, simplified()),
         ("dynamic experiment, its own model", DYNAMIC_EXPERIMENT, simplified(DYNAMIC_EXPERIMENT)),
+        ("full kinematics: paper's, Eq. 42 to 47", paper, simplified()),
+        ("full kinematics: paper's, its own model", paper, simplified(paper)),
+        ("full kinematics: dynamic experiment, its own model", dynamic, simplified(dynamic)),
     )
-    return [(title, *_bound(e, m)) for title, e, m in models]
+    return {
+        "allotted": number(PAPER_ENVELOPE.allotted),
+        "kept": str(len(kept)),
+        "all": str(len(every)),
+        "smallest": number(min(s.eotvos for s in kept)),
+        "largest": number(max(s.eotvos for s in every if s.eotvos <= PAPER_ENVELOPE.allotted)),
+        "envelope": _bounds(PAPER_ENVELOPE, DYNAMIC_EXPERIMENT),
+        "terms": [
+            (n, _terms(s for s in kept if s.harmonic == h)) for n, h in (("43", 2), ("45", 1), ("47", 0))
+        ],
+        "more": str(len(in_dynamic) - len(kept)),
+        "bounds": [(title, *_bound(e, m)) for title, e, m in models],
+        "paper_bound": number(certified_bound(PAPER_ENVELOPE, simplified()).exact),
+        "conditions": [r for c in critical_conditions(PAPER_ENVELOPE) for r in _condition(c)],
+    }
 
 
 def number(x: float | Fraction, digits: int = 3) -> str:
-    """Significant digits; 4e6, not 4e+06; infinity in words."""
-    if math.isinf(x):
-        return "any"
+    """Significant digits; 4e6, not 4e+06."""
     mantissa, e, exponent = f"{float(x):.{digits}g}".partition("e")
     return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
-def _is_kept(s: Size, envelope: Envelope) -> bool:
-    return s.eotvos > Fraction(envelope.allotted)
-
-
-def _named(s: Size, among: Iterable[Size]) -> bool:
-    return any((s.harmonic, s.motion, s.parameters) == (o.harmonic, o.motion, o.parameters) for o in among)
-
-
 def _terms(among: Iterable[Size]) -> list[Row]:
-    """Harmonic, combination, product and size; the largest first (equal sizes in the order of derivation)."""
+    """Combination, product and size; the largest first (equal sizes in the order of derivation)."""
     return [
-        (str(s.harmonic), f"${_combination(s)}$", f"${latex(s)}$", number(s.eotvos))
+        (f"${_combination(s)}$", f"${latex(s)}$", number(s.eotvos))
         for s in sorted(among, key=lambda s: -s.eotvos)
     ]
 
@@ -175,61 +108,20 @@ def latex(s: Size) -> str:
     return " ".join(n if p == 1 else f"{n}^{p}" for n, p in (*parameters, *motion))
 
 
-def _amplitude(name: str) -> str:
-    return "A_0" if name == "A_0" else rf"A_{{{name[2:-1].replace('1', '')}\Omega}}^{name[-1]}"
-
-
-def category(s: Size) -> str:
-    """The category of Section II.B.1 that a term belongs to, "a" to "f"; "" for what it does not discuss."""
-    powers = dict(zip(COEFFICIENT_PARAMETERS, s.parameters, strict=True))
-    linear, angular = any(s.motion[:3]), any(s.motion[3:])
-    if any(powers[n] for n in SECOND_ORDER):
-        return "d" if linear and angular else "a" if angular else "b"
-    if any(powers[n] for n in ANGLES):
-        return "e" if angular else "f"
-    return "c" if linear else ""
-
-
-def _categories(among: Sequence[Size]) -> list[Row]:
-    rows: list[Row] = []
-    for c, (title, printed) in _CATEGORIES.items():
-        of_kind = [s for s in among if category(s) == c]
-        kept = [s.eotvos for s in of_kind if _is_kept(s, PAPER_ENVELOPE)]
-        left = [s.eotvos for s in of_kind if not _is_kept(s, PAPER_ENVELOPE)]
-        share = f"{len(kept)} of {len(of_kind)}"
-        least, most = (number(min(kept)) if kept else ""), (number(max(left)) if left else "")
-        rows.append((c, title, printed, share, least, most))
-    return rows
-
-
 def _bounds(*envelopes: Envelope) -> list[Row]:
     """The bounds that bear units of their own, one row each."""
-    g, ug = G0, 1e-6 * G0
+    g = G0
     quantities = (
-        (r"$\lvert a_x\rvert, \lvert a_y\rvert, \lvert a_z\rvert$", "g", "a", g),
-        (
-            r"$\lvert\omega_{imx}\rvert, \lvert\omega_{imy}\rvert, \lvert\omega_{imz}\rvert$",
-            "rad/s",
-            "omega",
-            1.0,
-        ),
-        (
-            r"$\lvert\omega_{imax}\rvert, \lvert\omega_{imay}\rvert, \lvert\omega_{imaz}\rvert$",
-            "rad/s^2",
-            "omegadot",
-            1.0,
-        ),
-        (r"$\lvert\Gamma_{ik}\rvert$", "Eo", "Gamma", float(EOTVOS)),
+        ("$a_x, a_y, a_z$", "g", "a", g),
+        (r"$\omega_{imx}, \omega_{imy}, \omega_{imz}$", "rad/s", "omega", 1.0),
+        (r"$\omega_{imax}, \omega_{imay}, \omega_{imaz}$", "rad/s^2", "omegadot", 1.0),
+        (r"$\Gamma_{ik}$", "Eo", "Gamma", float(EOTVOS)),
         ("$R$", "m", "radius", 1.0),
-        (r"$\lvert dR\rvert$", "um", "dR", 1e-6),
-        *((rf"$\lvert{q.latex}\rvert$", "rad", q.name, 1.0) for q in ACCELEROMETER if q.name in ANGLES),
-        (r"$\lvert K_0\rvert$", "ug", "K0", ug),
-        *(
-            (rf"$\lvert {q.latex}\rvert$", "ug/g^2", q.name, 1e-6 / g)
-            for q in ACCELEROMETER
-            if q.name in SECOND_ORDER
-        ),
-        (r"imbalance $\lvert k_{j1} / k_1 - 1\rvert$", "1", "imbalance", 1.0),
+        ("$dR$", "um", "dR", 1e-6),
+        *((f"${q.latex}$", "rad", q.name, 1.0) for q in ACCELEROMETER if q.name in ANGLES),
+        ("$K_0$", "ug", "K0", 1e-6 * g),
+        *((f"${q.latex}$", "ug/g^2", q.name, 1e-6 / g) for q in ACCELEROMETER if q.name in SECOND_ORDER),
+        ("imbalance $k_{j1} / k_1 - 1$", "1", "imbalance", 1.0),
     )
     return [
         (text, unit, *(_bound_text(getattr(e, name), scale) for e in envelopes))
@@ -243,48 +135,8 @@ def _bound_text(value: float | tuple[float, ...], unit: float) -> str:
     return texts[0] if len(set(texts)) == 1 else ", ".join(texts)
 
 
-def _numbers(*envelopes: Envelope) -> list[Row]:
-    """T and S at most, Eo."""
-    bounds = [e.motion() for e in envelopes]
-    return [
-        (f"${n}$", *(number(b[n] / EOTVOS) for b in bounds)) for n in MOTION_NUMBERS if not n.startswith("a_")
-    ]
-
-
-def _extents() -> list[Row]:
-    """How far each bound of the paper's envelope may move while Eq. 42-47 remain the simplified model."""
-    e = PAPER_ENVELOPE
-    rows = (
-        ("$a$", "g", ("a",), e.a[0] / G0),
-        (r"$\omega_{im}$", "rad/s", ("omega",), e.omega[0]),
-        (r"$\dot\omega_{im}$", "rad/s^2", ("omegadot",), e.omegadot[0]),
-        (r"$\Gamma$", "Eo", ("Gamma",), e.Gamma / float(EOTVOS)),
-        (r"all $\beta$ and $\vartheta$", "rad", ANGLES, e.beta_x),
-        ("all $K_2$ ... $K_8$", "ug/g^2", SECOND_ORDER, e.K2 * G0 * 1e6),
-        ("imbalance", "1", ("imbalance",), e.imbalance),
-        ("error allotted", "Eo", ("allotted",), e.allotted),
-    )
-    result: list[Row] = []
-    for text, unit, names, value in rows:
-        low, high = extent(e, names)
-        result.append(
-            (
-                text,
-                unit,
-                number(value),
-                *(("any" if f in (0.0, math.inf) else number(value * f)) for f in (low, high)),
-            )
-        )
-    return result
-
-
-def _in_full(envelope: Envelope) -> Envelope:
-    """The envelope of an instrument that feels its disc turn, at a steady rate."""
-    return replace(envelope, kinematics="full")
-
-
-def _bound(envelope: Envelope, model: Collected, full: Collected | None = None) -> Row:
-    certificate = certified_bound(envelope, model, full)
+def _bound(envelope: Envelope, model: Collected) -> Row:
+    certificate = certified_bound(envelope, model)
     return (*(number(certificate.harmonics.get(n, Fraction(0))) for n in range(5)), number(certificate.exact))
 
 

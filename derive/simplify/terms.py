@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 
 from sympy.polys.rings import PolyElement
 
@@ -17,7 +16,7 @@ from derive.propagation import (
     collect,
     from_generic,
 )
-from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, N, product
+from derive.simplify.envelope import EOTVOS, PAPER_ENVELOPE, Envelope, product
 
 Powers = tuple[int, ...]
 Product = tuple[int, Powers, Powers]
@@ -57,49 +56,16 @@ def balanced(harmonic: int, parameters: Powers) -> bool:
 
 def sizes(envelope: Envelope, full: Collected | None = None) -> tuple[Size, ...]:
     """The size of every term of the analytical model (or of ``full``) in an envelope, in its order."""
-    size = _sizing(envelope, Fraction)
-    return tuple(
-        Size(n, motion, parameters, size(c, n, motion, parameters))
-        for (n, motion, parameters), c in (full or collect()).largest.items()
-    )
-
-
-CLOSE = 1e-9
-"""Relative distance from what is allotted below which floating point does not decide."""
-
-
-def exceeding(envelope: Envelope, terms: Mapping[Product, Fraction]) -> set[Product]:
-    """The terms, of :attr:`Collected.largest`, that may exceed what is allotted; exactly, though most are told in floating point."""
-    rough, exact = _sizing(envelope, float), cache(lambda: _sizing(envelope, Fraction))
-    allotted, found = envelope.allotted, set()
-    for term, c in terms.items():
-        size: Fraction | float = rough(c, *term)
-        if abs(size - allotted) <= CLOSE * allotted:
-            size = exact()(c, *term)  # of few terms, if of any
-        if size > allotted:
-            found.add(term)
-    return found
-
-
-def _sizing(
-    envelope: Envelope, number: Callable[[Fraction], N]
-) -> Callable[[Fraction, int, Powers, Powers], N]:
-    """What gives the size of a coefficient's term in an envelope, in exact numbers or rough ones."""
-    motion_bounds = envelope.motion_in(number)
-    motions = [motion_bounds[n] for n in MOTION_NUMBERS]
-    nominal = [number(envelope.nominal(n)) for n in COEFFICIENT_PARAMETERS]
-    scale = number(1 / (4 * Fraction(envelope.radius) * EOTVOS))
-    of_motion = cache(lambda powers: product(motions, powers))  # many terms share either
-
-    @cache
-    def of_parameters(harmonic: int, powers: Powers) -> N:
-        left = number(envelope.departure(powers)) if balanced(harmonic, powers) else 1
-        return product(nominal, powers) * scale * left
-
-    def size(c: Fraction, harmonic: int, motion: Powers, parameters: Powers) -> N:
-        return number(c) * of_motion(motion) * of_parameters(harmonic, parameters)
-
-    return size
+    bounds = envelope.motion()
+    motions = [bounds[n] for n in MOTION_NUMBERS]
+    nominal = [envelope.nominal(n) for n in COEFFICIENT_PARAMETERS]
+    scale = 1 / (4 * Fraction(envelope.radius) * EOTVOS)
+    found = []
+    for (n, motion, parameters), c in (full or collect()).largest.items():
+        left = envelope.departure(parameters) if balanced(n, parameters) else 1
+        size = c * product(motions, motion) * product(nominal, parameters) * scale * left
+        found.append(Size(n, motion, parameters, size))
+    return tuple(found)
 
 
 def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = None) -> Collected:
@@ -109,7 +75,10 @@ def simplified(envelope: Envelope = PAPER_ENVELOPE, full: Collected | None = Non
     always the signal itself (Eq. 30). What it drops is bounded by :func:`derive.simplify.certified_bound`.
     """
     full = full or collect()
-    return from_generic(_select(full.generic, exceeding(envelope, full.largest)))
+    large = {
+        (s.harmonic, s.motion, s.parameters) for s in sizes(envelope, full) if s.eotvos > envelope.allotted
+    }
+    return from_generic(_select(full.generic, large))
 
 
 def dropped(model: Collected, full: Collected | None = None) -> Generic:

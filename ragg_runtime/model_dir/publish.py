@@ -23,7 +23,7 @@ Folders = Mapping[str, Mapping[str, str]]
 
 def rederived(root: Path) -> list[str]:
     """Derive everything and write it below ``root``; returns the paths that changed."""
-    return publish(root, everything.below(root), whole=(everything.GENERATED,))
+    return publish(root, everything.folders(), whole=(everything.GENERATED,))
 
 
 @dataclass(frozen=True)

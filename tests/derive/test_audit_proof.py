@@ -11,9 +11,7 @@ import pytest
 from derive.audit import direct, experiment, proof
 from derive.audit.compare import derived_amplitude, printed_order, select
 from derive.audit.definitions import derived_transducer
-from derive.audit.numbers import T_D, Number, critical, limits, numbers
 from derive.audit.reading import model_reader
-from derive.audit.text import input_axis_miss
 from derive.propagation import collect
 
 
@@ -102,48 +100,3 @@ def test_costs_add():
     )
     both = experiment.cost({"A_2c": one["A_2c"] + two["A_2c"]})
     assert both.cross == pytest.approx(experiment.cost(one).cross + experiment.cost(two).cross, rel=1e-12)
-
-
-# --- numbers ---
-
-
-def test_critical_motion_exhausts_eq_33():
-    T = 0.2
-    c = critical(T)
-    w = c.omega
-    assert 0.5 * (w**2 + w**2 + 2 * w**2) == pytest.approx(T)
-    assert c.omegadot + w * w == pytest.approx(T)
-    assert c.amplitude == pytest.approx(min(w, c.omegadot / (2 * math.pi * 0.25)))
-
-
-def test_critical_T_of_rule_d_costs_a_tenth_of_an_eotvos():
-    """Eq. 38 forward: a quarter of K T a, with K = 1e-6 per g and a = 0.1 g."""
-    assert math.isclose(0.25 * 1e-6 * T_D * 0.1, 0.1e-9)
-    wrong = [n.where for n in numbers(1.2e5) if not n.confirmed]
-    assert wrong == ["below Eq. 38"]
-
-
-def test_printed_limits_follow_from_four_omega_squared():
-    misprinted = [m.where for m in limits() if abs(float(m.printed) / m.as_print_implies - 1) > 0.01]
-    assert misprinted == ["Table III, row 3"]
-
-
-@pytest.mark.parametrize(
-    ("printed", "computed", "confirmed"),
-    [
-        ("12.74", 12.747, False),
-        ("12.75", 12.747, True),
-        ("4e7", 4.4e7, True),
-        ("4e7", 4e6, False),
-        ("1.72", 1.7189, True),
-    ],
-)
-def test_a_number_is_confirmed_to_the_digits_printed(printed, computed, confirmed):
-    assert Number("", "", printed, computed, "").confirmed is confirmed
-
-
-def test_misalignment_is_undone_from_the_last_rotation():
-    y, z = 0.02, 0.03
-    assert input_axis_miss(y, z, "zy") == pytest.approx(0, abs=1e-15)
-    assert input_axis_miss(y, z, "yz") == pytest.approx(y * z * math.hypot(y, z) / 2, rel=0.5)
-    assert input_axis_miss(y, z, "yz") > 1e-6

@@ -110,11 +110,12 @@ def model_state(place: Path) -> str:
 
 
 def _project(base: Path) -> Path:
-    """A project whose generated files and pages are those of another derivation."""
+    """A project whose generated files are those of another derivation."""
     root = base / "project"
     for folder, files in derived().items():
         old = {n: f"old\n{t}" for n, t in files.items()} | {"gone.txt": "old\n"}
         tree.write(old, root / folder)
+    (root / "docs").mkdir()
     (root / "docs" / "mine.md").write_text("mine\n")
     return root
 
