@@ -49,12 +49,13 @@ test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)  ## run the tests
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder
 
-lint: $(STAMP)  ## style, types, layers, and whether the lock is complete
+lint: $(STAMP)  ## style, types, layers, whether the lock is complete, and the size of the project
 	$(BIN)/python -m pip --disable-pip-version-check check
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	@$(BIN)/python .ci/sizes.py
 
 # The rivals of the evaluation are optional: one that cannot be installed here is reported as missing.
 RIVALS := .venv-bench/.complete
