@@ -15,18 +15,15 @@ environment of that process), prints tables, and keeps ``build/bench.json``; a r
 ``docs/benchmarks.md`` too. All together take 10 to 20 minutes (``make bench``).
 
 What a row should be: a time or a rate, with its spread, and beside it the *ratio to something fixed, measured
-interleaved in the same run* (``timing.interleaved``): a peer, or ``timing.fixed_peer``. Ratios (unit "x") are
-what is compared from run to run, since machines and their load differ: ``benchmarks/last.json`` holds those
-of the last run that was committed, and every run prints the change.
+interleaved in the same run* (``timing.interleaved``): a peer, or ``timing.fixed_peer``, since machines and their load differ.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 RATIO = "x"
-"""The unit of a ratio: what is compared from one run to the next."""
+"""The unit of a ratio."""
 
 
 @dataclass(frozen=True)
@@ -36,15 +33,13 @@ class Row:
     Attributes
     ----------
     name, value, unit
-        ``value`` is the median over repetitions, if there are any; ``unit`` is "x" (or empty) for a ratio.
+        ``value`` is the median over repetitions, if there are any; ``unit`` is "x" for a ratio.
     note
         How it was measured, if the name does not say it.
     target
         What it is held against, in words; ``None`` if nothing.
     low, high
         Spread over the repetitions (lower and upper quartile).
-    better
-        Whether a lower or a higher value is better: then a change for the worse is marked.
     met
         Whether the target is met, where that can be said.
     """
@@ -56,9 +51,4 @@ class Row:
     target: str | None = None
     low: float | None = None
     high: float | None = None
-    better: Literal["lower", "higher"] | None = None
     met: bool | None = None
-
-    @property
-    def ratio(self) -> bool:
-        return self.unit in ("", RATIO)

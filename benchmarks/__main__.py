@@ -22,7 +22,6 @@ from benchmarks import Row, machine, page
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "build" / "bench.json"
-LAST = Path(__file__).with_name("last.json")
 PAGE = ROOT / "docs" / "benchmarks.md"
 
 
@@ -51,22 +50,9 @@ def rows_of(result: Mapping[str, Any]) -> list[Row]:
     return [Row(**r) for r in result["rows"]]
 
 
-def ratios(results: Mapping[str, Any]) -> dict[str, dict[str, float]]:
-    """What is compared from one run to the next: benchmark -> row -> ratio."""
-    return {
-        name: {r.name: float(f"{r.value:.4g}") for r in rows_of(result) if r.ratio}
-        for name, result in results.items()
-        if result["rows"]
-    }
-
-
 def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME", help="benchmarks; none: all of them")
-    parser.add_argument(
-        "--keep", action="store_true", help="make this run the one later runs are compared with"
-    )
-    parser.add_argument("--page", action="store_true", help="of those named, renew the tables in the page")
     parser.add_argument("--rows", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args(arguments)
     known = modules()
@@ -81,7 +67,6 @@ def main(arguments: Sequence[str]) -> int:
 
     kept = json.loads(RESULTS.read_text("utf-8")) if RESULTS.exists() else {}
     results: dict[str, Any] = {n: r for n, r in kept.get("results", {}).items() if n in known}
-    last: dict[str, Any] = json.loads(LAST.read_text("utf-8")) if LAST.exists() else {}
     failed = []
     for name in options.names or known:
         print(f"... {name}", file=sys.stderr, flush=True)
@@ -90,21 +75,14 @@ def main(arguments: Sequence[str]) -> int:
             failed.append(name)
             print(f"{name}: {results[name]['failed']}", file=sys.stderr)
             continue
-        changes = page.changes(rows_of(results[name]), last.get(name, {}))
-        print(f"{name}\n{page.text(rows_of(results[name]), changes)}\n", flush=True)
+        print(f"{name}\n{page.text(rows_of(results[name]))}\n", flush=True)
     RESULTS.parent.mkdir(exist_ok=True)
     everything = {"machine": machine.describe(), "results": dict(sorted(results.items()))}
     RESULTS.write_text(json.dumps(everything, indent=1) + "\n", "utf-8")
-    if not options.names or options.page:
+    if not options.names:
         titles = {n: (m.__doc__ or n).splitlines()[0] for n, m in known.items()}
-        some = {n: results[n] for n in options.names}
-        old = PAGE.read_text("utf-8") if some else ""
-        text = page.renewed(old, some, titles, last) if some else page.page(everything, titles, last)
-        PAGE.write_text(text, "utf-8")
+        PAGE.write_text(page.page(everything, titles), "utf-8")
         print(f"written: {PAGE.relative_to(ROOT)}", file=sys.stderr)
-    if options.keep:
-        text = json.dumps({**last, **ratios(results)}, indent=1, sort_keys=True)
-        LAST.write_text(text + "\n", "utf-8")
     return 1 if failed else 0
 
 

@@ -91,7 +91,6 @@ def _row(
         target=None if target is None else f"at most {target:g} s",
         low=min(found[1:]),
         high=max(found[1:]),
-        better="lower",
         met=None if target is None else middle <= target,
     )
 
@@ -152,7 +151,6 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
             "frozen; Parquet to Parquet",
             low=min(brief),
             high=max(brief),
-            better="lower",
         ),
         Row(
             "ragg compensate, samples a second",
@@ -162,7 +160,6 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
             "at least 5",
             low=1e-6 / max(further),
             high=1e-6 / max(min(further), 1e-12),
-            better="higher",
             met=each <= 0.2e-6,
         ),
     ]
@@ -190,5 +187,5 @@ def _preview() -> list[Row]:
     middle = statistics.median(found[1:])
     return [
         Row("preview of an effect", middle, "ms CPU", "from triangles in memory", "at most 20 ms",
-            low=min(found[1:]), high=max(found[1:]), better="lower", met=middle <= 20.0)
+            low=min(found[1:]), high=max(found[1:]), met=middle <= 20.0)
     ]  # fmt: skip

@@ -183,21 +183,18 @@ def run() -> list[Row]:
             RATIO,
             "cold, start included",
             "at least 20",
-            better="higher",
             met=as_written / series >= 20,
         ),
-        Row("plain in k1 and R / derived", merged / series, RATIO, "cold, start included", better="higher"),
+        Row("plain in k1 and R / derived", merged / series, RATIO, "cold, start included"),
         Row(
             "plain in k1 and R / derived, start taken off",
             (merged - start) / max(series - start, 1e-3),
             RATIO,
-            better="higher",
         ),
         Row(
             "plain / derive everything",
             as_written / whole,
             RATIO,
             "two dozen effects, C, LaTeX and pages besides",
-            better="higher",
         ),
     ]

@@ -108,16 +108,14 @@ def rows_of(
         if goal:
             extra = {"target": f"at most {goal[which]:g}", "met": 1e9 * timing.least / n <= goal[which]}
         note = f"best {1e9 * timing.least / n:.1f}; off by {wrong[name]:.1e} Eo"
-        rows.append(
-            Row(f"{name}, {label}", ns[0], "ns", note, low=ns[1], high=ns[2], better="lower", **extra)
-        )
+        rows.append(Row(f"{name}, {label}", ns[0], "ns", note, low=ns[1], high=ns[2], **extra))
     for name, timing in times.items():
         if name != OURS:
             r = ratio(timing, times[OURS])
             aim = TARGETS.get(name)
             extra = {"target": f"at least {aim[which]:g}", "met": r.value >= aim[which]} if aim else {}
             title = f"{name} / {OURS}, {label}"
-            rows.append(Row(title, r.value, RATIO, low=r.low, high=r.high, better="higher", **extra))
+            rows.append(Row(title, r.value, RATIO, low=r.low, high=r.high, **extra))
     return rows
 
 
@@ -129,8 +127,7 @@ def bound_rows(ours: Timing, floor: Timing, n: int, label: str) -> list[Row]:
     return [
         Row(f"reading 16 series, writing one, {label}", 1e9 * floor.median / n, "ns",
             "nothing is computed: the memory bound", low=low, high=high),
-        Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high,
-            better="lower", **extra),
+        Row(f"{OURS} / memory bound, {label}", r.value, RATIO, low=r.low, high=r.high, **extra),
     ]  # fmt: skip
 
 
@@ -200,4 +197,4 @@ def threads(t: Any, x: Any, p: Any, cores: int) -> list[Row]:
     )
     r = ratio(times["1"], times[str(cores)])
     name = f"one thread / {cores} threads, streaming"
-    return [Row(name, r.value, RATIO, "wall clock; same bits", low=r.low, high=r.high, better="higher")]
+    return [Row(name, r.value, RATIO, "wall clock; same bits", low=r.low, high=r.high)]

@@ -45,7 +45,6 @@ def rows(t: Any, x: Any, p: Any) -> list[Row]:
                     f"generated C, {ns:.1f} ns a sample",
                     low=r.low,
                     high=r.high,
-                    better="lower",
                     target=f"at most {limit:g}",
                     met=r.value <= limit,
                 )

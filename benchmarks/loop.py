@@ -68,7 +68,6 @@ def timed(name: str, work: Callable[[], object], target: float | None, repeats: 
             None if target is None else f"at most {target:g} s",
             low=min(wall),
             high=max(wall),
-            better="lower",
             met=None if target is None else middle <= target,
         )
     ]

@@ -115,9 +115,7 @@ def _served(folder: Path, name: str, flight: Path) -> Iterator[str]:
 def _row(name: str, values: list[float], unit: str, most: float, note: str = "") -> Row:
     middle = statistics.median(values)
     text = f"at most {most:g} {unit}"
-    return Row(
-        name, middle, unit, note, text, low=min(values), high=max(values), better="lower", met=middle <= most
-    )
+    return Row(name, middle, unit, note, text, low=min(values), high=max(values), met=middle <= most)
 
 
 def _memory() -> tuple[float, float]:
@@ -141,7 +139,7 @@ def _memory() -> tuple[float, float]:
 def _frames(name: str, move: list[float], note: str) -> Row:
     rate, most, worst, _ = move
     text = f"95 % of frames within {most:.0f} ms, worst {worst:.0f} ms; drawn by software, {note}"
-    return Row(name, rate, "frames/s", text, "60 frames/s", better="higher", met=rate >= FLUENT)
+    return Row(name, rate, "frames/s", text, "60 frames/s", met=rate >= FLUENT)
 
 
 def _demonstration(browser: Any, folder: Path) -> list[Row]:

@@ -73,7 +73,6 @@ def run() -> list[Row]:
             note,
             low=min(spent),
             high=max(spent),
-            better="lower",
         )
         for jobs, spent in times.items()
     ]
@@ -88,7 +87,6 @@ def run() -> list[Row]:
             f"at least {LEAST:g}",
             low=min(ratios),
             high=max(ratios),
-            better="higher",
             met=gain >= LEAST,
         ),
     ]

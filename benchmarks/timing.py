@@ -102,7 +102,7 @@ def against_fixed_peer(
         low, high = found[name].quartiles
         median, limit = found[name].median, (targets or {}).get(name)
         goal = {} if limit is None else {"target": f"at most {limit:g} s", "met": median <= limit}
-        rows.append(Row(name, median, "s", low=low, high=high, better="lower", **goal))
+        rows.append(Row(name, median, "s", low=low, high=high, **goal))
         r = ratio(found[name], found["fixed peer"])
-        rows.append(Row(f"{name}, to the fixed peer", r.value, RATIO, low=r.low, high=r.high, better="lower"))
+        rows.append(Row(f"{name}, to the fixed peer", r.value, RATIO, low=r.low, high=r.high))
     return rows

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -214,21 +213,6 @@ def test_the_instruments_own_response_to_the_gradient_is_undone() -> None:
     assert np.std(error[ok].imag) < 0.1 * np.std((ideal - truth(x, c.demodulator))[ok].imag)
 
 
-def test_single_precision_is_enough_for_what_is_put_right() -> None:
-    x, p = flown(11, "self")
-    c = Compensated(p, 0, "fir")
-    segment = Segment(c.setting, slice(0, len(x.time)), holes=False)
-    found = segment.gradient()
-    first = segment.first_estimate()
-    segment.put(first)
-    right = first - segment.demodulated(segment.output() - segment.bare - segment.carried(first))
-    assert 0.0 < np.max(np.abs(found - right)) < 1e-6
-    assert np.max(np.abs(found - first)) > 1e-3
-    assert segment.raw(16) == pytest.approx(
-        segment.demodulated(np.where(segment.record.valid, segment.G, 0.0))[segment.own][::16], rel=1e-9
-    )
-
-
 def _ideal(c: Compensated, x: Flight) -> NDArray[np.complex128]:
     return Segment(c.setting, slice(0, len(x.time)), holes=False).first_estimate()
 
@@ -292,34 +276,6 @@ def test_formats_and_several_flights(tmp_path: Path) -> None:
 def _parquet(model: Path, flight: Path, folder: Path) -> Path:
     run("compensate", model, flight, "-o", folder / "o.parquet")
     return folder / "o.parquet"
-
-
-def test_a_mapping_serves_every_command_and_is_kept_with_the_calibration(tmp_path: Path) -> None:
-    """A file of a recorder's own names, two lines in one: the same numbers as of the plain files."""
-    model, x = new_model(tmp_path), flights()[0].part(BRIEF)
-    for k, part in enumerate((slice(0, 1200), slice(1200, 2000)), 1):
-        write_flight(x.part(part), tmp_path / f"{k}.csv")
-    texts = [(tmp_path / f"{k}.csv").read_text().splitlines() for k in (1, 2)]
-    head = re.sub(r"(\w+) \[", r"THEIR_\1 [", texts[0][0])
-    lines = [f"{k},{row}" for k, text in enumerate(texts, 1) for row in text[1:]]
-    (tmp_path / "theirs.csv").write_text("\n".join(["LINE," + head, *lines]) + "\n")
-    names = [n for n in re.findall(r"(\w+) \[", texts[0][0]) if n != "time"]
-    text = '[file]\nline = "LINE"\n[time]\ncolumn = "THEIR_time"\n[columns]\n'
-    text += "".join(f'{n} = "THEIR_{n}"\n' for n in names)
-    (tmp_path / "map.toml").write_text(text)
-    run("calibrate", model, tmp_path / "theirs.csv", "--map", tmp_path / "map.toml", "--save")
-    assert (model / "mapping.toml").read_text() == text
-    assert loop.load(model).directory.mapping == model / "mapping.toml"
-    both = [tmp_path / f"{k}.csv" for k in (1, 2)]
-    frozen = ("--calibration", "frozen", "-o")
-    run("compensate", model, tmp_path / "theirs.csv", *frozen, tmp_path / "theirs.parquet")
-    run("compensate", model, *both, *frozen, tmp_path / "ours.parquet")
-    theirs, ours = (pq.read_table(tmp_path / f"{n}.parquet") for n in ("theirs", "ours"))
-    assert theirs.equals(ours)
-    assert theirs.num_rows == 2000
-    (model / "mapping.toml").unlink()
-    told = run("compare", model, tmp_path / "theirs.csv", "--frozen", "--map", tmp_path / "map.toml")
-    assert "theirs:1" in told
 
 
 BAD: dict[str, list[Any]] = {

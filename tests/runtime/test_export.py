@@ -191,21 +191,6 @@ def test_a_wrong_header_is_one_message(what: str, base: tuple[Path, Path, Path])
     assert said.count("ragg_model:") == 1
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (b"", "the record is empty"),
-        (b"\xff\xfe\x00\x01", "missing"),
-        (b"[" * 5000, "missing"),
-        (b"," * 5000, "too many columns"),
-    ],
-)
-def test_what_is_no_table_is_one_message(text: bytes, message: str, base: tuple[Path, Path, Path]) -> None:
-    done = program(base[1], text)
-    assert done.returncode == 2
-    assert message in done.stderr.decode()
-
-
 def test_rows_that_are_no_numbers(base: tuple[Path, Path, Path]) -> None:
     _, folder, flight = base
     lines = header(flight)
@@ -215,14 +200,6 @@ def test_rows_that_are_no_numbers(base: tuple[Path, Path, Path]) -> None:
     assert (done.returncode, b"wrong number of values" in done.stderr) == (2, True)
     done = program(folder, lines[0].encode())
     assert (done.returncode, b"no rows" in done.stderr) == (2, True)
-
-
-def test_units_may_be_spelled_as_people_do(base: tuple[Path, Path, Path]) -> None:
-    _, folder, flight = base
-    lines = header(flight)
-    other = lines[0].replace("m/s^2", "m/s2").replace("s^-2", "1/s^2").replace(",", " ; ")
-    text = "\n".join([other, *(line.replace(",", ";") for line in lines[1:])])
-    assert program(folder, text.encode()).stdout == program(folder, "\n".join(lines).encode()).stdout != b""
 
 
 def test_numpy_alone_gives_the_same(extended: tuple[Path, Path, Path], tmp_path: Path) -> None:
@@ -313,13 +290,3 @@ def test_numpy_of_the_models_own_kinematics_gives_its_answers(tmp_path: Path) ->
     )
     found, said = answer(done.stdout)[1], answer((tmp_path / "n" / "test" / "G_out.csv").read_bytes())[1]
     assert np.max(np.abs(found - said)) < 1e-9
-
-
-def test_it_says_that_late_motion_is_a_series_there(tmp_path: Path) -> None:
-    text = (new_model(tmp_path) / "model.toml").read_text()
-    late = 'effects = [{ id = "time-offset", delta_t = { value = 0.03, unit = "s" } }]'
-    (tmp_path / "late.toml").write_text(text.replace("effects = []", late))
-    run("new", tmp_path / "late", "--from", tmp_path / "late.toml")
-    told = run("export", tmp_path / "late", tmp_path / "c", "--c")
-    for said in (told, (tmp_path / "c" / "README.txt").read_text()):
-        assert "delta_t makes motion late: a series of second order" in said

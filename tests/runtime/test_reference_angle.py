@@ -20,12 +20,6 @@ def test_turns_agree_with_arbitrary_precision_after_ten_days(frequency: float) -
             assert abs(gap - mpmath.nint(gap)) < 1.2e-16
 
 
-def test_plain_product_would_have_lost_the_angle() -> None:
-    # The point of the reduction: the naive way is wrong at the level of nanoradians.
-    t = 1e6 + 1 / 3
-    assert abs(np.mod(0.1 * t, 1) - np.mod(float(turns(0.1, t)), 1)) > 1e-13
-
-
 def test_nanosecond_shift_survives_a_long_time() -> None:
     shift = 1.234567e-9
     moved = disc_angle(0.25, np.array([0.0]), shift) - disc_angle(0.25, np.array([0.0]))

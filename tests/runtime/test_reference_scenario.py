@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 from scipy.signal import welch
@@ -92,9 +90,3 @@ def test_geology_is_traceless_and_slow() -> None:
     assert np.std(c["Gamma_xy"]) == pytest.approx(20e-9, rel=0.3)
     constant = scenario(3).simulate().channels["Gamma_xy"]
     np.testing.assert_allclose(constant, 120e-9)
-
-
-def test_half_an_hour_is_simulated_in_seconds() -> None:
-    begin = time.perf_counter()
-    scenario(1).simulate({"lag": {"tau": [1e-9, 2e-9, 3e-9, 4e-9]}})
-    assert time.perf_counter() - begin < 30
