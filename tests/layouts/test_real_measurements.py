@@ -71,10 +71,6 @@ def test_motion_tells_where_the_accelerometers_are(unlifted: Fitted) -> None:
     assert np.max(RADIUS * std) < 3e-4
 
 
-def test_calibration_arrives_and_leaves_less(unlifted: Fitted) -> None:
-    assert unlifted.calibration.converged, unlifted.calibration.reason
-
-
 def test_gravity_comes_out_as_far_as_the_chips_tell() -> None:
     g, uncertain, scatter = story.gravity()
     assert abs(g - 9.82) < uncertain

@@ -11,9 +11,6 @@ from ragg_runtime.reference import disc_angle, simulate, still
 from ragg_runtime.reference.gravity import Gradient
 from ragg_runtime.reference.instruments import perfect
 from ragg_runtime.signals.demodulate import demodulate, low_pass
-from ragg_runtime.signals.demodulators import demodulator
-from ragg_runtime.signals.fir import ROWS, convolved, filtered, thinned
-from ragg_runtime.signals.means import between
 
 RATE = 16.0
 
@@ -87,47 +84,3 @@ def test_bad_records_are_refused() -> None:
         demodulate(np.zeros(100), np.zeros(99), RATE, 1.0)
     with pytest.raises(UserError, match="sampling rate"):
         demodulate(np.zeros(100), np.zeros(100), 0.4, 1.0)
-
-
-@pytest.mark.parametrize("n", [5, 40, 41, 300, 16 * 5 * ROWS + 7])
-@pytest.mark.parametrize(("taps", "every"), [(1, 1), (41, 1), (41, 16), (300, 5)])
-def test_a_series_that_is_thinned_out_is_that_of_the_filter(n: int, taps: int, every: int) -> None:
-    rng = np.random.default_rng(n)
-    kernel, x = rng.standard_normal(taps), rng.standard_normal((2, n))
-    expected = convolved(x, kernel)[:, ::every]
-    np.testing.assert_allclose(thinned(x, kernel, every), expected, rtol=0, atol=1e-11)
-    z = x[0] + 1j * x[1]
-    np.testing.assert_allclose(thinned(z, kernel, every), expected[0] + 1j * expected[1], atol=1e-11)
-
-
-@pytest.mark.parametrize("name", ["fir", "causal"])
-@pytest.mark.parametrize("rows", [slice(0, 40), slice(700, 1501), slice(3000, 4000)])
-def test_some_samples_of_a_low_pass_are_those_of_all(name: str, rows: slice) -> None:
-    d = demodulator(name, RATE)
-    x = np.random.default_rng(1).standard_normal(4000)
-    expected = d.low_passed(x)[rows][::16]
-    np.testing.assert_allclose(d.thinly_passed(x, rows, 16), expected, rtol=0, atol=1e-12)
-
-
-@pytest.mark.parametrize(("few", "n"), [(1, 7), (2, 9), (3, 10), (4, 19), (25, 130)])
-def test_between_means_is_interpolated(few: int, n: int) -> None:
-    means = np.random.default_rng(few).standard_normal((2, n // few))
-    centres = (np.arange(n // few) + 0.5) * few - 0.5
-    expected = [np.interp(np.arange(n), centres, x) for x in means]
-    np.testing.assert_allclose(between(means, few, n), expected, rtol=0, atol=1e-14)
-
-
-@pytest.mark.parametrize("lead", [0, 7])
-def test_a_filter_gives_zeros_for_zeros_and_forgets_no_tail(lead: int) -> None:
-    """Columns that are zero throughout, from here on, and until here, few and many of them."""
-    rng = np.random.default_rng(lead)
-    taps = rng.normal(size=40)
-    before, after = rng.normal(size=(10, 50)), rng.normal(size=(10, 200))
-    before[:8] = 0.0
-    after[1:9] = 0.0
-    whole = np.concatenate([before, after], axis=1)
-    there = np.stack([np.convolve(x, taps)[50 + lead : 250] for x in whole])
-    for some in (slice(None), slice(0, 9), slice(1, 8)):
-        found = filtered(after[some], taps, before[some], lead)
-        assert found == pytest.approx(there[some], abs=1e-12)
-    assert not filtered(after[1:8], taps).any()

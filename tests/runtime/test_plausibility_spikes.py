@@ -6,13 +6,6 @@ import numpy as np
 import pytest
 
 from ragg_runtime.plausibility.spikes import (
-    CACHE,
-    GLITCH,
-    MEDIAN_OF_NORMAL,
-    _distance,
-    _distances,
-    _off,
-    _usual,
     glitches,
     spikes,
 )
@@ -76,43 +69,3 @@ def test_glitches_of_smooth_motion_are_interpolated() -> None:
     mask, same = glitches(smooth, ALL)
     assert not mask.any()
     assert same is smooth
-
-
-def test_a_long_record_is_looked_at_in_parts() -> None:
-    e = NOISE.copy()
-    e[PLACES] += 1e3
-    assert np.array_equal(spikes(e, ALL, part=1000), spikes(e, ALL))
-    smooth = np.sin(TIME)
-    smooth[PLACES] += 50
-    whole, parts = glitches(smooth, ALL), glitches(smooth, ALL, part=1000)
-    assert np.array_equal(whole[0], parts[0])
-    assert parts[1] == pytest.approx(whole[1], abs=1e-9)
-
-
-@pytest.mark.parametrize("n", [41, 64, 65, 300, 5000])
-def test_what_is_far_off_is_told_as_by_the_median_itself(n: int) -> None:
-    """Counting spares the median of a long record; ties, zeros and heavy tails make no difference."""
-    draw, found = np.random.default_rng(n), 0
-    for power in (0.5, 1.0, 3.0, 8.0):
-        for kind in range(6):
-            size = np.abs(draw.standard_normal(n)) ** power
-            size[draw.integers(n, size=1 + n // 100)] *= 10 ** draw.uniform(0, 5)
-            if kind in (1, 4):
-                size[draw.integers(n, size=n // 2)] = 0.0
-            size = np.round(size, 1) if kind > 2 else size
-            limit = GLITCH / MEDIAN_OF_NORMAL
-            at = np.flatnonzero(size > limit * np.median(size))
-            expected = at[size[at] > limit * _usual(size, at)]
-            assert _off(size).tolist() == expected.tolist()
-            found += len(expected)
-    assert found
-
-
-def test_the_distance_of_some_samples_is_that_of_all() -> None:
-    """Where a glitch was interpolated the distances beside it are made anew, to the bit; the ends are mirrored."""
-    x = RNG.standard_normal(2 * CACHE + 100)
-    every = _distances(x, np.arange(len(x)))
-    assert np.array_equal(_distance(x), every)
-    taps = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0]) / 20.0
-    mirrored = np.convolve(np.pad(x, 3, mode="reflect"), taps, "valid")
-    np.testing.assert_allclose(every, np.abs(mirrored), rtol=0, atol=1e-14)

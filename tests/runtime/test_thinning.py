@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -157,15 +155,6 @@ def _cut(flight: Flight, n: int) -> Flight:
     )
 
 
-def test_of_a_disc_that_turns_fast_more_is_kept(flown: tuple[Scenario, Flight], whole: Observation) -> None:
-    """The fourth multiple of the spin rate passes, and the motion about it, whatever the columns say."""
-    s, _ = flown
-    fast = replace(whole, record=replace(whole.record, spin_frequency=1.0))
-    (o,) = thinning.thinned(model.packaged(), s.sheet, [fast])
-    assert o.thin is not None and o.record.rate >= 15.0
-    assert thinning.PASSED * o.record.rate / 2 >= 4 * 1.0 + thinning.ABOVE
-
-
 def test_a_motion_that_shakes_is_not_thinned(flown: tuple[Scenario, Flight]) -> None:
     """A vibration at 30 Hz that comes and goes is rectified by K2 into the band: its square is slow, and must not be lost."""
     s, flight = flown
@@ -208,26 +197,6 @@ def test_spikes_cost_a_sample_and_a_gap_what_is_beside_it(flown: tuple[Scenario,
     assert np.std((found - expected)[used]) < 0.01 * np.std(expected)
 
 
-def test_where_gaps_leave_nothing_to_compare_nothing_is_thinned(flown: tuple[Scenario, Flight]) -> None:
-    """Gaps of half a second every five: between them no sample is far enough from one for its derivatives to be judged."""
-    s, flight = flown
-    valid = np.mod(flight.time, 5.0) > 0.5
-    o = observation.observe(
-        Flight(flight.time, flight.channels, flight.outputs, valid=valid, units=flight.units), s.sheet
-    )
-    at = Point(model.packaged(), s.sheet, vector(model.packaged(), s.sheet), with_candidates=True)
-    piece = o.part(slice(0, 12_000))
-    assert not thinning._alike(at, [thinning._thin(piece, EVERY)], [linearised(at, piece)[:-1]])
-
-
-def test_where_many_samples_are_missing_nothing_is_thinned(flown: tuple[Scenario, Flight]) -> None:
-    """In the last third of a flight the output is recorded every tenth of a second: the low-pass would find nothing there."""
-    s, flight = flown
-    seldom = (np.arange(len(flight.time)) % 10 == 0) | (flight.time < 280.0)
-    outputs = {n: np.where(seldom, x, np.nan) for n, x in flight.outputs.items()}
-    assert thinned(s.sheet, Flight(flight.time, flight.channels, outputs, units=flight.units)).thin is None
-
-
 def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_does_not(
     flown: tuple[Scenario, Flight],
 ) -> None:
@@ -241,27 +210,3 @@ def test_an_encoder_that_counts_from_zero_at_every_turn_is_thinned_as_one_that_d
         found.append(np.exp(1j * o.record.phi))
     np.testing.assert_allclose(found[0], found[1], atol=1e-9)
     np.testing.assert_allclose(found[0], np.exp(1j * spin * o.record.time), atol=1e-9)
-
-
-def test_outputs_of_one_flight_are_thinned_alike(
-    flown: tuple[Scenario, Flight], whole: Observation, thin: Observation
-) -> None:
-    s, flight = flown
-    hum = observation.observe(with_output(flight, 2e-3 * np.sin(2 * np.pi * 27.3 * flight.time)), s.sheet)
-    m = model.packaged()
-    together = thinning.thinned(m, s.sheet, [whole, replace(hum, place=0)])
-    assert [o.thin for o in together] == [None, None]
-    apart = thinning.thinned(m, s.sheet, [whole, replace(hum, flight=1)])
-    assert [o.thin is None for o in apart] == [False, True]
-
-
-def test_a_motion_recorded_otherwise_is_so_in_the_whole_record(
-    flown: tuple[Scenario, Flight], thin: Observation
-) -> None:
-    s, flight = flown
-    m = model.packaged()
-    at = Point(m, s.sheet, vector(m, s.sheet), with_candidates=False)
-    turned = thin.with_motion(lambda wide: {**wide, "a_z": -wide["a_z"]})
-    channels = {**flight.channels, "a_z": -flight.channels["a_z"]}
-    expected = thinned(s.sheet, Flight(flight.time, channels, flight.outputs, units=flight.units))
-    np.testing.assert_allclose(linearised(at, turned), linearised(at, expected), rtol=1e-9, atol=1e-9)

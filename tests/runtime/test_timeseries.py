@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.signals.derivative import WINDOW, differentiate, interpolated, runs
 
 RATE = 16.0
@@ -77,11 +76,6 @@ def test_nothing_crosses_a_gap() -> None:
     assert np.array_equal(differentiate(spoilt, RATE), result, equal_nan=True)
 
 
-def test_a_constant_does_not_matter() -> None:
-    x, _ = band_limited(np.random.default_rng(3), np.arange(100) / RATE, 3.0)
-    assert differentiate(x + 1e6, RATE) == pytest.approx(differentiate(x, RATE), abs=1e-6)
-
-
 def test_shapes_and_short_records() -> None:
     x = np.random.default_rng(4).normal(size=(2, 3, 50))
     result = differentiate(x, RATE)
@@ -97,12 +91,6 @@ def test_noise_is_not_blown_up() -> None:
     assert gain[6:-6].max() < 1.3
     assert max(gain[1], gain[-2]) < 6.5
     assert gain.max() < 33
-
-
-def test_rate_must_be_positive() -> None:
-    for rate in (0.0, -1.0, np.nan):
-        with pytest.raises(UserError, match="rate"):
-            differentiate(np.ones(5), rate)
 
 
 def test_runs() -> None:
