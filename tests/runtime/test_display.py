@@ -1,9 +1,8 @@
-"""Results in notebooks: the words of the terminal, escaped; the example that a newcomer follows, as script and notebook."""
+"""Results in notebooks: the words of the terminal, escaped."""
 
 from __future__ import annotations
 
 import html
-import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
@@ -11,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from examples import first_notebook
 from ragg_runtime.cli import terminal
 from ragg_runtime.report import in_words
 from ragg_runtime.survey.result import Survey
@@ -19,7 +17,7 @@ from ragg_runtime.wording import notebook
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.loop import Added
 
-EXAMPLES = Path(first_notebook.__file__).parent
+EXAMPLES = Path(__file__).parents[2] / "examples"
 HOSTILE = "<script>alert(1)</script>&\x1b[2J\u202e"
 
 
@@ -144,17 +142,3 @@ def test_a_survey_is_shown_flight_by_flight(result: Result) -> None:
     assert "100 flights: 100 missing an effect" in text
     assert "recommended: add lag, which 100 of 100 flights ask for" in text
     assert "and 40 more" in text
-
-
-def test_the_notebook_is_the_script() -> None:
-    committed = first_notebook.NOTEBOOK.read_text("utf-8")
-    assert committed == first_notebook.notebook(first_notebook.SCRIPT.read_text("utf-8")), (
-        "run: python -m examples.first_notebook"
-    )
-    cells = json.loads(committed)["cells"]
-    assert len(cells) > 10
-    assert all(not c.get("outputs") for c in cells)
-    for c in cells:
-        if c["cell_type"] == "code":
-            compile("".join(c["source"]), c["id"], "exec")
-    assert "".join(cells[0]["source"]).startswith("# First steps\n\nA recorded flight")
