@@ -265,26 +265,9 @@ def opened(path: Path) -> BufferedReader:
 
 
 def file_digest(path: Path) -> str:
-    """SHA-256 of a user's file, hexadecimal; of a record in two files, that of both digests."""
-    digests = []
-    for file in pair(path):
-        with opened(file) as stream:
-            digests.append(hashlib.file_digest(stream, "sha256").hexdigest())
-    return digests[0] if len(digests) == 1 else hashlib.sha256("".join(digests).encode()).hexdigest()
-
-
-PAIR = (".dat", ".dfn")
-"""Endings of the two files of an ASEG-GDF2 record: the numbers, and what they are."""
-
-
-def pair(path: Path) -> tuple[Path, ...]:
-    """The files that a record is in: those of an ASEG-GDF2 pair that are there, else the file itself."""
-    own = path.suffix.lower()
-    if own not in PAIR:
-        return (path,)
-    others = {s: [path] if s == own else [path.with_suffix(x) for x in (s, s.upper())] for s in PAIR}
-    found = [next((p for p in others[s] if p == path or p.is_file()), None) for s in PAIR]
-    return tuple(p for p in found if p is not None)
+    """SHA-256 of a user's file, hexadecimal."""
+    with opened(path) as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def read_text(path: Path, longest: int = 1 << 20) -> str:

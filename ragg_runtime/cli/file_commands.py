@@ -22,7 +22,7 @@ mapping_option = click.option(
 def convert(source: Path, target: Path, mapping: Path | None) -> None:
     """Write a flight file in another format, by the ending of OUT: same numbers, names and units.
 
-    Reads and writes CSV, Parquet, NetCDF, HDF5, MATLAB, Excel, Geosoft XYZ and ASEG-GDF2 (.dat with .dfn).
+    Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes CSV, Parquet and NetCDF.
     """
     from ragg_runtime.flight.convert import convert as _convert
     from ragg_runtime.flight.mapping import read_mapping

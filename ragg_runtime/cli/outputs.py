@@ -16,7 +16,7 @@ from typing import Any
 import click
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import Target, pair
+from ragg_runtime.base.files import Target
 
 STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 """Names of stdout; where JSON is asked for there, it is all that stands there."""
@@ -140,12 +140,12 @@ def _opened(names: Sequence[str], inputs: Sequence[Path]) -> Outputs:
 def _check(path: Path, inputs: Iterable[Path]) -> None:
     """UserError if ``path`` is a file that the command reads, or one of a model directory's or folder's own."""
     for given in inputs:
-        files, folders = list(pair(given)), [given / f for f in _OF_A_MODEL[1]]
+        files, folders = [given], [given / f for f in _OF_A_MODEL[1]]
         if given.is_dir():
             files += [given / f for f in _OF_A_MODEL[0]]
         real = Path(os.path.realpath(path))
         inside = next((f for f in folders if Path(os.path.realpath(f)) in real.parents), None)
-        over = next((f for f in files if any(_same(p, f) for p in (path, *pair(path)))), inside)
+        over = next((f for f in files if _same(path, f)), inside)
         if over is not None:
             raise UserError(
                 "a result would be written over what the command reads",

@@ -29,7 +29,6 @@ from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.fit.square_root import join, with_prior
 from ragg_runtime.fit.trust_region import Linear
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 
@@ -229,7 +228,6 @@ def validity(flights: Sequence[Flight]) -> Mapping[str, tuple[float, float]]:
                 y = y[np.isfinite(y)] - (x.time[0] if name == "time" else 0.0)
                 if len(y):
                     low, high = min(low, float(np.min(y))), max(high, float(np.max(y)))
-            let_go(values)
             if low <= high:
                 found[name] = (low, high)
     return found

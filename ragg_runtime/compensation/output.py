@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import replacing, require_room
-from ragg_runtime.flight.hdf5_file import room
+from ragg_runtime.flight.netcdf_file import room
 
 ENDINGS: Mapping[str, str] = MappingProxyType(
     {

@@ -51,7 +51,6 @@ from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.fit.thinning import thinned
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
@@ -344,6 +343,4 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
 
 def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Whether an effect of the recorder shows in a column (N,), which is not kept in memory."""
-    found = r.present(c, np.isfinite(c) & valid, noise)
-    let_go(c, valid)
-    return found
+    return r.present(c, np.isfinite(c) & valid, noise)

@@ -15,7 +15,6 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.digits import Digits, digits_of
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record
@@ -60,11 +59,8 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     if o.name in flight.outputs and _at_top(flight.outputs[o.name], valid):
         valid &= ~saturation.clipped(flight.outputs[o.name], valid)
     for name in imu_saturation.CHANNELS:
-        if name in flight.channels:
-            if _at_top(flight.channels[name], valid):
-                valid &= ~imu_saturation.clipped(flight.channels[name], valid)
-            let_go(flight.channels[name])
-    let_go(*flight.outputs.values())
+        if name in flight.channels and _at_top(flight.channels[name], valid):
+            valid &= ~imu_saturation.clipped(flight.channels[name], valid)
     wide = r.wide
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
@@ -154,7 +150,6 @@ class Observation:
         if (rows.start, rows.stop) == (0, len(self.record.time)):
             return self
         series = tuple(np.array(x[rows]) for x in self.series)
-        let_go(*self.series)
         record = self.record.part(rows, only)
         return Observation(
             recorded=self.recorded,

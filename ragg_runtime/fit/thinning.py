@@ -23,7 +23,6 @@ from ragg_runtime.fit.observation import Observation, Thin, bridged
 from ragg_runtime.fit.passes import heard, longer
 from ragg_runtime.fit.segments import Segment, spread
 from ragg_runtime.flight.record import is_disc_angle
-from ragg_runtime.flight.spool import let_go, room_like
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
@@ -182,8 +181,8 @@ def _kept(o: Observation, thin: Thin) -> Observation:
     r, size, half = o.record, thin.rows.stop, len(thin.taps) // 2
     channels = dict(r.channels)
     time = np.array(r.time[half :: thin.every][:size])
-    series = [room_like(x, (size,)) for x in o.series]
-    wide = {n: room_like(x, (size,)) for n, x in channels.items()}
+    series = [np.empty(size) for x in o.series]
+    wide = {n: np.empty(size) for n, x in channels.items()}
 
     def put(some: slice) -> None:
         rows = thin.part(some).span
@@ -194,7 +193,6 @@ def _kept(o: Observation, thin: Thin) -> Observation:
             whole = _whole(x[rows], there)
             # of a disc's angle turns may be missing
             wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
-        let_go(*o.series, *channels.values(), r.valid, *series, *wide.values())
 
     for _ in mapped(put, stretches(size, BLOCK)):
         pass

@@ -11,18 +11,14 @@ from numpy.typing import NDArray
 from ragg_runtime.flight.record import Array
 
 
-def floats(column: pa.Array) -> Array:
-    """(N,): a column of numbers, as float64; null becomes NaN.
-
-    Arrow's own ``to_numpy`` loads pandas for it, which takes as long as a small flight; ``cast`` loads all that Arrow computes.
-    """
-    if column.type != pa.float64():
-        column = column.cast(pa.float64())
-    if column.null_count:
-        column = column.fill_null(float("nan"))
-    return np.asarray(np.from_dlpack(column))
+def floats(column: pa.ChunkedArray) -> Array:
+    """(N,): a column of numbers, as float64; null becomes NaN."""
+    return np.asarray(column.cast(pa.float64()).to_numpy())
 
 
-def texts(column: pa.Array) -> NDArray[Any]:
-    """(N,) str: a column of text; null becomes the empty text."""
-    return np.array(["" if t is None else t for t in column.to_pylist()], dtype=object)
+def texts(column: pa.ChunkedArray) -> NDArray[Any]:
+    """(N,) str: a column of text; null becomes the empty text. Instants are datetime64."""
+    kind = column.type
+    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
+        return np.asarray(column.cast(pa.timestamp("ns")).to_numpy(), dtype="datetime64[ns]")
+    return np.array(["" if t is None else t for t in column.cast(pa.string()).to_pylist()], dtype=object)

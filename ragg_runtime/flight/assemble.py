@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.flight import slow
-from ragg_runtime.flight.angular_acceleration import Derivative, planned
+from ragg_runtime.flight.angular_acceleration import HEAD, Derivative, planned
 from ragg_runtime.flight.even_grid import differentiated, evenly
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
@@ -27,7 +27,7 @@ from ragg_runtime.flight.record import (
     is_disc_angle,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
-from ragg_runtime.flight.source import Batch, Column
+from ragg_runtime.flight.source import Column, Rows
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
@@ -47,31 +47,6 @@ MOST_UNUSED = 0.5
 
 
 @dataclass(frozen=True)
-class Whole:
-    """What only the whole file tells, and every part of it is read by.
-
-    Attributes
-    ----------
-    rows
-        Rows of the file.
-    derivative
-        How angular rates are differentiated, if the acceleration is not recorded.
-    slow
-        Auxiliary channels of a lower rate, SI, interpolated.
-    left_out
-        Auxiliary channels of a lower rate that cannot be.
-    notes
-        Both in sentences.
-    """
-
-    rows: int
-    derivative: Derivative
-    slow: Mapping[str, slow.Slow] = field(default_factory=dict)
-    left_out: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
 class Layout:
     """The columns of one file with their SI units, checked once; :meth:`flight` turns rows into a flight."""
 
@@ -82,36 +57,27 @@ class Layout:
     need_output: bool
     accelerometers: Accelerometers = PAPER
 
-    def flight(
-        self,
-        rows: Batch,
-        whole: Whole,
-        *,
-        name: str,
-        digest: str,
-        first_row: int = 1,
-        step: float | None = None,
-    ) -> Flight:
-        """The flight of these rows (file's units); ``step`` is given for a part of a longer record."""
-        si = {c.name: self.converted(c, rows[c.name]) for c in self.columns if c.name not in whole.left_out}
-        grid = uniform(si.pop("time"), self.path, first_row, step)
-        notes = [*grid.notes, *whole.notes]
-        if step is None:
-            _drop_empty(si, notes, self.path)
-            if self.need_output:
-                _check_output(self.path, list(si), self.accelerometers)
-        placed = {
-            c: whole.slow[c].at(grid.time) if c in whole.slow else _placed(v, grid) for c, v in si.items()
-        }
+    def flight(self, rows: Rows, *, name: str, digest: str) -> Flight:
+        """The flight of these rows (file's units)."""
+        si = {c.name: self.converted(c, rows[c.name]) for c in self.columns}
+        time = si.pop("time")
+        grid = uniform(time, self.path)
+        notes = list(grid.notes)
+        slower = self._slower(time, si, notes)
+        derivative = self._derivative(time, si)
+        _drop_empty(si, notes, self.path)
+        if self.need_output:
+            _check_output(self.path, list(si), self.accelerometers)
+        placed = {c: slower[c].at(grid.time) if c in slower else _placed(v, grid) for c, v in si.items()}
         notes += [f"{c}: not used; models form this derivative themselves" for c in placed if c in RATES]
         named = (*self.accelerometers.columns, *DEMODULATED)
         outputs = {c: placed.pop(c) for c in named if c in placed}
         valid = _valid(placed | outputs, outputs, grid, notes)
         _derive_outputs(outputs, notes, self.accelerometers)
         channels = {c: _filled(v, c) for c, v in placed.items()}
-        _derive_acceleration(channels, placed, grid, valid, notes, whole.derivative)
+        _derive_acceleration(channels, placed, grid, valid, notes, derivative)
         _check_gradient(channels, notes)
-        if step is None and not valid.any():
+        if not valid.any():
             raise UserError("no sample of the flight is complete", where=self.path, found="; ".join(notes))
         return Flight(
             time=grid.time,
@@ -126,31 +92,43 @@ class Layout:
             written={c.name: c.unit for c in self.columns},
         )
 
-    def derivative(self, head: Batch) -> Derivative:
-        """How to differentiate the rates, by the first rows of the file (its units)."""
-        names = [c.name for c in self.columns]
-        if ANGULAR_ACCELERATION[0] in names or len(head["time"]) < 2:
-            return Derivative()
-        si = {c.name: self.converted(c, head[c.name]) for c in self.columns if c.name in head}
-        try:
-            grid = uniform(si["time"], self.path)
-        except UserError:
-            return Derivative()  # told where the rows are read
-        return planned([evenly(_placed(si[n], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
+    def _slower(self, time: Array, si: dict[str, Array], notes: list[str]) -> dict[str, slow.Slow]:
+        """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
+        whole = float(time[-1] - time[0])
+        # One value in two seconds: more often than that, blanks are bridged where they stand.
+        most = 1000 + 2 * int(min(whole / BRIDGED, ENDLESS))
+        found = {}
+        for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
+            there = np.isfinite(si[name])
+            count = int(np.sum(there))
+            if not 0 < count < min((1 - slow.SPARSE) * len(there), most + 1):
+                continue
+            values = si[name][there]
+            judged = slow.judged(time[there], np.unwrap(values) if self.si_units[name] == "rad" else values)
+            if isinstance(judged, slow.Slow) and judged.covered < (1 - MOST_UNUSED) * whole:
+                judged = f"its values cover {judged.covered:.4g} s of {whole:.4g} s"
+            lacking = len(there) - count
+            if isinstance(judged, slow.Slow):
+                found[name] = judged
+                notes.append(
+                    f"{name}: recorded every {judged.step:.4g} s; interpolated (at {lacking} samples)"
+                )
+            else:
+                del si[name]
+                notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {judged}")
+        return found
 
-    def step(self, rows: Batch) -> float:
-        """Sampling interval of these rows, s."""
-        time = next(c for c in self.columns if c.name == "time")
-        return uniform(self.converted(time, rows["time"]), self.path).step
+    def _derivative(self, time: Array, si: Mapping[str, Array]) -> Derivative:
+        """How to differentiate the rates, by the first rows of the file."""
+        if ANGULAR_ACCELERATION[0] in si:
+            return Derivative()
+        grid = uniform(time[:HEAD], self.path)
+        return planned([evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
 
     def converted(self, column: Column, values: Array) -> Array:
         """Values of a column in SI; NaN for what is beyond all bounds."""
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
-        if (
-            len(result) and max(result.max(), -result.min()) < ENDLESS
-        ):  # the rule; of what is no number not true
-            return result
         with np.errstate(invalid="ignore"):
             return np.where(np.abs(result) < ENDLESS, result, np.nan)
 
@@ -304,8 +282,6 @@ def _filled(values: Array, name: str) -> Array:
         return values
     result = values.copy()
     places = np.flatnonzero(~missing)
-    if not len(places):  # only in a part of a longer record
-        return np.zeros_like(values)
     there = values[places]
     if is_disc_angle(name):
         there = np.unwrap(there)

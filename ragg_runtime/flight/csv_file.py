@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import gzip
 import io
 import itertools
+import re
 import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.csv
 
@@ -20,7 +21,7 @@ from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.instants import is_instant
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, units_below
+from ragg_runtime.flight.source import Heading, Look, Rows, Table, Written, distinct, heading, units_below
 
 NAME = "csv"
 ENDINGS = (".csv", ".csv.gz")
@@ -30,12 +31,15 @@ LONGEST_LINE = 1 << 20
 """Characters of a line from which a file is no table."""
 
 _MISSING = ("", "nan", "NaN", "NAN", "NA", "N/A", "null", "NULL", "None")
-# Of damaged or cut off files, compressed ones among them.
-_UNREADABLE = (UnicodeDecodeError, OSError, EOFError, zlib.error)
 _NOT_CSV = "the file is not a table of comma-separated values"
 _GZIP = b"\x1f\x8b"
 _SNIFFED = 50  # rows that are looked at to tell columns of numbers from columns of text
-_AT_ONCE = 65536  # rows that are written at a time
+
+_NO_NUMBER = re.compile(
+    r"In CSV column #(\d+): (?:Row #(\d+): )?CSV conversion error to \w+: invalid value (.*)", re.DOTALL
+)
+_OTHER_WIDTH = re.compile(r"CSV parse error: (?:Row #(\d+): )?Expected (\d+) columns, got (\d+)")
+"""How Arrow says that a cell is no number, and that a line has too few cells or too many."""
 
 
 @dataclass(frozen=True)
@@ -55,68 +59,47 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
         compressed = stream.read(2) == _GZIP
     layout = _layout(path, compressed, look)
     wanted = tuple(h for h in layout.headings if look.wants(h.name))
-    return (Table(path, wanted, lambda: _batches(layout, wanted)),)
+    return (Table(path, wanted, lambda: _rows(layout, wanted)),)
 
 
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns exactly: every number is the shortest that reads back as itself, NaN is left empty."""
-    columns, lines = joined(tables)
-    compressed = path.name.lower().endswith(".gz")
-    header = ",".join(_quoted(f"{c.name} [{c.unit}]" if c.unit else c.name) for c in columns) + "\n"
-    options = pyarrow.csv.WriteOptions(include_header=False)
+    columns, rows = joined(tables)
+    header = io.StringIO()
+    csv.writer(header, lineterminator="\n").writerow(
+        f"{c.name} [{c.unit}]" if c.unit else c.name for c in columns
+    )
+    table = pa.table({c.name: pa.array(rows[c.name], from_pandas=True) for c in columns})
     with path.open("wb") as raw:
         # Without a name and a time in the gzip header, equal flights give equal files.
+        compressed = path.name.lower().endswith(".gz")
         stream: IO[bytes] = gzip.GzipFile("", "wb", 6, raw, mtime=0) if compressed else raw  # type: ignore[assignment]
-        stream.write(header.encode())
-        for rows in lines(_AT_ONCE):
-            table = pa.table({c.name: pa.array(rows[c.name], from_pandas=True) for c in columns})
-            pyarrow.csv.write_csv(table, stream, options)
+        stream.write(header.getvalue().encode())
+        pyarrow.csv.write_csv(table, stream, pyarrow.csv.WriteOptions(include_header=False))
         if compressed:
             stream.close()
 
 
-def _quoted(header: str) -> str:
-    return '"' + header.replace('"', '""') + '"' if any(c in header for c in ',"\n') else header
-
-
-def _open(path: Path, compressed: bool) -> io.TextIOWrapper:
-    raw: IO[bytes] = gzip.GzipFile(path) if compressed else path.open("rb")  # type: ignore[assignment]
-    return io.TextIOWrapper(raw, "utf-8-sig", newline=None)
-
-
-def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
-    """The lines of a text; UserError at one too long to be a row of a table."""
-    number = 0
-    while line := stream.readline(LONGEST_LINE):
-        number += 1
-        if len(line) == LONGEST_LINE:
-            raise UserError(
-                _NOT_CSV,
-                where=at(path, f"line {number}"),
-                found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
-                expected="one row per line, a number for each column",
-                remedy="the file may be damaged, not fully copied, or not a text file",
-            )
-        yield line
-
-
 def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
     """Header, units and kinds of the columns, from the first rows."""
+    raw: IO[bytes] = gzip.GzipFile(path) if compressed else path.open("rb")  # type: ignore[assignment]
     try:
-        with _open(path, compressed) as stream:
+        with io.TextIOWrapper(raw, "utf-8-sig", newline=None) as stream:
             lines = _lines(stream, path)
             skipped, header = _header(lines, path)
             delimiter = max(",;\t", key=header.count)
-            names = next(csv.reader([header], delimiter=delimiter))
-            first: list[list[str]] = []
-            with contextlib.suppress(
-                csv.Error, *_UNREADABLE
-            ):  # it is told with its line when the rows are read
-                first.extend(itertools.islice(csv.reader(lines, delimiter=delimiter), _SNIFFED))
+            (names,) = csv.reader([header], delimiter=delimiter)
+            first = list(csv.reader(itertools.islice(lines, _SNIFFED), delimiter=delimiter))
     except csv.Error as error:
         raise UserError(_NOT_CSV, where=path, found=str(error)) from None
-    except _UNREADABLE as error:
-        raise _not_text(path, error) from None
+    except (UnicodeDecodeError, OSError, EOFError, zlib.error) as error:
+        raise UserError(
+            _NOT_CSV,
+            where=path,
+            found=str(error),
+            expected="UTF-8 text: a header of `name [unit]`, then numbers",
+            remedy="copy the file again, or save it as CSV, Parquet or NetCDF-4",
+        ) from None
     found = [heading(name, path, n) for n, name in enumerate(names, 1)]
     below = 0
     units = units_below(first[0], len(found)) if first and not any(h.unit for h in found) else None
@@ -135,6 +118,22 @@ def _layout(path: Path, compressed: bool, look: Look) -> _Layout:
     )
 
 
+def _lines(stream: io.TextIOWrapper, path: Path) -> Iterator[str]:
+    """The lines of a text; UserError at one too long to be a row of a table."""
+    number = 0
+    while line := stream.readline(LONGEST_LINE):
+        number += 1
+        if len(line) == LONGEST_LINE:
+            raise UserError(
+                _NOT_CSV,
+                where=at(path, f"line {number}"),
+                found=f"a line of more than {LONGEST_LINE} characters, beginning with {line[:20]!r}",
+                expected="one row per line, a number for each column",
+                remedy="the file may be damaged, not fully copied, or not a text file",
+            )
+        yield line
+
+
 def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:
     """Number of comment or empty lines before the header, and the header."""
     for number, line in enumerate(lines):
@@ -146,38 +145,32 @@ def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:
 def _text(name: str, column: int, rows: Sequence[Sequence[str]]) -> bool:
     """Whether a column holds text: its first value is no number (for ``time``: is an instant)."""
     value = next((r[column] for r in rows if len(r) > column and r[column] not in _MISSING), "0")
-    return not _is_number(value) and (name != "time" or is_instant(value))
+    try:
+        float(value)
+    except ValueError:
+        return name != "time" or is_instant(value)
+    return False
 
 
-def _not_text(path: Path, error: Exception) -> UserError:
-    return UserError(
-        _NOT_CSV,
-        where=path,
-        found=str(error),
-        expected="UTF-8 text: a header of `name [unit]`, then numbers",
-        remedy="copy the file again, or save it as CSV, Parquet or NetCDF-4",
-    )
-
-
-def _batches(layout: _Layout, wanted: Sequence[Heading]) -> Iterator[RawBatch]:
-    names = [h.name for h in layout.headings]
+def _rows(layout: _Layout, wanted: Sequence[Heading]) -> Rows:
     types = {h.name: pa.string() if h.text else pa.float64() for h in layout.headings}
     try:
-        compression = "gzip" if layout.compressed else None
-        with pa.input_stream(str(layout.path), compression=compression) as stream:
-            reader = pyarrow.csv.open_csv(
+        with pa.input_stream(str(layout.path), compression="gzip" if layout.compressed else None) as stream:
+            table = pyarrow.csv.read_csv(
                 stream,
-                pyarrow.csv.ReadOptions(skip_rows=layout.skip, column_names=names, block_size=1 << 22),
+                # with several threads Arrow does not say in which row it stumbled
+                pyarrow.csv.ReadOptions(
+                    skip_rows=layout.skip, column_names=list(types), block_size=1 << 22, use_threads=False
+                ),
                 pyarrow.csv.ParseOptions(delimiter=layout.delimiter),
                 pyarrow.csv.ConvertOptions(
                     column_types=types, null_values=_MISSING, include_columns=[h.name for h in wanted]
                 ),
             )
-            for batch in reader:
-                yield {h.name: (texts if h.text else floats)(batch.column(h.name)) for h in wanted}
     except pa.ArrowInvalid as error:
-        if "Empty CSV" not in str(error):
-            raise _fault(layout, wanted, str(error)) from None
+        if "Empty CSV" in str(error):
+            return {h.name: np.empty(0) for h in wanted}
+        raise _fault(layout, str(error)) from None
     except (OSError, EOFError) as error:
         raise UserError(
             "the file is damaged or cut off",
@@ -186,44 +179,24 @@ def _batches(layout: _Layout, wanted: Sequence[Heading]) -> Iterator[RawBatch]:
             expected="a whole file" + (" (gzip)" if layout.compressed else ""),
             remedy="copy it again",
         ) from None
+    return {h.name: (texts if h.text else floats)(table.column(h.name)) for h in wanted}
 
 
-def _fault(layout: _Layout, wanted: Sequence[Heading], error: str) -> UserError:
-    """Say in which line and column the reader stumbled."""
-    path, skip, columns = layout.path, layout.skip, layout.headings
-    try:
-        with _open(path, layout.compressed) as stream:
-            lines = _lines(stream, path)
-            for _ in range(skip):
-                next(lines)
-            rows = csv.reader(lines, delimiter=layout.delimiter)
-            for row in rows:
-                line = f"line {skip + rows.line_num}"
-                if row and len(row) != len(columns):
-                    return UserError(
-                        "the line has the wrong number of values",
-                        where=at(path, line),
-                        found=len(row),
-                        expected=f"{len(columns)}, as the header has",
-                        remedy="the file may be damaged or cut off",
-                    )
-                for column, text in zip(columns, row, strict=False):
-                    number = not column.text and column in wanted
-                    if number and text not in _MISSING and not _is_number(text):
-                        return UserError(
-                            "not a number",
-                            where=at(path, line, f"column {column.name!r}"),
-                            found=repr(text),
-                            expected="a number with a decimal point, or nothing where it is missing",
-                        )
-    except (*_UNREADABLE, csv.Error) as fault:
-        error = str(fault)
-    return UserError(_NOT_CSV, where=path, found=error.splitlines()[0][:200])
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return "_" not in text
+def _fault(layout: _Layout, error: str) -> UserError:
+    """What Arrow says, with the line and the column."""
+    if match := _OTHER_WIDTH.match(error):
+        return UserError(
+            "the line has the wrong number of values",
+            where=at(layout.path, f"line {match[1]}"),
+            found=match[3],
+            expected=f"{match[2]}, as the header has",
+            remedy="the file may be damaged or cut off",
+        )
+    if match := _NO_NUMBER.match(error):
+        return UserError(
+            "not a number",
+            where=at(layout.path, f"line {match[2]}", f"column {layout.headings[int(match[1])].name!r}"),
+            found=match[3][:60],
+            expected="a number with a decimal point, or nothing where it is missing",
+        )
+    return UserError(_NOT_CSV, where=layout.path, found=error.splitlines()[0][:200])

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, Flight
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.units import Units
 
 Array = NDArray[np.float64]
@@ -75,7 +74,6 @@ def digits_of(flight: Flight, known: Units) -> Digits:
             continue  # made by us
         at = np.linspace(0, len(values) - 1, min(len(values), LOOKED_AT)).astype(np.intp)
         some = np.asarray(values[at])
-        let_go(values)
         some = some[np.isfinite(some) & flight.valid[at]]
         if len(some) < FEWEST or np.ptp(some) == 0.0:
             continue

@@ -10,14 +10,12 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import (
     csv_file,
     excel_file,
-    gdf2_file,
     hdf5_file,
     mat_file,
     netcdf_file,
     parquet_file,
-    xyz_file,
 )
-from ragg_runtime.flight.source import Format, Look, Table
+from ragg_runtime.flight.source import Format, Look, Table, Writable
 
 ALL: Sequence[Format] = (
     csv_file,
@@ -26,8 +24,6 @@ ALL: Sequence[Format] = (
     hdf5_file,
     mat_file,
     excel_file,
-    xyz_file,
-    gdf2_file,
 )
 
 ENDINGS: Mapping[str, Format] = MappingProxyType({e: f for f in ALL for e in f.ENDINGS})
@@ -48,6 +44,19 @@ def format_of(path: Path) -> Format:
         found=path.suffix or "no ending",
         expected=", ".join(ENDINGS),
         remedy="save the record in one of these formats",
+    )
+
+
+def writable(path: Path) -> Writable:
+    """The same for a file to be written; UserError for formats that are read alone."""
+    kind = format_of(path)
+    if isinstance(kind, Writable):
+        return kind
+    raise UserError(
+        f"{kind.NAME} files are read, not written",
+        where=path,
+        expected=", ".join(e for f in ALL if isinstance(f, Writable) for e in f.ENDINGS),
+        remedy="choose one of these formats",
     )
 
 

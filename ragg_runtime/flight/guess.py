@@ -253,15 +253,7 @@ def _origin(values: NDArray[Any]) -> list[str]:
 
 def sample(table: Table) -> dict[str, NDArray[Any]]:
     """The first rows of every column."""
-    parts: dict[str, list[NDArray[Any]]] = {h.name: [] for h in table.headings}
-    count = 0
-    for batch in table.batches():
-        for name, values in batch.items():
-            parts[name].append(values)
-        count += len(next(iter(batch.values()), ()))
-        if count >= _LOOKED_AT:
-            break
-    return {n: np.concatenate(p) if p else np.empty(0) for n, p in parts.items()}
+    return {n: v[:_LOOKED_AT] for n, v in table.rows().items()}
 
 
 def _entry(column: str, unit: str) -> str:

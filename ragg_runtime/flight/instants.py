@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from types import MappingProxyType
 from typing import Any
@@ -142,42 +142,22 @@ WAYS: Mapping[str, Way] = MappingProxyType(
 """The formats that ``[time] format`` in a mapping may name, beside plain seconds."""
 
 
-@dataclass
-class Clock:
-    """Turns the batches of one record into seconds; it remembers midnights that were passed.
+def seconds(
+    way: Way, columns: Sequence[NDArray[Any]], where: str, origin: datetime | None = None
+) -> tuple[Array, datetime | None]:
+    """(N,) s, NaN where nothing stands, and where they begin: ``origin``, or the midnight before the first instant.
 
-    ``origin`` is where the seconds begin, for ways with a date: midnight before the first sample.
+    Of times of the day alone they count from midnight, on over any midnight that is passed.
     """
-
-    way: Way
-    where: str
-    origin: datetime | None = None
-    _last: int | None = field(default=None, init=False)
-    _days: int = field(default=0, init=False)
-
-    def __call__(self, columns: Sequence[NDArray[Any]]) -> Array:
-        """(n,) s; NaN where nothing stands."""
-        total = self.way.read(*columns, self.where)
-        there = total != _NONE
-        if not self.way.dated:
-            total = self._rolled(total, there)
-        if self.way.dated:
-            if self.origin is None:
-                self.origin = midnight(total)
-            total = np.where(there, total - _nanoseconds(self.origin), total)
-        return np.where(there, total / 1e9, np.nan)
-
-    def _rolled(self, total: Nanoseconds, there: NDArray[np.bool_]) -> Nanoseconds:
+    total = way.read(*columns, where)
+    there = total != _NONE
+    if way.dated:
+        origin = origin or midnight(total)
+        total = np.where(there, total - _nanoseconds(origin), total)
+    else:
         values = total[there]
-        if not len(values):
-            return total
-        before = values[0] if self._last is None else self._last
-        falls = np.diff(values, prepend=before) < -_ROLLED
-        days = self._days + np.cumsum(falls)
-        self._last, self._days = int(values[-1]), int(days[-1])
-        result = total.copy()
-        result[there] = values + days * _DAY
-        return result
+        total[there] = values + np.cumsum(np.diff(values, prepend=values[:1]) < -_ROLLED) * _DAY
+    return np.where(there, total / 1e9, np.nan), origin
 
 
 def midnight(total: Nanoseconds) -> datetime | None:

@@ -5,22 +5,18 @@ Version 5 to 7 through SciPy, 7.3 (HDF5) through h5py. Functions and objects in 
 
 from __future__ import annotations
 
-import re
-import struct
-import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import hdf5_file
-from ragg_runtime.flight.mat73 import write_73
 from ragg_runtime.flight.shapes import Place, places
-from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, chosen, distinct, heading
+from ragg_runtime.flight.source import Heading, Look, Rows, Table, chosen, distinct, heading
 
 if TYPE_CHECKING:
     import h5py
@@ -28,14 +24,6 @@ if TYPE_CHECKING:
 NAME = "MATLAB"
 ENDINGS = (".mat",)
 MAGIC = (b"MATLAB 5", b"MATLAB 7", *hdf5_file.MAGIC)
-
-MOST_BYTES = 2 << 30
-"""Bytes that the variables of a file before 7.3 may unfold to: MATLAB itself writes no larger ones."""
-
-_LARGE = 1 << 30  # bytes of columns from which 7.3 is written
-_COMPRESSED = 15  # of the format: a compressed element
-_HEADER = 128  # bytes, of the format
-_LONGEST = 63  # characters of a name, of MATLAB
 
 
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
@@ -47,37 +35,9 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
     found = [t for t in _structures(_loaded(path), look, path) if t.columns]
     found = chosen(path, found, look)
     return [
-        Table(path, t.headings(), lambda t=t: _batches(t), t.place if len(found) > 1 else None)  # type: ignore[misc]
+        Table(path, t.headings(), lambda t=t: _rows(t), t.place if len(found) > 1 else None)  # type: ignore[misc]
         for t in found
     ]
-
-
-def write_tables(path: Path, tables: Sequence[Written]) -> None:
-    """Write columns as vectors; several lines as structures; 7.3 where 5 has no room."""
-    from scipy.io import savemat  # slow to import, and only this format needs it
-
-    whole: dict[str, Any] = {}
-    for number, table in enumerate(tables):
-        names = _names([c.name for c, _ in table.columns])
-        inside: dict[str, Any] = {
-            n: np.asarray(v)[:, None] for n, (_, v) in zip(names, table.columns, strict=True)
-        }
-        inside["units"] = {n: c.unit for n, (c, _) in zip(names, table.columns, strict=True) if c.unit}
-        inside["names"] = {n: c.name for n, (c, _) in zip(names, table.columns, strict=True) if c.name != n}
-        inside = {n: v for n, v in inside.items() if not isinstance(v, dict) or v}
-        if table.line is None:
-            whole |= inside
-        else:
-            whole[_names([f"line_{table.line}"])[0] if table.line else f"line_{number}"] = inside | {
-                "line": table.line
-            }
-    if sum(v.nbytes for t in tables for _, v in t.columns) > _LARGE:
-        write_73(path, whole)
-        return
-    with path.open("wb") as stream:  # given a name, SciPy would append an ending
-        savemat(stream, whole, long_field_names=True, do_compression=True)  # type: ignore[arg-type]
-        stream.seek(0)
-        stream.write(b"MATLAB 5.0 MAT-file".ljust(116))  # SciPy writes the date there
 
 
 @dataclass(frozen=True)
@@ -85,7 +45,6 @@ class _Structure:
     """A structure of vectors: where it stands (its line), its columns."""
 
     place: str
-    length: int
     columns: tuple[tuple[Heading, Place], ...]
     arrays: Mapping[str, NDArray[Any]]
 
@@ -121,7 +80,7 @@ def _structure(
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
         arrays = {n: v for n, v in arrays.items() if n in wanted or names.get(n) in wanted}
     arrays = {n: v for n, v in arrays.items() if v.dtype.kind in "fiub" or look.allows_text(n)}
-    length, found = places({n: v.shape for n, v in arrays.items()}, f"{path}: {place or 'variables'}")
+    found = places({n: v.shape for n, v in arrays.items()}, f"{path}: {place or 'variables'}")
     columns = []
     for number, p in enumerate(found, 1):
         h = heading(names.get(p.column, p.column), path, number)
@@ -130,15 +89,15 @@ def _structure(
             unit = units.get(p.column) or units.get(p.array) or h.unit
             columns.append((Heading(h.name, unit, text), p))
     distinct(path, [h for h, _ in columns])
-    return _Structure(place=place, length=length, columns=tuple(columns), arrays=arrays)
+    return _Structure(place=place, columns=tuple(columns), arrays=arrays)
 
 
-def _batches(table: _Structure) -> Iterator[RawBatch]:
+def _rows(table: _Structure) -> Rows:
     found: dict[str, NDArray[Any]] = {}
     for h, p in table.columns:
-        values = p.rows(table.arrays[p.array], 0, table.length)
+        values = p.of(table.arrays[p.array])
         found[h.name] = values if h.text else values.astype(np.float64)
-    yield found
+    return found
 
 
 def _vector(value: NDArray[Any]) -> NDArray[Any] | None:
@@ -172,11 +131,7 @@ def _loaded(path: Path) -> dict[str, Any]:
     from scipy.io import loadmat  # slow to import, and only this format needs it
 
     try:
-        with path.open("rb") as stream:
-            _check_size(stream, path)
         found = loadmat(path, mat_dtype=False, chars_as_strings=True)
-    except UserError:
-        raise
     except Exception as error:  # SciPy raises what it comes upon
         raise UserError(
             "the MATLAB file is damaged",
@@ -188,58 +143,11 @@ def _loaded(path: Path) -> dict[str, Any]:
     return {n: v for n, v in found.items() if not n.startswith("__")}
 
 
-def _check_size(stream: BinaryIO, path: Path) -> None:
-    """Unfold the compressed elements once without keeping them: a small file may hold endless zeros."""
-    head = stream.read(_HEADER)
-    order = "<" if head[126:128] == b"IM" else ">"
-    total = 0
-    while len(tag := stream.read(8)) == 8:
-        kind, size = struct.unpack(order + "II", tag)
-        if kind != _COMPRESSED:
-            total += size
-            stream.seek(size, 1)
-        else:
-            unfolding, left = zlib.decompressobj(), size
-            while left > 0 and (piece := stream.read(min(left, 1 << 16))):
-                left -= len(piece)
-                while piece:
-                    total += len(unfolding.decompress(piece, 1 << 20))
-                    piece = unfolding.unconsumed_tail
-                    if total > MOST_BYTES:
-                        break
-        if total > MOST_BYTES:
-            raise UserError(
-                "the MATLAB file is out of all proportion",
-                where=path,
-                found=f"more than {MOST_BYTES} bytes when unfolded",
-                expected=f"at most {MOST_BYTES} bytes",
-                remedy="save it with '-v7.3', or cut it into several files",
-            )
-
-
 def _unit_73(data: h5py.Dataset) -> str:
     """The unit of a dataset in a MATLAB 7.3 file: in the structure ``units`` beside it."""
     import h5py  # slow to import, and only files built on HDF5 need it
 
-    from ragg_runtime.flight.hdf5_attributes import matlab_text
-
     units = data.parent.get("units")
     name = data.name.rsplit("/", 1)[-1]
-    text = matlab_text(units.get(name)) if isinstance(units, h5py.Group) else ""
+    text = hdf5_file.matlab_text(units.get(name)) if isinstance(units, h5py.Group) else ""
     return text or hdf5_file.unit_of(data)
-
-
-def _names(names: Sequence[str]) -> list[str]:
-    """Names as MATLAB allows them, each once."""
-    found: list[str] = []
-    for name in names:
-        plain = re.sub(r"\W", "_", name, flags=re.ASCII) or "x"
-        plain = (plain if plain[0].isalpha() else f"x{plain}")[: _LONGEST - 4]
-        if plain in ("units", "names", "line"):
-            plain += "_"
-        number, unique = 1, plain
-        while unique in found:
-            number += 1
-            unique = f"{plain}_{number}"
-        found.append(unique)
-    return found

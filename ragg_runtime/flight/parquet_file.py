@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import Heading, Look, RawBatch, Table, Written, distinct, heading, not_numbers
+from ragg_runtime.flight.source import Heading, Look, Rows, Table, Written, distinct, heading, not_numbers
 
 NAME = "parquet"
 ENDINGS = (".parquet", ".pq")
@@ -24,10 +22,6 @@ MAGIC = (b"PAR1",)
 # What pyarrow raises for files that were damaged on purpose is not documented: names that are no text are
 # a ValueError, sizes that no memory holds a MemoryError.
 _DAMAGED = (pa.ArrowException, OSError, ValueError, TypeError, KeyError, OverflowError, MemoryError)
-_BUFFER = (
-    1 << 16
-)  # bytes of a column: with a million rows of all columns at once it takes twice the time and 150 MB more
-_AT_ONCE = 1 << 20  # rows of a row group: what pyarrow makes of a table by itself
 
 
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
@@ -61,21 +55,16 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
         headings.append(found)
         names.append(field.name)
     distinct(path, headings)
-    return (Table(path, tuple(headings), lambda: _batches(path, names, headings)),)
+    return (Table(path, tuple(headings), lambda: _rows(path, names, headings)),)
 
 
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
     """Write columns as float64 with their units; NaN becomes null."""
-    columns, lines = joined(tables)
+    columns, rows = joined(tables)
     metadata = [{"units": c.unit} if c.unit else None for c in columns]
-    kinds = [pa.float64() if c.unit or c.name != "line" else pa.string() for c in columns]
-    schema = pa.schema(
-        [pa.field(c.name, k, metadata=m) for c, k, m in zip(columns, kinds, metadata, strict=True)]
-    )
-    with pq.ParquetWriter(path, schema) as writer:
-        for rows in lines(_AT_ONCE):
-            arrays = [pa.array(np.ascontiguousarray(rows[c.name]), from_pandas=True) for c in columns]
-            writer.write_table(pa.Table.from_arrays(arrays, schema=schema), row_group_size=_AT_ONCE)
+    arrays = [pa.array(rows[c.name], from_pandas=True) for c in columns]
+    fields = [pa.field(c.name, x.type, metadata=m) for c, x, m in zip(columns, arrays, metadata, strict=True)]
+    pq.write_table(pa.Table.from_arrays(arrays, schema=pa.schema(fields)), path)
 
 
 def _of_pandas(metadata: Mapping[bytes, bytes]) -> dict[str, str]:
@@ -106,26 +95,16 @@ def _is_text(kind: Any) -> bool | None:
     return True if is_text or pa.types.is_timestamp(kind) or pa.types.is_date(kind) else None
 
 
-def _batches(path: Path, names: Sequence[str], headings: Sequence[Heading]) -> Iterator[RawBatch]:
+def _rows(path: Path, names: Sequence[str], headings: Sequence[Heading]) -> Rows:
     try:
-        # else all of a row group is read ahead
-        with pq.ParquetFile(path, pre_buffer=False, buffer_size=_BUFFER) as file:
-            for batch in file.iter_batches(batch_size=32768, columns=list(names)):
-                yield {
-                    h.name: _texts(batch.column(n)) if h.text else floats(batch.column(n))
-                    for n, h in zip(names, headings, strict=True)
-                }
+        with pq.ParquetFile(path) as file:
+            table = file.read(columns=list(names))
+        return {
+            h.name: (texts if h.text else floats)(table.column(n))
+            for n, h in zip(names, headings, strict=True)
+        }
     except _DAMAGED as error:
         raise _damaged(path, error) from None
-
-
-def _texts(column: pa.Array) -> NDArray[Any]:
-    kind = column.type
-    if pa.types.is_timestamp(kind) or pa.types.is_date(kind):
-        whole = column.cast(pa.timestamp("ns", tz=getattr(kind, "tz", None))).cast(pa.int64())
-        nanoseconds = whole.fill_null(np.iinfo(np.int64).min).to_numpy(zero_copy_only=False)
-        return np.asarray(nanoseconds, dtype=np.int64).view("datetime64[ns]")
-    return texts(column.cast(pa.string()))
 
 
 def _damaged(path: Path, error: Exception) -> UserError:

@@ -55,16 +55,14 @@ class Grid:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
-def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | None = None) -> Grid:
+def uniform(time: Array, path: Path | None) -> Grid:
     """The grid of a record's instants (n,), s.
 
-    ``step`` is the sampling interval if it is known, else the median is taken. Raises UserError where there
-    are fewer than two samples, or time is missing, stands still, runs back or is not uniform.
+    Raises UserError where there are fewer than two samples, or time is missing, stands still, runs back or is not uniform.
     """
     where = at(path, "column 'time'")
-    steps = _steps(time, path, where, first_row)
-    if step is None:
-        step = _step(steps)
+    steps = _steps(time, path, where)
+    step = _step(steps)
     if not (time[-1] - time[0]) / step < 2.0**53:
         raise UserError(
             "the record is not uniformly sampled",
@@ -85,7 +83,7 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
         raise UserError(
             "the record is not uniformly sampled",
             where=where,
-            found=f"a step of {steps[row]:.6g} s after row {first_row + row} (t = {time[row]:.10g} s)",
+            found=f"a step of {steps[row]:.6g} s after row {row + 1} (t = {time[row]:.10g} s)",
             expected=f"steps of {step:.6g} s",
             remedy="resample the record to a constant rate",
         )
@@ -109,7 +107,7 @@ def uniform(time: Array, path: Path | None, first_row: int = 1, step: float | No
     )
 
 
-def _steps(time: Array, path: Path | None, where: str, first_row: int) -> Array:
+def _steps(time: Array, path: Path | None, where: str) -> Array:
     """(n - 1,) s: from each instant to the next, all above zero."""
     if len(time) < 2:
         raise UserError(
@@ -123,13 +121,13 @@ def _steps(time: Array, path: Path | None, where: str, first_row: int) -> Array:
         raise UserError(
             "the time is missing",
             where=where,
-            found=f"row {first_row + row}: {time[row]}",
+            found=f"row {row + 1}: {time[row]}",
             expected="a number in every row",
             remedy="remove rows without a time",
         )
     steps = np.diff(time)
     if np.any(steps <= 0):
-        raise _not_increasing(time, steps, where, first_row)
+        raise _not_increasing(time, steps, where)
     return steps
 
 
@@ -192,7 +190,7 @@ def _notes(time: Array, steps: Array, jumps: NDArray[np.int64], deviation: Array
     return notes
 
 
-def _not_increasing(time: Array, steps: Array, where: str, first_row: int) -> UserError:
+def _not_increasing(time: Array, steps: Array, where: str) -> UserError:
     if np.all(steps == 0):
         return UserError(
             "the time stands still",
@@ -214,7 +212,7 @@ def _not_increasing(time: Array, steps: Array, where: str, first_row: int) -> Us
     return UserError(
         "an instant appears twice" if steps[row] == 0 else "the time runs back",
         where=where,
-        found=f"row {first_row + row}: {time[row]:.10g} s, row {first_row + row + 1}: {time[row + 1]:.10g} s"
+        found=f"row {row + 1}: {time[row]:.10g} s, row {row + 2}: {time[row + 1]:.10g} s"
         + (f" (and {count - 1} more such places)" if count > 1 else ""),
         expected="increasing time",
         remedy="remove doubled rows or sort the rows by time; two records need two files",

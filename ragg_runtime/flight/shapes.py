@@ -28,24 +28,21 @@ class Place:
     axis: int
     index: int | None
 
-    def rows(self, data: Any, start: int, stop: int) -> NDArray[Any]:
-        """(n,): rows of the column, from anything that is indexed like an array."""
-        if self.index is None:
-            return np.asarray(data[start:stop])
-        if self.axis == 0:
-            return np.asarray(data[start:stop, self.index])
-        return np.asarray(data[self.index, start:stop])
+    def of(self, data: Any) -> NDArray[Any]:
+        """(N,): the column of the array."""
+        x = np.asarray(data)
+        return x if self.index is None else np.take(x, self.index, axis=1 - self.axis)
 
 
-def places(shapes: Mapping[str, Shape], where: str | Path) -> tuple[int, list[Place]]:
-    """Length of the table that arrays of these shapes make up, and its columns.
+def places(shapes: Mapping[str, Shape], where: str | Path) -> list[Place]:
+    """The columns of the table that arrays of these shapes make up.
 
     Vectors count in either direction; an array of few columns (or rows) gives ``name_1``, ``name_2`` ...
     Single numbers are no columns. UserError where vectors differ in length.
     """
     longest = {n: max(s) for n, s in shapes.items() if s and max(s) > 1 and _is_table(s)}
     if not longest:
-        return 0, []
+        return []
     length = longest.get("time") or Counter(longest.values()).most_common(1)[0][0]
     found = []
     for name, size in longest.items():
@@ -58,7 +55,7 @@ def places(shapes: Mapping[str, Shape], where: str | Path) -> tuple[int, list[Pl
                 remedy="name the columns that are needed in a mapping: ragg map FLIGHT -o mapping.toml",
             )
         found += _spread(name, shapes[name], length)
-    return length, found
+    return found
 
 
 def _is_table(shape: Shape) -> bool:

@@ -6,7 +6,6 @@ values must follow from their neighbours. Otherwise it is left out, lest all sam
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -73,41 +72,3 @@ def judged(time: Array, values: Array) -> Slow | str:
     if error > SLOW * spread:
         return f"it changes too fast for one value in {step:.3g} s"
     return Slow(time, values, step)
-
-
-class Collector:
-    """Gathers the values of one channel while a file is read, as long as they are few."""
-
-    def __init__(self) -> None:
-        self.rows = self.count = 0
-        self._time: list[Array] | None = []
-        self._values: list[Array] = []
-
-    def add(self, time: Array, values: Array, most: int) -> None:
-        """Some rows more; more than ``most`` values altogether are not kept."""
-        self.rows += len(values)
-        if np.isfinite(np.sum(values)):  # cheap, and false wherever something is not finite
-            there: slice | NDArray[np.bool_] = slice(None)
-            self.count += len(values)
-        else:
-            there = np.isfinite(values)
-            self.count += int(np.sum(there))
-        if self.count > most:
-            self._time, self._values = None, []
-        elif self._time is not None:
-            self._time.append(time[there])
-            self._values.append(values[there])
-
-    @property
-    def sparse(self) -> bool:
-        return 0 < self.count < (1 - SPARSE) * self.rows
-
-    def series(self) -> tuple[Array, Array] | None:
-        """Instants and values; ``None`` if they are too many."""
-        if self._time is None:
-            return None
-        return _joined(self._time), _joined(self._values)
-
-
-def _joined(parts: Sequence[Array]) -> Array:
-    return np.concatenate(parts) if parts else np.empty(0)

@@ -1,13 +1,13 @@
-"""A flight file as it stands: tables of columns with the file's own names and units, in batches of rows."""
+"""A flight file as it stands: tables of columns with the file's own names and units."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from numpy.typing import NDArray
 
@@ -16,8 +16,7 @@ from ragg_runtime.flight.record import Array
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 
-Batch = Mapping[str, Array]
-RawBatch = Mapping[str, NDArray[Any]]
+Rows = Mapping[str, NDArray[Any]]
 """Name -> (n,) float64, NaN where nothing stands; columns of text are object arrays of str, empty for nothing."""
 
 _PAREN = re.compile(r"\s*(?P<name>.*?\S)\s*\((?P<unit>[^()]+)\)\s*")
@@ -51,15 +50,15 @@ class Table:
         The file.
     headings
         Its columns.
-    batches
-        A function that yields the rows of exactly these columns.
+    rows
+        A function that reads exactly these columns.
     line
         Name of the flight line that the table is, where the file has several.
     """
 
     path: Path
     headings: tuple[Heading, ...]
-    batches: Callable[[], Iterator[RawBatch]]
+    rows: Callable[[], Rows]
     line: str | None = None
 
 
@@ -103,7 +102,7 @@ class Source:
 
     path: Path
     columns: tuple[Column, ...]
-    batches: Callable[[], Iterator[Batch]]
+    rows: Callable[[], Rows]
     line: str | None = None
     origin: datetime | None = None
     notes: tuple[str, ...] = ()
@@ -134,7 +133,12 @@ class Format(Protocol):
         """What such files begin with; none for text."""
 
     def open_tables(self, path: Path, look: Look) -> Sequence[Table]:
-        """The tables of a file. Whoever reads files of strangers: one UserError, nothing executed, no end of memory."""
+        """The tables of a file. What is wrong with it is one UserError; nothing in it is executed."""
+
+
+@runtime_checkable
+class Writable(Format, Protocol):
+    """A format that is written as well."""
 
     def write_tables(self, path: Path, tables: Sequence[Written]) -> None:
         """Write tables to ``path`` so that :meth:`open_tables` gives every number back to the last bit."""

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.formats import open_file
-from ragg_runtime.flight.instants import WAYS, Clock, Way, midnight, way_of
+from ragg_runtime.flight.instants import WAYS, seconds, way_of
 from ragg_runtime.flight.lines import split
 from ragg_runtime.flight.mapping import Entry, Mapped
 from ragg_runtime.flight.record import Array
 from ragg_runtime.flight.source import (
-    Batch,
     Column,
     Heading,
     Look,
-    RawBatch,
+    Rows,
     Source,
     Table,
     columns_of,
@@ -105,50 +102,29 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
         dropped = [h for h in table.headings if h not in kept]
         if dropped and not lenient:
             raise not_numbers(table.path, dropped[0].name, "text")
-        way: Way | None = None
+        rows = table.rows
+        dated = False
         if any(h.text for h in kept):
-            way, origin = _looked(table, ("time",), None, origin)
+            whole = dict(table.rows())
+            where = at(table.path, "column 'time'")
+            way = way_of(whole["time"])
+            if way is None:
+                raise not_numbers(table.path, "time", "text that is no instant")
+            whole["time"], origin = seconds(way, [whole["time"]], where, origin)
+            rows, dated = partial(dict, whole), way.dated
             kept = tuple(Heading("time", "s") if h.text else h for h in kept)
         columns = tuple(Column(h.name, h.unit) for h in kept) if lenient else columns_of(table.path, kept)
-        notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
-        batches = partial(_plain_batches, table, columns, way, origin)
         found.append(
             Source(
                 path=table.path,
                 columns=columns,
-                batches=batches,
+                rows=rows,
                 line=table.line,
-                origin=origin if way and way.dated else None,
-                notes=notes,
+                origin=origin if dated else None,
+                notes=tuple(f"{h.name} holds text; it is left out" for h in dropped),
             )
         )
     return found
-
-
-def _plain_batches(
-    table: Table, columns: Sequence[Column], way: Way | None, origin: datetime | None
-) -> Iterator[Batch]:
-    clock = None if way is None else Clock(way, at(table.path, "column 'time'"), origin)
-    for raw in table.batches():
-        found = {c.name: raw[c.name] for c in columns}
-        if clock is not None:
-            found["time"] = clock([raw["time"]])
-        yield found
-
-
-def _looked(
-    table: Table, names: Sequence[str], way: Way | None, origin: datetime | None
-) -> tuple[Way, datetime | None]:
-    """How the first rows write their instants, and the midnight before them, unless an origin is known."""
-    where = at(table.path, f"column {names[0]!r}")
-    first = next(iter(table.batches()), None)
-    values = [np.empty(0) if first is None else first[n] for n in names]
-    way = way or way_of(values[0])
-    if way is None:
-        raise not_numbers(table.path, names[0], "text that is no instant")
-    if way.dated and origin is None and len(values[0]):
-        origin = midnight(way.read(*values, where))
-    return way, origin
 
 
 def _check_names(table: Table, mapping: Mapped) -> None:
@@ -182,13 +158,15 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
                 remedy=f"say in {mapping.path} how it is written: [time] format = "
                 + ", ".join(map(repr, WAYS)),
             )
-        if way is not None:
-            _, origin = _looked(table, time.columns, way, origin)
         headings = [Heading("time", "s" if way else time.unit or units[time.columns[0]])]
         headings += [Heading(n, e.unit or units[e.column]) for n, e in mapping.channels.items()]
         columns, rotation = _rotated(columns_of(table.path, headings), mapping)
-        batches = partial(_mapped_batches, table, mapping, origin, rotation)
-        dated = way is None or way.dated
+        rows = partial(_mapped_rows, table.rows, mapping, rotation)
+        if way is not None:
+            raw = table.rows()
+            where = at(table.path, f"column {time.columns[0]!r}")
+            instants, origin = seconds(way, [raw[n] for n in time.columns], where, origin)
+            rows = partial(_mapped_rows, partial(dict, raw), mapping, rotation, instants)
         notes: tuple[str, ...] = (f"read by {mapping.path.name} (SHA-256 {mapping.digest[:16]})",)
         if mapping.demodulator is not None:
             notes += (f"demodulated: {mapping.demodulator.words()}",)
@@ -196,9 +174,9 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
             Source(
                 path=table.path,
                 columns=columns,
-                batches=batches,
+                rows=rows,
                 line=table.line,
-                origin=origin if dated else None,
+                origin=origin if way is None or way.dated else None,
                 notes=notes,
                 demodulation=mapping.demodulator,
             )
@@ -206,24 +184,20 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
     return found
 
 
-def _mapped_batches(
-    table: Table,
+def _mapped_rows(
+    read: Callable[[], Rows],
     mapping: Mapped,
-    origin: datetime | None,
     rotation: Mapping[str, tuple[str, float]],
-) -> Iterator[Batch]:
-    way = WAYS.get(mapping.time.format)
-    clock = None if way is None else Clock(way, at(table.path, f"column {mapping.time.columns[0]!r}"), origin)
-    for raw in table.batches():
-        times = [raw[n] for n in mapping.time.columns]
-        found = {"time": times[0] if clock is None else clock(times)}
-        found |= {n: _scaled(raw, e) for n, e in mapping.channels.items()}
-        turned = {n: found[own] if sign > 0 else -found[own] for n, (own, sign) in rotation.items()}
-        yield found | turned
+    time: Array | None = None,
+) -> Rows:
+    """Columns under the names of the contract; ``time`` is given where it was read from instants."""
+    raw = read()
+    found = {"time": raw[mapping.time.columns[0]] if time is None else time}
+    found |= {n: _scaled(raw[e.column], e) for n, e in mapping.channels.items()}
+    return found | {n: found[own] if sign > 0 else -found[own] for n, (own, sign) in rotation.items()}
 
 
-def _scaled(raw: RawBatch, entry: Entry) -> Array:
-    values: Array = raw[entry.column]
+def _scaled(values: Array, entry: Entry) -> Array:
     if entry.factor != 1.0:
         values = values * entry.factor
     return values + entry.offset if entry.offset else values

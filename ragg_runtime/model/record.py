@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import GRADIENT, RATES
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS, Demodulation
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Vector3, gain
@@ -198,7 +197,6 @@ class Record:
             if not np.isfinite(np.dot(x, x)):  # cheap, and true wherever something is not finite
                 x[~np.isfinite(x)] = 0.0
         valid = np.array(self.valid[rows])
-        let_go(*(self.wide[k] for k in wanted), self.valid, self.time)
         time = np.array(self.time[rows])
         halo = (a - first, last - b)
         return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
@@ -309,7 +307,6 @@ def spin_degree(encoder: Array | None, rate: float) -> int:
     def angles() -> Iterator[Array]:
         for a in range(0, len(encoder), CHUNK):
             angle = np.array(encoder[max(0, a - half) : a + CHUNK + half])
-            let_go(encoder)
             for run in stretches(np.isfinite(angle), 2):
                 yield steady_and_swing(angle[run])[1]
 
@@ -354,7 +351,6 @@ def record(flight: Flight, instrument: Instrument, output: int = 0) -> Record:
     turning = disc.spin_frequency != 0.0
     if disc.angle_column in flight.channels:
         turning = bool(np.ptp(flight.channels[disc.angle_column]) > STANDING)
-        let_go(flight.channels[disc.angle_column])
     wide = {name: x for name, x in flight.channels.items() if name not in RATES}
     return Record(
         time=time,

@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, DEMODULATED, SPECIFIC_FORCE
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Disc
 from ragg_runtime.model.model import Model
@@ -143,7 +142,6 @@ def _still(values: Array, there: NDArray[np.bool_]) -> float | None:
         if np.any(part != first):
             first = None
             break
-    let_go(values)
     return first
 
 

@@ -11,7 +11,6 @@ from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE
 from ragg_runtime.flight.sampling import JITTER_NOTED
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.record import disc_angle
@@ -43,7 +42,6 @@ def steadied(model: Model, instrument: Instrument, p: Picker) -> tuple[Flight, s
     for a in range(0, len(x), CHUNK):
         k = np.flatnonzero(x.valid[a : a + CHUNK]) + a
         worst = max(worst, float(np.max(np.abs(x.time[k] - (first + step * k)), initial=0.0)) / step)
-    let_go(x.time, x.valid)
     jitters = worst > JITTER_NOTED
     discs = instrument.layout.discs
     # without an angle to find: recorded, standing still, or those of several discs

@@ -12,7 +12,6 @@ from ragg_runtime.base.threads import mapped, one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
@@ -107,7 +106,6 @@ def _saturated(p: Picker) -> list[str]:
         return []
     G = p.flight.outputs[p.output.name]
     clipped = np.count_nonzero(p.flight.valid & np.isfinite(G) & ~p.usable)
-    let_go(G)
     if not clipped or p.recorded.separate:
         return []
     top = float(np.max(np.abs(G[p.flight.valid & np.isfinite(G)])))
@@ -122,9 +120,7 @@ def _without_motion_spikes(flight: Flight) -> Flight:
     notes: dict[str, str] = {}
 
     def looked_through(name: str) -> tuple[Mask, Array]:
-        found = glitches(flight.channels[name], flight.valid)
-        let_go(flight.channels[name])
-        return found
+        return glitches(flight.channels[name], flight.valid)
 
     names = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION) if n in channels]
     for name, (mask, x) in zip(names, mapped(looked_through, names), strict=True):

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.spool import let_go
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -45,7 +44,6 @@ def without_filling(flight: Flight) -> tuple[Flight, list[str]]:
             outputs[name] = np.where(kept, x, np.nan)
             told.setdefault((how, every), []).append(name)
             break
-        let_go(x)
     notes = [
         f"{', '.join(names)}: recorded every {every / flight.rate:.4g} s and {how} in between; only what was recorded is used"
         for (how, every), names in told.items()

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from ragg_runtime.flight.record import WIDEST_SPIKE
-from ragg_runtime.flight.spool import copied
 from ragg_runtime.signals.derivative import runs
 
 Array = NDArray[np.float64]
@@ -145,7 +144,7 @@ def glitches(x: Array, valid: Mask, part: int = PART) -> tuple[Mask, Array]:
         for rows, inner in parts(n, part):
             mask, mended = glitches(x[rows], valid[rows], n)
             if mask[inner].any():
-                whole = copied(x) if whole is x else whole
+                whole = x.copy() if whole is x else whole
                 whole[rows][inner] = mended[inner]
                 found[rows][inner] = mask[inner]
         return found, whole

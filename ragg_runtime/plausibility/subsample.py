@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from generated.output_effects.saturation import clipped
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.spool import let_go
 from ragg_runtime.instrument.demodulation import OURS
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Disc, Output
@@ -252,9 +251,7 @@ def _later(rows: Index | slice, by: int) -> Index | slice:
 
 def _picked(column: Array, rows: Index | slice) -> Array:
     """Some rows of a column, copied; of one on disk, none of the rest stays in memory."""
-    found = np.array(column[rows]) if isinstance(rows, slice) else np.asarray(column[rows])
-    let_go(column)
-    return found
+    return np.array(column[rows]) if isinstance(rows, slice) else np.asarray(column[rows])
 
 
 def _columns(flight: Flight, instrument: Instrument, place: int, form: Recorded) -> tuple[str, ...]:
@@ -273,7 +270,6 @@ def picker(flight: Flight, instrument: Instrument, inputs: tuple[str, ...] = (),
     own = instrument.layout.outputs[place].name
     if own in flight.outputs and usable.any():
         usable &= ~clipped(flight.outputs[own], usable)
-    let_go(*flight.outputs.values())
     derived = {}
     for name in inputs:
         if name in SPIN:

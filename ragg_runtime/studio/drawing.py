@@ -74,9 +74,7 @@ def _rows(time: Array, rate: float, a: Asked) -> slice:
 
 
 def _unexamined(s: State, flight: int) -> Pyramid | None:
-    """The output of a flight before it is compared: of a first look at the file, or of the flight as it was read."""
-    if 0 <= flight < len(s.glances) and (look := s.glances[flight]) is not None:
-        return look[1]
+    """The output of a flight as it was read, before it is compared."""
     x = s.flights[flight] if 0 <= flight < len(s.flights) else None
     if x is None or not x.outputs or not len(x):
         return None

@@ -17,11 +17,9 @@ from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.foresee import Unwhitened
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.glance import Glance, glance
 from ragg_runtime.studio import apply
 from ragg_runtime.studio.jobs import Busy, Jobs
 from ragg_runtime.studio.places import Places
-from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation
@@ -48,8 +46,6 @@ class State:
         The model directory, the files of the flights, and the flights themselves.
     read, cuts
         The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
-    glances
-        A first look at each file, and its output as it is drawn until the flight is compared.
     compared, diagnosed, unwhitened
         Results for exactly these.
     previous
@@ -67,7 +63,6 @@ class State:
     flights: tuple[Flight, ...] = ()
     read: tuple[Flight, ...] = ()
     cuts: tuple[tuple[tuple[float, float], ...], ...] = ()
-    glances: tuple[tuple[Glance, Pyramid] | None, ...] = ()
     compared: Comparison | None = None
     diagnosed: Diagnosis | None = None
     unwhitened: Unwhitened | None = None
@@ -119,10 +114,7 @@ class Session:
         if model is not None:
             self._put(**_nothing(), loaded=loop.load(model))
         if flights:
-            part("reading the flights", 1.0)
-            g0 = self.state.model.instrument.g0
-            looks = tuple(_drawn(glance(p, g0)) for p in flights)
-            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=(), glances=looks)
+            self._put(**_nothing(), paths=flights, flights=(), read=(), cuts=())
             part("reading and examining the flights", 1.0)
             read = tuple(loop.read_flights(self.state.model, flights))
             places = tuple(x.path or flights[0] for x in read)  # a file of several lines is as many flights
@@ -307,13 +299,6 @@ class Session:
     def _idle(self) -> None:
         if self.jobs.status.name:
             raise Busy
-
-
-def _drawn(found: Glance | None) -> tuple[Glance, Pyramid] | None:
-    if found is None:
-        return None
-    x = found.values
-    return found, pyramid(found.start, found.step, len(x), lambda s: x[s])
 
 
 def _nothing() -> dict[str, object]:

@@ -14,7 +14,6 @@ from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight import read_flights as _read_flights
 from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
-from ragg_runtime.flight.spool import settled
 from ragg_runtime.instrument.edit_toml import set_effects_folder
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -122,7 +121,7 @@ def read_flights(
 
 def as_read(model: Model, instrument: Instrument, x: Flight) -> Flight:
     """What is done to every flight that is read: examined, and the memory that reading it took given back."""
-    return settled(examined(model, instrument, x))
+    return examined(model, instrument, x)
 
 
 def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:

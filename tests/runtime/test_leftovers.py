@@ -3,101 +3,21 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import clear_stale, scratch, temporary_name
-from ragg_runtime.flight import Flight, files, lines, read_flight
-from ragg_runtime.flight.formats import open_file
-from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.model import native
 from ragg_runtime.model.native import compiler
 from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files without a name, scripts as compilers")
-
-UNITS = (
-    {"time": "s"} | {f"a_{k}": "g" for k in "xyz"} | {f"omega_{k}": "deg/h" for k in "xyz"} | {"G_out": "V"}
-)
-
-
-def bomb(path: Path, rows: int) -> Path:
-    """A flight in which nothing changes but the time, and that by a fixed step."""
-    schema = pa.schema([pa.field(n, pa.float64(), metadata={"units": u}) for n, u in UNITS.items()])
-    with pq.ParquetWriter(path, schema, compression="zstd", use_byte_stream_split=["time"]) as writer:
-        for start in range(0, rows, 1 << 18):
-            n = min(1 << 18, rows - start)
-            time_ = (start + np.arange(n)) / 16
-            columns = [pa.array(time_ if name == "time" else np.full(n, 0.5)) for name in UNITS]
-            writer.write_table(pa.Table.from_arrays(columns, schema=schema))
-    return path
-
-
-def test_a_file_that_unfolds_without_end_is_refused_before_it_fills_the_disc(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "empty"))
-    (tmp_path / "empty").mkdir()
-    path = bomb(tmp_path / "bomb.parquet", 1 << 21)
-    monkeypatch.setattr(files, "UNFOLDS", (1 << 27) / path.stat().st_size * 0.8)
-    laid: list[int] = []
-    spooled = files.spooled
-
-    def counted(parts: Iterable[Flight]) -> Iterator[Flight]:
-        for x in parts:
-            laid.append(x.time.nbytes * (len(x.channels) + 3))
-            yield x
-
-    def watched(parts: Iterable[Flight], *others: Any) -> Flight:
-        return spooled(counted(parts), *others)
-
-    monkeypatch.setattr(files, "spooled", watched)
-    with pytest.raises(UserError, match="unfolds to more than a record can be compressed"):
-        read_flight(path, 9.8)
-    # derived accelerations and a mark of each sample are laid down beside what was read
-    assert sum(laid) < 2 * files.UNFOLDS * path.stat().st_size
-    assert list((tmp_path / "empty").iterdir()) == []
-
-
-def test_the_limit_is_far_above_what_a_record_compresses_to(tmp_path: Path) -> None:
-    assert (1 << 24) * 8 * 8 / bomb(tmp_path / "bomb.parquet", 1 << 18).stat().st_size < files.UNFOLDS * 64
-    assert files.UNFOLDS >= 100
-
-
-def test_a_killed_command_leaves_nothing_of_a_long_flight(tmp_path: Path) -> None:
-    path = bomb(tmp_path / "long.parquet", 1 << 20)
-    place = tmp_path / "tmp"
-    place.mkdir()
-    script = (
-        "import sys, time\nfrom ragg_runtime.flight import files\nfiles.UNFOLDS = 10**9\n"
-        "f = files.read_flight(sys.argv[1], 9.8)\n"
-        "print(len(f), flush=True); time.sleep(60)"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-c", script, str(path)],
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"TMPDIR": str(place)},
-    )
-    assert process.stdout is not None
-    assert process.stdout.readline() == f"{1 << 20}\n"
-    assert list(place.iterdir()) == []
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    process.stdout.close()
 
 
 def test_what_another_user_left_is_not_cleared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -193,21 +113,3 @@ def test_folders_of_killed_processes_are_cleared_from_the_temporary_folder(
         assert [p for p in tmp_path.iterdir() if p != folder] == []
     assert not left.exists()
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_table_of_lines_is_laid_down_without_a_name(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """400 MB of a killed command stood in the temporary folder."""
-    monkeypatch.setattr(lines, "HELD", 1000)
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "tmp"))
-    (tmp_path / "tmp").mkdir()
-    n = 500
-    columns = [(Column("line", "1"), np.repeat([1.0, 2.0], n)), (Column("time", "s"), np.arange(2.0 * n))]
-    files.write_tables(tmp_path / "x.csv", lambda: [Written(columns)])
-    (table,) = open_file(tmp_path / "x.csv", Look())
-    one, two = lines.split(table, "line")
-    assert list((tmp_path / "tmp").iterdir()) == []
-    for part, first in ((one, 0), (two, n)):
-        times = np.concatenate([b["time"] for b in part.batches()])
-        np.testing.assert_array_equal(times, np.arange(first, first + n))

@@ -123,7 +123,7 @@ def test_gps_week_and_midnight(tmp_path: Path) -> None:
     assert source.origin == datetime(2026, 3, 1, tzinfo=UTC)  # a Sunday
     path.write_text("time,v [V]\n23:59:59.5,1\n00:00:00.0,2\n0:00:00.5,3\n")
     (source,) = open_sources(path)
-    assert next(iter(source.batches()))["time"].tolist() == [86399.5, 86400.0, 86400.5]
+    assert source.rows()["time"].tolist() == [86399.5, 86400.0, 86400.5]
 
 
 def test_lines_become_flights(tmp_path: Path) -> None:
@@ -211,39 +211,30 @@ def test_datetime_columns_and_pandas_attrs(tmp_path: Path) -> None:
     assert pa.types.is_timestamp(table.schema.field("time").type)
 
 
-XYZ = """/ ---------------------------
-/ XYZ EXPORT
-/         X       Y  Altitude  Cross1_raw  Inline1_raw  HHMMSS   YYMMDD  Gyro_X
-/ ======= ======= ========= =========== ============ ======== ======== =======
-//Flight 7
-//Date 2008/07/06
-Line  10
- 436702.0 3327648.7 75.0 1354.8 -335.3 235959.0 20080703 *
- 436702.1 3327648.8 75.1 1354.9 -335.4 000000.0 20080704 0.5
-Tie 20
- 436702.0 3327648.7 75.0 1354.8 * 132850.4 20080704 0.1
- 436702.1 3327648.8 75.1 1354.9 -335.4 132851.4 20080704 0.2
+SURVEY = """Line,X,Y,Altitude,Cross1_raw,Inline1_raw,HHMMSS,YYMMDD,Gyro_X
+10,436702.0,3327648.7,75.0,1354.8,-335.3,235959.0,20080703,
+10,436702.1,3327648.8,75.1,1354.9,-335.4,000000.0,20080704,0.5
+T20,436702.0,3327648.7,75.0,1354.8,,132850.4,20080704,0.1
+T20,436702.1,3327648.8,75.1,1354.9,-335.4,132851.4,20080704,0.2
 """
 
 
-def test_a_mapping_is_begun_from_an_xyz_file(tmp_path: Path) -> None:
-    path = tmp_path / "x.xyz"
-    path.write_text(XYZ)
+def test_a_mapping_is_begun_from_a_survey(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text(SURVEY.replace("\n10,", "\nL10,"))
     d = draft(path)
     assert 'column = ["YYMMDD", "HHMMSS"]  # likely' in d.text
     assert 'inline_1 = { column = "Inline1_raw", unit = "?", scale = 2 }  # likely' in d.text
     assert 'omega_x = { column = "Gyro_X", unit = "?" }  # likely' in d.text
     assert 'easting = { column = "X", unit = "?" }  # guess' in d.text
-    assert len(d.questions) == 6
     with pytest.raises(UserError, match="not answered"):
         parse_mapping(d.text, HERE)
     answered = d.text.replace('unit = "?"', 'unit = "E"')
     first, second = open_sources(path, parse_mapping(answered, HERE))
-    assert (first.line, second.line) == ("10", "T20")
+    assert (first.line, second.line) == ("L10", "T20")
     assert first.origin == second.origin == datetime(2008, 7, 3, tzinfo=UTC)
-    rows = next(iter(first.batches()))
+    rows = first.rows()
     assert rows["time"].tolist() == [86399.0, 86400.0]
-    assert rows["flight"].tolist() == [7.0, 7.0]
     assert rows["inline_1"].tolist() == [-670.6, -670.8]
     assert np.isnan(rows["omega_x"][0])
 

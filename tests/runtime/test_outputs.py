@@ -126,11 +126,6 @@ def test_a_result_replaces_no_file_of_another_model(given: tuple[Path, Path], tm
             assert status == 2, said
             assert "over a file of a model directory" in said
     assert state(model) == before
-    pair = tmp_path / "f.dfn"
-    (tmp_path / "f.dat").write_text("1")
-    pair.write_text("1")
-    status, said = ragg("next-motion", model, pair, "-o", tmp_path / "f.dat")
-    assert (status, "over what the command reads" in said) == (2, True)
 
 
 @pytest.mark.parametrize("command", ["compensate", "online", "next-motion", "simulate"])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight import Flight, iter_flight_chunks, read_flight, write_flight
+from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.flight.slow import BRIDGED_STEPS, Slow, judged
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -57,16 +57,6 @@ def test_what_changes_faster_than_it_was_recorded_is_left_out(hot: Flight, tmp_p
     assert "B_x" not in read.channels
     assert np.all(read.channels["pressure"] == 0.0)
     assert any("B_x" in n and "left out: it changes too fast" in n for n in read.notes)
-
-
-def test_parts_see_the_whole_channel(hot: Flight, tmp_path: Path) -> None:
-    path = rarely(hot, 200, ("temperature",), tmp_path / "slow.csv")
-    whole = read_flight(path, G0)
-    parts = list(iter_flight_chunks(path, G0, 300))
-    joined = np.concatenate([p.channels["temperature"] for p in parts])
-    assert np.array_equal(joined, whole.channels["temperature"])
-    assert np.array_equal(np.concatenate([p.valid for p in parts]), whole.valid)
-    assert np.sum(~whole.valid) == 199
 
 
 @pytest.mark.parametrize("name", ["omega_z", "G_out"])

@@ -6,19 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.source import Column, Written
 from ragg_runtime.survey import journal
 from ragg_runtime.survey.run import distinct_names
 from ragg_runtime.survey.task import divided, examine, expanded, job
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
+from tests.runtime.foreign_files import write
 
 MAPPING = '[time]\ncolumn = "T"\nunit = "s"\n[columns]\n'
 
 
 def made(tmp_path: Path) -> tuple[Path, str, Path]:
-    """Two simulated flights as lines of one XYZ file under other names; the mapping; model.toml."""
+    """Two simulated flights as lines of one file under other names; the mapping; model.toml."""
     m = loop.new(tmp_path / "model")
     tables, entries = [], []
     for seed in (1, 2):
@@ -29,8 +29,8 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
         rows = [(Column("T", ""), np.asarray(x.time))]
         rows += [(Column(names[n], ""), np.asarray(v)) for n, v in columns.items()]
         tables.append(Written(rows, str(10 * seed)))
-    write_tables(tmp_path / "s.xyz", lambda: tables)
-    return tmp_path / "s.xyz", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
+    write(tmp_path / "s.h5", tables)
+    return tmp_path / "s.h5", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
 
 
 def test_lines_are_flights(tmp_path: Path) -> None:
@@ -40,7 +40,7 @@ def test_lines_are_flights(tmp_path: Path) -> None:
     assert files == [f"{path}::10", f"{path}::20", str(tmp_path / "none.csv")]
     assert divided(files[0]) == (path, "10")
     record = examine(given, files[1])
-    assert record["flight"] == "s.xyz::20"
+    assert record["flight"] == "s.h5::20"
     assert record["verdict"] == "adequate"
     assert record["sha256"] == journal.sha256(Path(files[1])) == journal.sha256(path)
     assert "several lines" in examine(given, str(path))["error"]["message"]
@@ -58,11 +58,11 @@ def test_a_results_file_of_another_mapping_is_refused(tmp_path: Path) -> None:
 
 
 def test_flights_of_one_file_name_are_told_apart_by_their_folders() -> None:
-    files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.xyz::20"]
+    files = ["/s/01/flight.csv", "/s/02/flight.csv", "/t/02/flight.csv", "/s/other.csv", "/none/s.csv::20"]
     assert distinct_names(files) == dict(
         zip(
             files,
-            ["01/flight.csv", "s/02/flight.csv", "t/02/flight.csv", "other.csv", "s.xyz::20"],
+            ["01/flight.csv", "s/02/flight.csv", "t/02/flight.csv", "other.csv", "s.csv::20"],
             strict=True,
         )
     )

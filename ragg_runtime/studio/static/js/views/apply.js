@@ -27,7 +27,7 @@ export function applyView(main) {
   fill(main, box, figures);
   let plots = [], shown = "", window_ = null;
 
-  const flown = (state) => state.flights.length > 0 && !state.flights[0].glanced;
+  const flown = (state) => state.flights.length > 0;
   const compensation = (state) => {
     const c = state.compensated, busy = Boolean(state.status.job);
     fill(box, h("h2", {}, "Compensated channels"),

@@ -15,7 +15,7 @@ export function banner(box) {
     const b = state && state.banner;
     if (!b) {
       const busy = state && state.status.job;
-      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : state.flights[0].glanced ? (busy ? "Reading and examining the flight …" : "This record could not be read as a flight; what is drawn is its output alone.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !state.flights[0].glanced && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
         state && !state.flights.length && !busy ? h("p.row", {},
           (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files", columns: path }) }, `Say what the columns of ${path.split("/").at(-1)} are`)),
           h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));

@@ -49,7 +49,7 @@ export function filesView(main) {
   };
 
   const drop = h("section.card.drop", {},
-    h("p", {}, "Drop flights here (CSV, Parquet, NetCDF, HDF5, MATLAB, Excel, Geosoft XYZ, ASEG-GDF2), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
+    h("p", {}, "Drop flights here (CSV, Parquet, NetCDF, HDF5, MATLAB, Excel), or ", h("label.file", {}, "choose them", h("input", { type: "file", multiple: true, onchange: (e) => take([...e.target.files]) })), "."),
     h("p.note", {}, "They are laid into the folder flights of the model directory, never over another file. Columns carry their units: time [s], a_x [m/s^2], omega_x [deg/h], G_out [V] …"));
   const take = async (files) => {
     const paths = [];

@@ -62,7 +62,7 @@ function own() {
       const flight = state && state.flights[view.flight];
       const channels = flight ? flight.channels.map((c) => c.name).filter((n) => !/^(Gamma|spin_angle)/.test(n)) : [];
       names.textContent = `Names: f_i, f_o, f_p, time, cos_phi, sin_phi${channels.length ? `, ${channels.join(", ")}` : ""}; abs, sign, sqrt, sin, cos, exp, tanh. Parameters are K_… names.`;
-      button.disabled = !state || !state.flights.length || Boolean(state.flights[0].glanced || state.status.job);
+      button.disabled = !state || !state.flights.length || Boolean(state.status.job);
     },
     /** A line of model.toml: { id = "…", stage = …, add = "…", K_x = { unit = "…" } } */
     put(line) {
