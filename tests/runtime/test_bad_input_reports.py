@@ -16,7 +16,6 @@ NOTE = "samples stand far off the neighbours"
 )
 def test_the_notes_are_everywhere(command: tuple[str, ...], tmp_path: Path) -> None:
     row = Row(
-        "spikes",
         flown(outputs(struck), hidden=True),
         (NOTE,),
         (*command, "flight.csv", "--json", "x.json", "--report", "x.html"),
