@@ -8,11 +8,11 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.landmarks import Landmarks, repeated, same_record
+from ragg_runtime.flight.same_record import same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import BETWEEN, LANDMARKS, Job, Record, divided, expanded, job
+from ragg_runtime.survey.task import BETWEEN, CONTENT, Job, Record, divided, expanded, job
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
@@ -86,15 +86,14 @@ def _check(flights: Sequence[Path | str], jobs: int | None, scheduler: str | Non
 
 def once(records: Sequence[Record]) -> Iterator[Record]:
     """The records; of those that are of one and the same record of an instrument the first, the others in error."""
-    known = [r for r in records if LANDMARKS in r]
-    marks = [Landmarks.from_json(r["file"], r[LANDMARKS]) for r in known]
-    again = {known[j]["file"]: same_record(marks[i].name, shared) for j, i, shared in repeated(marks)}
+    first: dict[str, str] = {}
     for r in records:
-        if r["file"] in again:
-            error = {"kind": "input", "message": f"{r['file']}: {again[r['file']]}"}
+        same = r["file"] if CONTENT not in r else first.setdefault(r[CONTENT], r["file"])
+        if same != r["file"]:
+            error = {"kind": "input", "message": f"{r['file']}: {same_record(same)}"}
             yield {k: r[k] for k in ("flight", "file", "sha256")} | {"error": error}
         else:
-            yield {k: v for k, v in r.items() if k != LANDMARKS}
+            yield {k: v for k, v in r.items() if k != CONTENT}
 
 
 def distinct_names(files: Sequence[str]) -> dict[str, str]:

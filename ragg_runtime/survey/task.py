@@ -32,8 +32,8 @@ from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.flight.landmarks import landmarks
 from ragg_runtime.flight.mapping import Mapped, parse_mapping
+from ragg_runtime.flight.same_record import content
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
@@ -45,11 +45,8 @@ Array = NDArray[np.float64]
 Record = dict[str, Any]
 """What a survey keeps of a flight: JSON."""
 
-LANDMARKS = "landmarks"
-"""Key of a record under which stands what another flight of the same record is known by; not part of the result."""
-
-MARKED = 64
-"""Landmarks that are kept of a flight: several, whatever part of it another file holds."""
+CONTENT = "content"
+"""Key of a record under which stands the digest of what was recorded; not part of the result."""
 
 RANKED = 5
 """Effects of the ranking that are kept."""
@@ -198,7 +195,7 @@ def _figures(f: Fitted, flight: Flight) -> Record:
     held = held_out.held_out.as_json()
     record: Record = {
         "sha256": flight.digest,
-        LANDMARKS: landmarks(flight, MARKED).as_json(),
+        CONTENT: content(flight),
         "samples": len(flight),
         "duration_s": flight.duration,
         "rate_Hz": flight.rate,
