@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.complete
 
 .DEFAULT_GOAL := help
-.PHONY: help demo studio derive check test lint bench bench-diagnosis docs clean faults fuzz fuzz-campaign package lock
+.PHONY: help demo studio derive check test lint bench bench-diagnosis docs clean faults package lock
 
 # The lock without its hashes: constraints with hashes would ask for a hash of everything else too.
 PINS := sed -n 's/^\([A-Za-z0-9._-]*==[^ ;]*\).*/\1/p' requirements.lock
@@ -85,12 +85,6 @@ bench-diagnosis: $(PEERS)  ## measure the diagnosis on 250 flights, beside other
 
 faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
 	$(BIN)/python -m tests.faults
-
-fuzz: $(STAMP)  ## fuzz the readers, five minutes (FUZZ="--seconds 600" for longer)
-	$(BIN)/python -m tests.fuzz --seconds 50 $(FUZZ)
-
-fuzz-campaign: $(STAMP)  ## a million seeded executions; goes on where it was cut off
-	$(BIN)/python -m tests.fuzz --campaign 1000000 --seconds 1e9
 
 package:  ## build wheel and sdist, install into an empty environment, run the demo there
 	PYTHON=$(PYTHON) .ci/package

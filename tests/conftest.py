@@ -30,7 +30,6 @@ FORKING = (
     "test_file_formats.py",
     "test_flight_files.py",
     "test_faults.py",
-    "test_fuzz.py",
 )
 """Files that fork again and again, which takes twice as long in a process that has derived and fitted a thousand models: these
 are begun while it is small."""

@@ -13,6 +13,8 @@ Json = dict[str, Any]
 
 def shown(s: State) -> list[Json]:
     """Every flight that is open; before it is compared, what a first look tells."""
+    if not s.flights:  # they are being read
+        return []
     observed = () if s.compared is None else s.compared.fitted.observations
     return [
         {

@@ -1,1 +1,0 @@
-"""Fuzzing of what reads files and texts of strangers: ``python -m tests.fuzz``."""
