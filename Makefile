@@ -35,16 +35,10 @@ derive: $(STAMP)  ## derive every model and generate all code anew
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
-# Two workers share the cores, and each takes whole files, whose fixtures are then made once, the longest first (tests/conftest.py):
-# threads in each, of linear algebra or our own, would only get in the way. That they change no figure, test_threads.py asks.
+# Two workers share the cores, so neither starts threads; each takes whole files, whose fixtures are then made once.
 test: export OPENBLAS_NUM_THREADS := 1
 test: export RAGG_THREADS := 1
-# Memory that was freed is kept for reuse, as `ragg` has it (base/process.py): fresh pages are a twentieth of the tests' time.
-test: export MALLOC_MMAP_THRESHOLD_ := 1073741824
-test: export MALLOC_TRIM_THRESHOLD_ := 1073741824
-test: export MALLOC_ARENA_MAX := 1
-# Byte code is kept, whatever the environment says: every process that the tests start would compile the program anew (0.6 s),
-# and either worker rewrite all assertions (4 s, from the second run on).
+# Every process that the tests start would compile the program anew.
 test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)  ## run the tests
 	$(BIN)/python -m pytest -q -n 2 --dist loadfile --no-loadscope-reorder

@@ -2,12 +2,12 @@
 
 To add one, write ``benchmarks/<name>.py``::
 
-    from benchmarks import Row
-    from benchmarks.timing import against_fixed_peer
+    from benchmarks import Row, timing
 
     def run() -> list[Row]:
         flight = ...                                       # set up, not timed
-        return against_fixed_peer({"diagnose, 30 min": lambda: diagnose(flight)}, repeats=3)
+        found = timing.interleaved({"diagnose, 30 min": lambda: diagnose(flight)}, repeats=3)
+        return [Row("diagnose, 30 min", found["diagnose, 30 min"].median, "s")]
 
 Nothing has to be registered. ``python -m benchmarks [NAME ...]`` runs all benchmarks or those named, each in a
 process of its own (so import heavy things inside ``run``; ``ENVIRONMENT``, a mapping, adds to the
@@ -15,7 +15,7 @@ environment of that process), prints tables, and keeps ``build/bench.json``; a r
 ``docs/benchmarks.md`` too. All together take 10 to 20 minutes (``make bench``).
 
 What a row should be: a time or a rate, with its spread, and beside it the *ratio to something fixed, measured
-interleaved in the same run* (``timing.interleaved``): a peer, or ``timing.fixed_peer``, since machines and their load differ.
+interleaved in the same run* (``timing.interleaved``), since machines and their load differ.
 """
 
 from __future__ import annotations
