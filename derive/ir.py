@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
@@ -249,33 +248,7 @@ def operations(m: Harmonic | Chain | Folded) -> Mapping[str, int]:
 
 
 def _operations(expressions: Iterable[sp.Expr]) -> int:
-    return sum(_counted(e) for e in expressions)
-
-
-@cache
-def _counted(e: sp.Expr) -> int:
-    """As ``sympy.count_ops``, which looks for a denominator in every product."""
-    if e.is_Symbol:
-        return 0
-    if e.is_Add:
-        negative = [_is_negative(t) for t in e.args]
-        terms = sum(_counted(-t if minus else t) for t, minus in zip(e.args, negative, strict=True))
-        return terms + len(e.args) - 1 + all(negative)
-    if e.is_Mul and all(map(_is_factor, e.args)):
-        return 1 + _counted(-e) if _is_negative(e) else len(e.args) - 1 + sum(map(_counted, e.args))
-    return int(sp.count_ops(e))
-
-
-def _is_negative(e: sp.Expr) -> bool:
-    first = e.args[0] if e.is_Mul else e
-    return bool(first.is_Number and first.is_negative)
-
-
-def _is_factor(e: sp.Expr) -> bool:
-    """Whether it stands in a numerator, whatever else it is."""
-    return bool(
-        e.is_Symbol or e.is_Integer or e.is_Add or (e.is_Pow and e.exp.is_Integer and e.exp.is_positive)
-    )
+    return sum(int(sp.count_ops(e)) for e in expressions)
 
 
 def manifest_of_model(m: Harmonic | Chain | Folded, *, counted: bool) -> Mapping[str, object]:

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
+from itertools import count
 
 import sympy as sp
 
-from derive.sharing import common
 from derive.symbols import is_taken, symbol
 
 
@@ -279,7 +279,8 @@ def _live(
 def _share(assignments: list[tuple[sp.Symbol, sp.Expr]], outputs: list[tuple[str, sp.Expr]]) -> Program:
     """Common subexpressions, each assigned just before its first use."""
     expressions = [e for _, e in assignments] + [e for _, e in outputs]
-    shared, reduced = common(expressions)
+    names = (symbol(f"x{n}") for n in count())
+    shared, reduced = sp.cse(expressions, symbols=names, order="canonical")
     pending = dict(shared)
     placed: list[tuple[sp.Symbol, sp.Expr]] = []
 
