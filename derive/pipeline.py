@@ -7,11 +7,9 @@ with a list of effects. Both are pure: a mapping from path to text, the same byt
 from __future__ import annotations
 
 import dataclasses
-import gc
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy
@@ -43,18 +41,6 @@ FULL = "full"
 """Folder of the packaged model of full kinematics."""
 
 
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Without looking for cycles: a derivation makes a million small objects and hardly any, a seventh of its time."""
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()
-
-
 @dataclass(frozen=True)
 class Form:
     """What a model keeps: at which order, and whose rotation its accelerometers feel."""
@@ -67,7 +53,6 @@ class Form:
 PAPERS = Form()
 
 
-@_uncollected()
 def derive_base() -> Files:
     """The packaged models: analytical and simplified (Python, C, LaTeX), chain, signatures, manifest.
 
@@ -87,7 +72,6 @@ def derive_base() -> Files:
     return dict(sorted({**own, **below}.items()))
 
 
-@_uncollected()
 def derive_model(effects: Sequence[Effect], candidates: Sequence[Effect], form: Form = PAPERS) -> Files:
     """A model with ``effects``: its chain, and the signatures of the ``candidates`` in it (none: no file).
 
