@@ -35,9 +35,8 @@ derive: $(STAMP)  ## derive every model and generate all code anew
 check: $(STAMP)  ## does the committed code match the derivation?
 	$(BIN)/ragg derive --check
 
-# Two workers share the cores, so neither starts threads; each takes whole files, whose fixtures are then made once.
+# Two workers share the cores, so neither starts threads of linear algebra; each takes whole files, whose fixtures are then made once.
 test: export OPENBLAS_NUM_THREADS := 1
-test: export RAGG_THREADS := 1
 # Every process that the tests start would compile the program anew.
 test: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)  ## run the tests

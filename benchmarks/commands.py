@@ -139,7 +139,7 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
     spent: dict[int, list[float]] = {SHORT: [], LONG: []}
     for _ in range(REPEATS + 1):
         for samples, command in commands.items():
-            spent[samples].append(_processor(command, {"RAGG_THREADS": "1"}))
+            spent[samples].append(_processor(command))
     brief, long = (spent[n][1:] for n in (SHORT, LONG))
     further = [(b - a) / (LONG - SHORT) for a, b in zip(brief, long, strict=True)]
     each = (statistics.median(long) - statistics.median(brief)) / (LONG - SHORT)

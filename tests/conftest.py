@@ -15,7 +15,7 @@ import derive  # noqa: F401  (tells SymPy how much to remember, which must be be
 
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
-gc.set_threshold(20_000)  # as the commands have it (base/process.py)
+gc.set_threshold(20_000)  # what is imported lives until the end, and need not be looked through often
 
 # Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
 # worker has derived and compiled the others find.
@@ -46,7 +46,6 @@ DEAREST = (
     "test_compensate.py",
     "test_real_measurements.py",
     "test_readme.py",
-    "test_threads.py",
     "test_report.py",
     "test_layout_machine_code.py",
     "test_studio_server.py",

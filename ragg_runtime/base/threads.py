@@ -1,19 +1,13 @@
-"""Threads, and the same figures however many of them there are.
+"""Linear algebra on one thread, and series in stretches.
 
-Work that is divided (segments of a flight, motions to compare) is given back in the order in which it was
-asked for, and only then summed; linear algebra runs in one thread, because BLAS splits its sums by the
-number of threads.
+BLAS splits its sums by the number of its threads, and the last digits follow; work is on one, so that figures are the same on
+any machine.
 """
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import os
-import threading
-from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable
 from typing import ParamSpec, TypeVar
 
 import scipy.linalg  # noqa: F401  (brings a BLAS of its own, which must be there to be limited)
@@ -21,66 +15,6 @@ import threadpoolctl
 
 P = ParamSpec("P")
 R = TypeVar("R")
-T = TypeVar("T")
-
-VARIABLE = "RAGG_THREADS"
-"""Environment variable: the number of threads (default: one per processor, at most ``MOST``)."""
-
-MOST = 2
-"""Most threads unless asked for: each takes some 150 MB on a long flight."""
-
-_here = threading.local()
-
-
-def count() -> int:
-    """How many threads the work may be divided among; one within work that is divided already."""
-    if getattr(_here, "divided", False):
-        return 1
-    given = os.environ.get(VARIABLE, "")
-    if given.isdigit() and int(given) > 0:
-        return int(given)
-    return min(
-        MOST, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    )
-
-
-@contextlib.contextmanager
-def alone() -> Iterator[None]:
-    """Work on one thread here: what is done is one of several things that are done at a time."""
-    before = getattr(_here, "divided", False)
-    _here.divided = True
-    try:
-        yield
-    finally:
-        _here.divided = before
-
-
-def mapped(function: Callable[[T], R], items: Sequence[T]) -> Iterator[R]:
-    """``function`` of every item, in order, several at a time; few are begun before they are asked for.
-
-    Items are begun in order: one may wait for what those before it do.
-    """
-    threads = count()
-    if threads == 1 or len(items) == 1:
-        yield from map(function, items)
-        return
-
-    def within(item: T) -> R:
-        with alone():
-            return function(item)
-
-    with ThreadPoolExecutor(threads) as pool:
-        waiting: deque[Future[R]] = deque()
-        try:
-            for item in items:
-                waiting.append(pool.submit(within, item))
-                if len(waiting) > threads:
-                    yield waiting.popleft().result()
-            while waiting:
-                yield waiting.popleft().result()
-        finally:
-            for future in waiting:
-                future.cancel()
 
 
 def stretches(length: int, most: int) -> list[slice]:

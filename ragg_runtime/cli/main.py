@@ -5,6 +5,7 @@ Results go to stdout, progress to stderr; the exit status is 0, 1 (a fault of ou
 
 from __future__ import annotations
 
+import os
 import sys
 import traceback
 from collections.abc import Mapping, Sequence
@@ -14,7 +15,6 @@ from types import MappingProxyType
 import click
 
 from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.base.process import collect_seldom, no_idle_threads, reuse_memory
 from ragg_runtime.cli.boundary import hold_streams, refusal
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
@@ -76,9 +76,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Entry point: never a traceback for bad input."""
     hold_streams()
     try:
-        reuse_memory()
-        collect_seldom()
-        no_idle_threads()
+        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+            os.environ.setdefault(name, "1")  # before NumPy is imported: its threads would turn idly
         cli.main(args=None if arguments is None else list(arguments), prog_name="ragg", standalone_mode=False)
     except UserError as error:
         click.echo(printable(f"ragg: {error}"), err=True)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import mapped, one_thread
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
 from ragg_runtime.compensation.calibrated import information, inverse
 from ragg_runtime.compensation.saved import Saved
@@ -186,7 +186,8 @@ class Compensated:
         """The compensated series, segment after segment, in order of time."""
         holes = not bool(np.all(self.setting.observation.record.valid))
         parts = [x.rows for x in self._parts(self._rows())]
-        for x in mapped(lambda rows: series(self.setting, rows, holes=holes), parts):
+        for rows in parts:
+            x = series(self.setting, rows, holes=holes)
             self._count(x)
             progress.step(float(len(x.quality)))
             yield x

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
-from ragg_runtime.base.threads import mapped, one_thread
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis.next_motion import AT_REST, AXES, RATIOS, Pairs, Sinusoid, kind
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit.fitted import Fitted
@@ -93,7 +93,7 @@ def design(
         there = asked.separations(asked.rows(motion, duration=duration))
         return float(np.sum(np.log1p(np.square(there))))
 
-    alone = list(mapped(worth, [[(*t, 0.0)] for t in tones]))
+    alone = [worth([(*t, 0.0)]) for t in tones]
     best = sorted(range(len(tones)), key=lambda n: (-alone[n], n))[:CANDIDATES]
     tones = [tones[n] for n in sorted(best)]
     found = max((_climbed(worth, tones, limits, x) for x in _starts(tones, alone, best)), key=lambda x: x[1])
@@ -144,8 +144,8 @@ def _climbed(
     """Shares where the criterion is largest, and its value there."""
 
     def slopes(x: Array) -> Array:
-        here, *there = mapped(
-            lambda y: worth(multisine(tones, y, least=0.0)), [x, *(x + STEP * e for e in np.eye(len(x)))]
+        here, *there = (
+            worth(multisine(tones, y, least=0.0)) for y in [x, *(x + STEP * e for e in np.eye(len(x)))]
         )
         return (np.array(there) - here) / STEP
 

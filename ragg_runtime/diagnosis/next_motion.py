@@ -15,7 +15,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import Point, linearised
@@ -219,7 +218,7 @@ def proposals(
         for ratio in RATIOS
         if ratio * spin <= HIGHEST * rate
     ]
-    still, *moving = mapped(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
+    still, *moving = map(separations, [(), *([(axis, k * spin, size, 0.0)] for axis, k, size in motions)])
     found = []
     for n, ((e, r), now) in enumerate(zip(asked.known, asked.separations(), strict=True)):
         best = max(range(len(motions)), key=lambda m: moving[m][n], default=None)

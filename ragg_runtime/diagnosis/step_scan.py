@@ -9,7 +9,6 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import mapped
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence import steps as special
 from ragg_runtime.evidence.selection import Field, field_of, testable_effects
@@ -117,7 +116,7 @@ def _scanned(
     # By itself, unless it explains far more beside the first choice.
     return [
         ways[-1] if ways[-1][0].test.log_p < ways[0][0].test.log_p - BESIDE else ways[0]
-        for ways in zip(*mapped(steps, [[], first] if first else [[]]), strict=True)
+        for ways in zip(*map(steps, [[], first] if first else [[]]), strict=True)
     ]
 
 

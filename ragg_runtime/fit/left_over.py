@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft, linalg
 
-from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
@@ -191,16 +191,13 @@ def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
     some = np.unique(np.r_[0 : min(bins, EVERY // 2), np.geomspace(1, bins, EVERY).astype(np.intp) - 1])
     waves = np.empty((len(columns), len(some)), dtype=np.complex128)
 
-    def seen(group: slice) -> None:
+    for group in stretches(len(columns), GROUP):
         part = columns[group] * window[valid]
         if not valid.all():
             x = np.zeros((len(part), n))
             x[:, valid] = part
             part = x
         waves[group] = fft.rfft(part, size, axis=1)[:, some]
-
-    for _ in mapped(seen, stretches(len(columns), GROUP)):
-        pass
     spanned = directions.T @ waves.view(np.float64)  # real and imaginary parts side by side: half the work
     taken = np.einsum("ij,ij->j", spanned, spanned).reshape(-1, 2).sum(axis=1)
     left = (np.sum(window[valid] ** 2) - taken) / np.sum(window**2)

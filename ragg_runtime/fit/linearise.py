@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.observation import Observation, Thin, bridged
@@ -201,14 +200,11 @@ def linearised(at: Point, o: Observation) -> Array:
     every = not o.recorded.separate and len(o.output.members) == at.instrument.layout.size
     columns = (np.empty if every else np.zeros)((len(base) + len(candidates) + 1, len(o.series), len(r.time)))
 
-    def evaluated(some: slice) -> None:
+    for some in stretches(len(r.time), CACHED):
         for x in modules:
             x.put(columns, o, some)
         if o.thin is None:
             chain.predict(columns[-1], o, some)
-
-    for _ in mapped(evaluated, stretches(len(r.time), CACHED)):
-        pass
     if o.recorded.demodulated:
         for k in range(len(columns)):
             columns[k] = o.recorded.through(columns[k], r)
@@ -233,29 +229,21 @@ def _left_of_the_whole(at: Point, thin: Thin, residual: Array) -> None:
     """
     known = _known(at, thin)
 
-    def put(some: slice) -> None:
+    for some in stretches(residual.shape[1], PART):
         part = thin.part(some)
         rows = (part.rows.start, part.rows.stop)
         if rows not in known:
             known[rows] = part.kept(left(at, part.source(at.channels)))
         residual[:, some] = known[rows]
 
-    for _ in mapped(put, stretches(residual.shape[1], PART)):
-        pass
-
 
 def _known(at: Point, thin: Thin) -> dict[tuple[int, int], Array]:
     """What is known of the residual about a point: every pass over a long flight asks for the same again."""
-    with _ONE_THREAD:
-        found = thin.memo.pop(at.name, {})
-        while len(thin.memo) >= REMEMBERED:  # what was asked for longest ago
-            del thin.memo[next(iter(thin.memo))]
-        thin.memo[at.name] = found
-        return found
-
-
-_ONE_THREAD = Lock()
-"""Segments are worked on in several."""
+    found = thin.memo.pop(at.name, {})
+    while len(thin.memo) >= REMEMBERED:  # what was asked for longest ago
+        del thin.memo[next(iter(thin.memo))]
+    thin.memo[at.name] = found
+    return found
 
 
 def left(at: Point, o: Observation) -> Array:

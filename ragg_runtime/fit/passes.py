@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -11,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.threads import mapped
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.linearise import Point, linearised
 from ragg_runtime.fit.observation import Observation, as_output
 from ragg_runtime.fit.segments import ROWS, THINNER, Segment, segments, spread
-from ragg_runtime.fit.square_root import of_stretches
+from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.fit.unknown_gradient import Window
 from ragg_runtime.model.record import Record
 from ragg_runtime.signals.fir import filtered
@@ -64,7 +62,7 @@ class Piece:
         ends = (first, self.segment.rows.stop if stop is None else stop)
         a, b = (int(k) for k in np.searchsorted(self.sample[:valid], ends))
         begins = range(0, max(1, self.white.shape[1]), max(1, valid))  # of every output
-        return of_stretches([self.white[:, k + a : k + b] for k in begins])
+        return triangle(np.concatenate([self.white[:, k + a : k + b] for k in begins], axis=1))
 
     @property
     def residual(self) -> Array:
@@ -135,7 +133,7 @@ def passed(
     whitened: bool = True,
     effort: float = 0.0,
 ) -> Iterator[R]:
-    """What ``work`` makes of every segment of a flight, in order; several segments are worked on at a time.
+    """What ``work`` makes of every segment of a flight, in order.
 
     ``chosen`` are some of the segments, in order: filters take what lies between them for zeros. If ``whitened`` is not
     wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes ``effort`` times as long as what
@@ -145,21 +143,18 @@ def passed(
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)
     found = flight_segments(o) if chosen is None else chosen
     memory = max(len(t) for t in noise.filters) - 1 if whitened else 0
-    tails: list[Future[Array | None]] = [Future() for _ in found]
-
-    def one(k: int) -> R:
-        s = found[k]
+    tail: Array | None = None
+    before = 0
+    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
+    for s in found:
         part = o.part(s.rows)
         columns = linearised(at, part)
         flat, sample = np.empty((len(columns), 0)), np.empty(0, dtype=np.intp)
         windows = unknown_gradient.windows(o, s.rows, noise)
         if whitened:
-            tail = None
-            if k and memory:  # the segment before was begun before
-                tail = _past(tails[k - 1].result(), s.rows.start - found[k - 1].rows.stop, memory)
-                tails[k - 1] = Future()  # its memory is free again
-            tails[k].set_result(_carried(tail, columns, memory))
+            tail = _past(tail, s.rows.start - before, memory)
             flat = _white(columns, heard, noise, tail, part.record, windows)
+            tail, before = _carried(tail, columns, memory), s.rows.stop
             sample = np.tile(np.flatnonzero(part.record.valid) + s.rows.start, len(noise.filters))
         piece = Piece(
             segment=s,
@@ -171,18 +166,7 @@ def passed(
             windows=windows,
             heard=heard,
         )
-        return work(piece)
-
-    def guarded(k: int) -> R:
-        try:
-            return one(k)
-        except BaseException as error:
-            if not tails[k].done():
-                tails[k].set_exception(error)
-            raise
-
-    share = (1.0 if at.with_candidates else 0.4) * (1.0 if whitened else 0.5) * (1.0 + effort)
-    for s, made in zip(found, mapped(guarded, range(len(found))), strict=True):
+        made = work(piece)
         progress.step(share * (s.rows.stop - s.rows.start))
         yield made
 

@@ -9,7 +9,6 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.base.threads import mapped
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.linearise import Point
@@ -117,13 +116,14 @@ def blocks(prepared: PreparedFlight) -> tuple[tuple[Array, ...], Array]:
 
     def own(piece: Piece) -> list[tuple[int, Array, Array]]:
         first = piece.segment.rows.start
-
-        def of_block(block: tuple[int, slice]) -> tuple[int, Array, Array]:
-            b, rows = block
-            sums = piece.sums(slice(rows.start - first, rows.stop - first))
-            return b, piece.triangle(rows.start, rows.stop), sums
-
-        return list(mapped(of_block, piece.segment.blocks))
+        return [
+            (
+                b,
+                piece.triangle(rows.start, rows.stop),
+                piece.sums(slice(rows.start - first, rows.stop - first)),
+            )
+            for b, rows in piece.segment.blocks
+        ]
 
     triangles: list[Array | None] = [None] * BLOCKS
     totals: list[Array | float] = [0.0] * BLOCKS

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
-from ragg_runtime.base.threads import mapped
-from ragg_runtime.fit.lapack import entered
 from ragg_runtime.signals.fir import not_zero
 
 Array = NDArray[np.float64]
@@ -39,58 +38,31 @@ def orthonormal(columns: Array) -> Array:
 CHUNK = 2048
 """Rows that enter a triangle at a time: so many that it is passed through seldom, so few that they stay in the cache."""
 
-WORTH_TWO = 2 * CHUNK
-"""Rows of a triangle from which it is made of two, a thread each."""
-
-MANY = 8
-"""Trapezoids from which they are folded in two halves, a thread each: below, a thread costs more than it saves."""
+PANEL = 32
+"""Columns that LAPACK eliminates at a time."""
 
 
 def triangle(columns: Array) -> Array:
     """Triangular factor (n, n) of columns (n, rows): the same inner products in n rows. What is zero stays so, without work."""
     some = not_zero(columns)
-    R = _of_some(columns, some)
-    if some.all():
-        return R
+    k = np.count_nonzero(some)
+    R = np.zeros((k, k), order="F")
+    for start in range(0, columns.shape[1], CHUNK):
+        R = _entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
     T = np.zeros((len(columns),) * 2)
     T[np.ix_(some, some)] = R
     return T
 
 
-def of_stretches(stretches: Sequence[Array]) -> Array:
-    """The triangle (n, n) of stretches of rows, (n, rows) each, each by the columns that are not zero in it: of voltages, one after
-    the other, a quarter to a half of all.
+def _entered(R: Array, part: Array, trapezoid: int = 0) -> Array:
+    """The factor of the rows of R (n, n), upper triangular, and of ``part`` (m, n), both in Fortran's order and used up.
+
+    The last ``trapezoid`` rows of ``part`` are an upper trapezoid, whose zeros stay.
     """
-    if len(stretches) == 1:
-        return triangle(stretches[0])
-    n, own = len(stretches[0]), [not_zero(x) for x in stretches]
-    if any(x.shape[1] < np.count_nonzero(some) for x, some in zip(stretches, own, strict=True)):
-        return triangle(np.concatenate(stretches, axis=1))
-    trapezoids = []
-    for x, some in zip(stretches, own, strict=True):
-        if some.any():
-            trapezoids.append(np.zeros((np.count_nonzero(some), n)))
-            trapezoids[-1][:, some] = _of_some(x, some)
-    return fold(trapezoids) if trapezoids else np.zeros((n, n))
-
-
-def _of_some(columns: Array, some: NDArray[np.bool_]) -> Array:
-    """(k, k): the triangle of k of the columns (n, rows)."""
-    rows = columns.shape[1]
-    if rows < WORTH_TWO:
-        return _eliminated(columns, some)
-    # however many threads there are: the same bytes
-    halves = (columns[:, : rows // 2], columns[:, rows // 2 :])
-    return fold(list(mapped(lambda half: _eliminated(half, some), halves)))
-
-
-def _eliminated(columns: Array, some: NDArray[np.bool_]) -> Array:
-    """The same, from the first row to the last."""
-    k = np.count_nonzero(some)
-    R = np.zeros((k, k), order="F")
-    for start in range(0, columns.shape[1], CHUNK):
-        entered(R, np.asfortranarray(columns[some, start : start + CHUNK].T))
-    return R
+    if not part.size:
+        return R
+    panel = min(PANEL, len(R))
+    return np.asarray(linalg.lapack.dtpqrt(trapezoid, panel, R, part, overwrite_a=True, overwrite_b=True)[0])
 
 
 def join(blocks: Sequence[Array]) -> Array:
@@ -102,19 +74,12 @@ def join(blocks: Sequence[Array]) -> Array:
 
 def fold(trapezoids: Sequence[Array]) -> Array:
     """The same of upper trapezoids, row i of which is zero before column i: a fourth of the work, as the zeros stay."""
-    if len(trapezoids) < MANY:
-        return _folded(trapezoids)
-    half = len(trapezoids) // 2
-    return _folded(list(mapped(_folded, (trapezoids[:half], trapezoids[half:]))))
-
-
-def _folded(trapezoids: Sequence[Array]) -> Array:
     first, *others = trapezoids
     n = first.shape[1]
     R = np.zeros((n, n), order="F")
     R[: len(first)] = first
     for t in others:
-        entered(R, np.array(t, order="F"), len(t))
+        R = _entered(R, np.array(t, order="F"), len(t))
     return R
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit.disturbances import disturbances
 from ragg_runtime.fit.linearise import Point, left, linearised
 from ragg_runtime.fit.observation import Observation, Thin, bridged
@@ -134,7 +134,7 @@ def beyond(model: Model, instrument: Instrument, p: Array, o: Observation) -> fl
         square = ((e[inner] - slow) * (e[inner] + slow))[part.record.valid[inner]]
         return np.array([np.sum(square), len(square)])
 
-    square, count = sum(mapped(taken, heard(whole)), np.zeros(2))
+    square, count = sum(map(taken, heard(whole)), np.zeros(2))
     found = max(0.0, float(square) / max(float(count), 1.0))
     o.thin.taken[at.name] = found
     return found
@@ -184,7 +184,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
     series = [np.empty(size) for x in o.series]
     wide = {n: np.empty(size) for n, x in channels.items()}
 
-    def put(some: slice) -> None:
+    for some in stretches(size, BLOCK):
         rows = thin.part(some).span
         there = np.array(r.valid[rows])
         for x, found in zip(o.series, series, strict=True):
@@ -193,9 +193,6 @@ def _kept(o: Observation, thin: Thin) -> Observation:
             whole = _whole(x[rows], there)
             # of a disc's angle turns may be missing
             wide[n][some] = thin.kept(np.unwrap(whole) if is_disc_angle(n) else whole)
-
-    for _ in mapped(put, stretches(size, BLOCK)):
-        pass
     record = replace(
         r,
         time=time,

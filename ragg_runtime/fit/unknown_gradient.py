@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import interpolate
 
-from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit.disturbances import Disturbance
 from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.square_root import orthonormal
@@ -154,7 +154,7 @@ def _windows(o: Observation, rows: slice, noise: Noise) -> list[Window]:
         samples = slice(a - rows.start, b - rows.start)
         return Window(samples, plain, places, orthonormal(np.concatenate(parts, axis=1)))
 
-    return [w for w in mapped(window, list(pairwise(edges))) if w is not None]
+    return [w for w in map(window, pairwise(edges)) if w is not None]
 
 
 def _lines(o: Observation, noise: Noise, rows: slice) -> Array:
@@ -187,17 +187,13 @@ def _shares(o: Observation, X: Array) -> list[Array]:
 
 def project(columns: Floats, found: Sequence[Window]) -> None:
     """Take what an unknown gradient spans out of whitened columns (n, rows), in place."""
-
-    def project_out(w: Window) -> None:
+    for w in found:
         Q = w.white.astype(columns.dtype, copy=False)
         for some in stretches(len(columns), TOGETHER):
             part = columns[some, w.rows]
             part -= np.matmul(np.matmul(part, Q), Q.T)
             if not isinstance(w.rows, slice):  # then ``part`` is a copy
                 columns[some, w.rows] = part
-
-    for _ in mapped(project_out, found) if found else ():
-        pass
 
 
 def without(e: Array, found: Sequence[Window], valid: NDArray[np.bool_]) -> Array:

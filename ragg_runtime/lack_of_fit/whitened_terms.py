@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.base.threads import count, mapped, stretches
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit import unknown_gradient
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
@@ -114,10 +114,7 @@ class Directions:
         lead = min(rows.start, max(len(t) for t in self.filters) - 1)
         wide = self.whole.record.part(slice(rows.start - lead, rows.stop)) if lead else o.record
         valid = o.record.valid
-        chunks = self.dictionary.chunks(wide, terms)
-
-        def through(k: int) -> tuple[slice, Singles, Singles]:
-            at, x = chunks[k]
+        for at, x in self.dictionary.chunks(wide, terms):
             if o.recorded.demodulated:  # what the recorder made of G_out before it was recorded
                 x = o.recorded.through(x.astype(np.float64), wide).astype(np.float32)
                 x[:, ~wide.valid] = 0.0
@@ -125,9 +122,7 @@ class Directions:
                 _kept(self._even(filtered(x, np.asarray(w * taps), lead=lead)), valid)
                 for w, taps in zip(self.weights, self.filters, strict=True)
             ]
-            return at, x[:, lead:], self._without_gradient(parts)
-
-        yield from mapped(through, range(len(chunks)))
+            yield at, x[:, lead:], self._without_gradient(parts)
 
     def _even(self, X: Singles) -> Singles:
         return X if isinstance(self.level, float) else np.asarray(X / self.level.astype(np.float32))
@@ -135,11 +130,8 @@ class Directions:
     def periodic(self, terms: Sequence[Term]) -> Iterator[tuple[slice, Singles, Singles]]:
         """As :meth:`whitened`, through the periodic filter."""
         for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
-            spectrum = fft.rfft(x[:, : self.size], axis=1, workers=count())
-            parts = [
-                fft.irfft(spectrum * g.astype(np.complex64), self.size, axis=1, workers=count())
-                for g in self.gains
-            ]
+            spectrum = fft.rfft(x[:, : self.size], axis=1)
+            parts = [fft.irfft(spectrum * g.astype(np.complex64), self.size, axis=1) for g in self.gains]
             parts = [np.pad(X, ((0, 0), (0, self.samples - self.size))) for X in parts]
             yield at, x, self._without_gradient(parts)
 
@@ -159,30 +151,21 @@ class Directions:
         power = np.sum([np.abs(g) ** 2 for g in self.gains], axis=0) / self.size
         power[1 : len(power) - (self.size % 2 == 0)] *= 2.0
         weight = np.sqrt(power).astype(np.float32)
-        chunks = self.dictionary.chunks(self.piece.observation.record, terms)
-
-        def scored(k: int) -> tuple[slice, Singles, Array, Array]:
-            at, x = chunks[k]
-            spectrum = fft.rfft(x[:, : self.size], axis=1, workers=count()) * weight
+        for at, x in self.dictionary.chunks(self.piece.observation.record, terms):
+            spectrum = fft.rfft(x[:, : self.size], axis=1) * weight
             norm2 = squares(spectrum.view(np.float32))
             for Z, starts in lost:
                 norm2 -= np.sum(products(x, Z, starts) ** 2, axis=1)
-            return at, x, products(x, back), norm2
-
-        yield from mapped(scored, range(len(chunks)))
+            yield at, x, products(x, back), norm2
 
     def _back(self, right: Array, places: NDArray[np.intp] | None = None) -> Array:
         """(N, k): columns over whitened rows (all, or those at ``places``) through the transposed filter."""
         m, n, size = len(self.gains), self.samples, self.size
         back, columns = np.conj(np.stack(self.gains)), right.T
         found = np.zeros((len(columns), n))
-
-        def through(some: slice) -> None:
+        for some in stretches(len(columns), GROUP):
             full = np.zeros((some.stop - some.start, m * n))
             full[:, slice(None) if places is None else places] = columns[some]
             waves = fft.rfft(full.reshape(-1, m, n)[:, :, :size], axis=2) * back
             found[some, :size] = fft.irfft(np.sum(waves, axis=1), size, axis=1)
-
-        for _ in mapped(through, stretches(len(columns), GROUP)):
-            pass
         return found.T

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import mapped, one_thread
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.angular_acceleration import planned
 from ragg_runtime.flight.record import ANGULAR_ACCELERATION, ANGULAR_RATE, SPECIFIC_FORCE
@@ -119,11 +119,9 @@ def _without_motion_spikes(flight: Flight) -> Flight:
     channels, valid = dict(flight.channels), flight.valid.copy()
     notes: dict[str, str] = {}
 
-    def looked_through(name: str) -> tuple[Mask, Array]:
-        return glitches(flight.channels[name], flight.valid)
-
     names = [n for n in (*SPECIFIC_FORCE, *ANGULAR_RATE, *ANGULAR_ACCELERATION) if n in channels]
-    for name, (mask, x) in zip(names, mapped(looked_through, names), strict=True):
+    for name in names:
+        mask, x = glitches(flight.channels[name], flight.valid)
         if not mask.any():
             continue
         channels[name] = x

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
 from ragg_runtime.fit import columns as design
-from ragg_runtime.fit.square_root import of_stretches
+from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -201,7 +200,7 @@ def _fitted(rows: Rows, columns: Array, nominal: Array, eotvos: float) -> tuple[
     inner = rows.inner
     X = columns[:, :, inner].reshape(len(columns), -1)
     y = ((rows.data[:, inner] - nominal[:, inner]) / eotvos).reshape(-1)
-    theta, kept = robust(X, y, len(columns[0]) if rows.recorded.separate else 1)
+    theta, kept = robust(X, y)
     left = (y - theta @ X)[kept]
     size = rows.data[:, inner] / eotvos
     size = size - np.mean(size, axis=1, keepdims=True)
@@ -225,34 +224,26 @@ def _gradient(rows: Rows) -> list[Array]:
     return [rows.before_demodulation(x, None) for x in carriers]
 
 
-def robust(X: Array, y: Array, voltages: int = 1) -> tuple[Array, NDArray[np.bool_]]:
-    """Coefficients (n,) of columns X (n, rows), and the rows that are no outliers of the fit; ``voltages``: of how many outputs,
-    one after the other, most of whose columns are zero in all but one, the rows are.
-    """
+def robust(X: Array, y: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Coefficients (n,) of columns X (n, rows), and the rows that are no outliers of the fit."""
     kept = np.ones(len(y), dtype=np.bool_)
-    theta = shrunken(X, y, _edges(kept, voltages))
+    theta = shrunken(X, y)
     for _ in range(10):
         left = np.abs(y - theta @ X)
         now = left <= OUTLIER * float(np.quantile(left, QUARTILE)) / QUARTILE_OF_NORMAL
         if np.array_equal(now, kept) or np.sum(now) < 2 * len(X):
             break
         kept = now
-        theta = shrunken(X[:, kept], y[kept], _edges(kept, voltages))
+        theta = shrunken(X[:, kept], y[kept])
     return theta, kept
 
 
-def _edges(kept: NDArray[np.bool_], voltages: int) -> list[int]:
-    """Where among the kept rows those of each of so many outputs begin, and the last end."""
-    return [0, *np.cumsum(np.count_nonzero(kept.reshape(voltages, -1), axis=1)).tolist()]
-
-
-def shrunken(X: Array, y: Array, edges: Sequence[int] = ()) -> Array:
+def shrunken(X: Array, y: Array) -> Array:
     """Coefficients (n,) of columns X (n, rows), each with a prior of unit width; y's noise is estimated.
 
     The noise is what the fit leaves: starting from "all is noise" it falls until fit and noise agree.
     """
-    rows = np.vstack([X, y])
-    R = of_stretches([rows[:, a:b] for a, b in pairwise(edges or (0, len(y)))])
+    R = triangle(np.vstack([X, y]))
     n = len(X)
     U, s, Vt = np.linalg.svd(R[:n, :n])
     d = U.T @ R[:n, n]

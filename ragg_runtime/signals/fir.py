@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ragg_runtime.base.threads import mapped, stretches
+from ragg_runtime.base.threads import stretches
 
 Array = NDArray[np.float64]
 Floats = TypeVar("Floats", NDArray[np.float64], NDArray[np.float32])
@@ -58,20 +58,16 @@ def filtered(columns: Floats, taps: Array, tail: Floats | None = None, lead: int
     size = fft.next_fast_len(before + n + max(0, reach - 1 - before - lead), real=True)
     gain = fft.rfft(taps[:reach].astype(columns.dtype), size)
     result = np.empty((len(columns), n - lead), dtype=columns.dtype)
-
-    def through(some: slice) -> None:
+    for some in stretches(len(columns), GROUP * max(1, AT_A_TIME // (GROUP * size))):
         if not own[some].any():
             result[some] = 0.0
-            return
+            continue
         part = columns[some]
         if tail is not None:
             part = np.concatenate([tail[some], part], axis=1)
         waves = fft.rfft(part, size, axis=1)
         waves *= gain
         result[some] = fft.irfft(waves, size, axis=1)[:, before + lead : before + n]
-
-    for _ in mapped(through, stretches(len(columns), GROUP * max(1, AT_A_TIME // (GROUP * size)))):
-        pass
     return result
 
 

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 import ragg_runtime
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.threads import alone, one_thread
+from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.diagnosis.diagnose import diagnose_fitted
 from ragg_runtime.diagnosis.parameters import SEEN, ParameterValue, parameter_values, visible_combinations
@@ -124,8 +124,7 @@ def examine(given: Job, file: str) -> Record:
                 expected="a file system that all workers share, under the same path",
                 remedy="put the flights where every worker can read them, or survey without --scheduler",
             )
-        with alone():
-            return record | _diagnosed(given, path, line)
+        return record | _diagnosed(given, path, line)
     except UserError as error:
         return record | {"error": {"kind": "input", "message": error.message}}
     except (MemoryError, OSError):
