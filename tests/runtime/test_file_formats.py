@@ -11,9 +11,7 @@ from pathlib import Path
 import numpy as np
 import openpyxl
 import pytest
-from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.convert import convert
@@ -77,17 +75,6 @@ def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None
     same(expected(tables), found, rtol=1e-15 if ending == ".xlsx" else 0.0)  # openpyxl writes 16 digits
 
 
-@settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
-@given(values=arrays(np.float64, st.integers(2, 12), elements=numbers), ending=st.sampled_from(WRITTEN))
-def test_any_number_comes_back_to_the_last_bit(
-    tmp_path_factory: pytest.TempPathFactory, values: np.ndarray, ending: str
-) -> None:
-    path = tmp_path_factory.mktemp("bits") / f"x{ending}"
-    tables = [Written([(Column("time", "s"), np.arange(len(values)) * 0.1), (Column("v", "V"), values)])]
-    write_tables(path, tables)
-    same(expected(tables), content(path))
-
-
 @pytest.mark.parametrize("pair", list(itertools.pairwise((*WRITTEN, WRITTEN[0]))))
 def test_converted_there_and_back(tmp_path: Path, pair: tuple[str, str]) -> None:
     first, second = (tmp_path / f"{n}{e}" for n, e in zip("ab", pair, strict=True))
@@ -97,13 +84,6 @@ def test_converted_there_and_back(tmp_path: Path, pair: tuple[str, str]) -> None
     assert (told.lines, told.rows) == (2, 51)
     convert(second, back)
     same(content(first), content(back))
-
-
-@pytest.mark.parametrize("ending", [e for e in WRITTEN if e != ".nc"])
-def test_equal_tables_give_equal_files(tmp_path: Path, ending: str) -> None:
-    for name in "ab":
-        write_tables(tmp_path / f"{name}{ending}", made(20, ("1", "2")))
-    assert (tmp_path / f"a{ending}").read_bytes() == (tmp_path / f"b{ending}").read_bytes()
 
 
 def test_every_ending_is_of_one_format() -> None:

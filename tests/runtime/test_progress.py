@@ -7,25 +7,6 @@ import time
 import pytest
 
 from ragg_runtime.base import progress
-from ragg_runtime.diagnosis import comparison, diagnose
-from ragg_runtime.fit import observation, passes, prepared_flight
-from ragg_runtime.model import model
-from ragg_runtime.reference.scenario import scenario
-
-
-def test_a_command_does_about_as_many_passes_as_foretold(monkeypatch: pytest.MonkeyPatch) -> None:
-    s = scenario(61, duration=300.0)
-    flight = s.simulate({"thermal-scale": {"dK1_dT": [0, 0, 2e-7, 0]}}).flight()
-    for module in (passes, prepared_flight, observation):
-        monkeypatch.setattr(module, "ROWS", 1700)
-    told: list[float] = []
-    for name, run in (("compare", comparison.compare), ("diagnose", diagnose.diagnose)):
-        told.clear()
-        token = progress._listener.set(told.append)
-        run(model.packaged(), s.sheet, [flight])
-        progress._listener.reset(token)
-        assert len(told) > 20
-        assert 0.5 < sum(told) / len(flight) / progress.PASSES[name] < 1.6
 
 
 def test_lines_tell_share_and_time_left(
