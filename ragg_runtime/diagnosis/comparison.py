@@ -282,22 +282,7 @@ def disturbed(f: Fitted) -> str | None:
         for x, text in zip(f.prepared, found, strict=True)
         if text is not None
     ]
-    return "; ".join([*said, *_digits(f)]) or None
-
-
-def _digits(f: Fitted) -> list[str]:
-    """That the noise is mostly the digits that were written, in words."""
-    found = []
-    for x, r, k_ggi in zip(f.prepared, f.rounding, f.scales, strict=True):
-        o = x.observation
-        if r.worst is None or not r.prevails(fitted.estimated(x)):
-            continue
-        which = "" if len(f.prepared) == 1 else f"{o.name}: "
-        found.append(
-            f"{which}the digits of the file make {r.rms / k_ggi:.3g} Eo of what is taken for noise, most of it"
-            f" {o.digits.columns[r.worst].words(r.worst)}"
-        )
-    return found
+    return "; ".join(said) or None
 
 
 def nominal_residual(f: Fitted, p: Array, piece: Piece) -> Array:

@@ -19,7 +19,6 @@ from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.off_sheet import QUIET, widened
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight
-from ragg_runtime.fit.rounding import Rounding, rounding
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
@@ -156,11 +155,6 @@ class Fitted:
     def uneven(self) -> bool:
         """Whether the noise changes its level in any observation."""
         return any(n.level.parts for n in self.calibration.noise)
-
-    @cached_property
-    def rounding(self) -> tuple[Rounding, ...]:
-        """What the digits of the files make in each observation."""
-        return tuple(rounding(self.model, self.calibration.p, o) for o in self.observations)
 
     @property
     def beyond(self) -> tuple[float, ...]:
@@ -387,8 +381,8 @@ def estimated(x: PreparedFlight) -> float:
 
 
 def noise_floor(f: Fitted) -> float:
-    """rms of the noise of G_out before demodulation, Eo: the estimated one, and no less than the digits of the file make."""
+    """rms of the noise of G_out before demodulation, Eo."""
     variances = []
-    for x, k_ggi, digits, fast in zip(f.prepared, f.scales, f.rounding, f.beyond, strict=True):
-        variances.append((max(estimated(x), digits.rms**2) + fast) / (k_ggi / f.k_ggi) ** 2)
+    for x, k_ggi, fast in zip(f.prepared, f.scales, f.beyond, strict=True):
+        variances.append((estimated(x) + fast) / (k_ggi / f.k_ggi) ** 2)
     return float(np.sqrt(np.mean(variances))) / f.k_ggi

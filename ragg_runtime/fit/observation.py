@@ -14,7 +14,6 @@ from generated.output_effects import imu_saturation, saturation
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit.segments import ROWS
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.digits import Digits, digits_of
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import PAPER, Output, scale
 from ragg_runtime.model.record import Record, record
@@ -65,9 +64,7 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
     if len(r.time) <= ROWS:  # longer ones are cleaned part by part
         wide = {n: np.where(np.isfinite(x), x, 0.0) for n, x in r.wide.items()}
     name = flight.name if len(layout.outputs) == 1 else f"{flight.name}: {o.name}"
-    digits = digits_of(flight, instrument.units)
     slopes = (a["k_VI"] * a["K1"])[list(o.members)]
-    weights = (k_ggi**2 / 8, k_ggi**2 / 2) if form.demodulated else (1.0,) * len(columns)
     return Observation(
         recorded=form,
         record=replace(r, valid=valid, wide=wide),
@@ -76,12 +73,6 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
         output=o,
         place=place,
         gains=slopes / np.mean(slopes) if form.separate else np.ones(len(series)),
-        digits=digits,
-        rounded={
-            n: w * digits.columns[n].mean_square(flight.outputs[n][valid])
-            for n, w in zip(columns, weights, strict=True)
-            if n in digits.columns
-        },
     )
 
 
@@ -93,8 +84,7 @@ class Observation:
 
     ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
     ``place`` counts them; ``flight`` counts the flights that are looked at together. ``gains`` (m,) says how large the sheet's
-    scale factor of each series is over their mean. ``digits`` says how the columns were
-    written, ``rounded`` what those of the output make in G_out, V^2. ``thin``: of what record this is a thinned one.
+    scale factor of each series is over their mean. ``thin``: of what record this is a thinned one.
     """
 
     recorded: Recorded
@@ -105,8 +95,6 @@ class Observation:
     place: int = 0
     flight: int = 0
     gains: Array = field(default_factory=lambda: np.ones(1))
-    digits: Digits = field(default_factory=Digits)
-    rounded: Mapping[str, float] = field(default_factory=dict)
     thin: Thin | None = None
     memo: list[tuple[Noise, list[Any]]] = field(default_factory=list, compare=False, repr=False)
     """What :mod:`ragg_runtime.fit.unknown_gradient` has found for some noise."""
@@ -188,11 +176,6 @@ class Thin:
     """What the whole leaves about the last few points (:mod:`ragg_runtime.fit.linearise`): point -> rows -> residuals."""
     taken: dict[Any, float] = field(default_factory=dict, compare=False, repr=False)
     """What thinning took of it about points (:mod:`ragg_runtime.fit.thinning`)."""
-
-    @property
-    def share(self) -> float:
-        """Of white noise's variance, that is left."""
-        return float(self.taps @ self.taps)
 
     def part(self, rows: slice) -> Thin:
         """Some of the samples."""

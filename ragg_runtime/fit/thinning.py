@@ -202,8 +202,7 @@ def _kept(o: Observation, thin: Thin) -> Observation:
         halo=(0, 0),
         whole=None,
     )
-    rounded = {n: x * thin.share for n, x in o.rounded.items()}
-    return replace(o, record=record, series=tuple(series), rounded=rounded, thin=thin, memo=[])
+    return replace(o, record=record, series=tuple(series), thin=thin, memo=[])
 
 
 def _whole(x: Array, valid: NDArray[np.bool_]) -> Array:
