@@ -16,6 +16,7 @@ from derive.context import OMEGA, Context
 from derive.effect import Effect, Values
 from derive.layout import AXES, HEIGHT, TURN, Layout
 from derive.layout import PAPER as FOUR
+from derive.names import id_in_code
 from derive.stages import PAPER, Force, Geometry, Kinematics, Motion, Order, SensedForce, Spin
 from derive.symbols import (
     ACCELEROMETER,
@@ -84,7 +85,7 @@ def accelerometer(
         for e, p in _one_by_one(hooked, c):
             if e.instrument:
                 changed = e.instrument(k, p, c)
-                k |= {n: let(f"{n}_{e.id}".replace("-", "_"), v) for n, v in changed.items()}
+                k |= {n: let(f"{n}_{id_in_code(e.id)}", v) for n, v in changed.items()}
     c.geometry, f, c.force = at.forces(k, "f")
     c.sensed, c.parameters = f, dict(k)
     q = f if order.second_order_angles else at.forces(k, "q")[1]
@@ -114,7 +115,7 @@ def _sensing(hooked: Hooked, c: Context, layout: Layout) -> None:
     c.standing = AXES if layout.has(AXES[0, 0]) else None
     for e, p in _one_by_one(hooked, c):
         if e.sensing:
-            c.motion = _named_motion(let, e.id, e.sensing(c.motion, p, c))
+            c.motion = _named_motion(let, id_in_code(e.id), e.sensing(c.motion, p, c))
     if c.standing is not None:
         c.axes = AXES
         c.motion = _named_motion(let, "disc", stages.in_frame(c.motion, AXES))
@@ -181,7 +182,7 @@ class _Place:
         g = _named_geometry(self.let, label, stages.to_measurement_frame(g, self.cos_psi, self.sin_psi))
         for e, p in _one_by_one(self.hooked, self.c):
             if e.geometry:
-                g = _named_geometry(self.let, f"{label}_{e.id}", e.geometry(g, p, self.c))
+                g = _named_geometry(self.let, f"{label}_{id_in_code(e.id)}", e.geometry(g, p, self.c))
         return g
 
     @property
@@ -211,17 +212,15 @@ def _transducer(
     for e, p in _one_by_one(hooked, c):
         if e.second_order:
             changed = zip("iop", e.second_order(q, f, p, c), strict=True)
-            q = SensedForce(*(let(f"q_{n}_{e.id}".replace("-", "_"), v) for n, v in changed))
+            q = SensedForce(*(let(f"q_{n}_{id_in_code(e.id)}", v) for n, v in changed))
     i = let("i_sensed", stages.transducer(f, q, k))
     for e, p in _one_by_one(hooked, c):
         if e.transducer:
-            i = let(f"i_{e.id}".replace("-", "_"), e.transducer(i, f, p, c))
+            i = let(f"i_{id_in_code(e.id)}", e.transducer(i, f, p, c))
     return i
 
 
 def _named_motion(let: Let, label: str, m: Motion) -> Motion:
-    label = label.replace("-", "_")
-
     def vector(name: str, v: sp.Matrix) -> sp.Matrix:
         return sp.Matrix([let(f"{label}_{name}_{'xyz'[n]}", v[n]) for n in range(3)])
 
@@ -239,7 +238,6 @@ def _named_motion(let: Let, label: str, m: Motion) -> Motion:
 
 
 def _named_geometry(let: Let, label: str, g: Geometry) -> Geometry:
-    label = label.replace("-", "_")
     return Geometry(
         sp.Matrix([let(f"{label}_r_{'xyz'[n]}", g.r[n]) for n in range(3)]),
         sp.Matrix(3, 3, lambda i, k: let(f"{label}_tau_{'xyz'[i]}{'xyz'[k]}", g.tau[i, k])),

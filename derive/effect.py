@@ -10,13 +10,13 @@ change, so that its couplings with misalignment and second-order coefficients ar
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import sympy as sp
 
+from derive.names import EXPECTED, is_name, parameter_in_code
 from derive.stages import Geometry, Kinematics, Motion, Order, SensedForce
 from derive.symbols import symbol
 
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from derive.context import Context
 
 Kind = Literal["deterministic", "step", "random", "output"]
-
-ID = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
 
 
 @dataclass(frozen=True)
@@ -169,12 +166,15 @@ class Effect:
     recogniser: str = ""
 
     def __post_init__(self) -> None:
-        if not ID.fullmatch(self.id):
-            raise ValueError(f"effect id {self.id!r}: expected lower-case words joined by hyphens")
+        if not is_name(self.id):
+            raise ValueError(f"effect id {_shown(self.id)}: expected {EXPECTED}")
         names = [q.name for q in self.parameters]
         for name in names:
-            if not _NAME.fullmatch(name):
-                raise ValueError(f"{self.id}: parameter name {name!r}: expected words joined by underscores")
+            if not is_name(name):
+                raise ValueError(f"{self.id}: parameter name {_shown(name)}: expected {EXPECTED}")
+        for name in (*self.channels, *(q.channel for q in self.parameters if q.channel is not None)):
+            if not is_name(name):
+                raise ValueError(f"{self.id}: channel name {_shown(name)}: expected {EXPECTED}")
         if len(set(names)) != len(names):
             raise ValueError(f"{self.id}: parameter names must differ, found {names}")
         if not names:
@@ -203,8 +203,12 @@ class Effect:
 
     def symbol(self, q: EffectParameter) -> sp.Symbol:
         """Symbol of a parameter, unique over all effects."""
-        return symbol(f"{self.id.replace('-', '_')}__{q.name}")
+        return symbol(parameter_in_code(self.id, q.name))
 
     @property
     def values(self) -> Values:
         return Values(self)
+
+
+def _shown(name: object) -> str:
+    return repr(name)[:80]

@@ -8,14 +8,16 @@ generated files is the tree as text again: comments and odd spellings of names d
 from __future__ import annotations
 
 import ast
+import keyword
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from derive.effect import ID, Effect, EffectParameter, Values
+from derive.effect import Effect, EffectParameter, Values
+from derive.names import EXPECTED, is_name
 from derive.stages import SensedForce
 from derive.symbols import MOTION, RATES, symbol
 
@@ -44,8 +46,7 @@ HIGHEST = 24
 
 _BITS = 512  # of a number that powers and products of numbers may yield: 1e154
 _LARGEST = 1e30
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*")
-_LONGEST_NAME = 64
+_WORD = re.compile(r"(?<![\w.])[A-Za-z]\w*", re.ASCII)
 # Words of the grammar, which stand for themselves.
 _TAKEN = frozenset({"time", "cos_phi", "sin_phi", *FORCES, *FUNCTIONS, *(c.name for c in MOTION), *RATES})
 
@@ -74,11 +75,11 @@ def from_expression(
     ------
     ExpressionError
     """
-    if not ID.fullmatch(identifier) or len(identifier) > _LONGEST_NAME:
-        raise ExpressionError(f"id {identifier[:80]!r}: expected lower-case words joined by hyphens")
+    if not is_name(identifier):
+        raise ExpressionError(f"id {identifier[:80]!r}: expected {EXPECTED}")
     if stage not in STAGES:
         raise ExpressionError(f"stage {stage!r}: expected one of {', '.join(STAGES)}")
-    tree = _parse(add)
+    tree = _parse(add, parameters)
     add = ast.unparse(tree)
     channels = _channels(tree, add, parameters)
 
@@ -117,16 +118,20 @@ def _channels(tree: ast.Expression, add: str, parameters: Mapping[str, Mapping[s
     names = sorted({n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(FUNCTIONS))
     for name in parameters:
         # In generated code its name is that of the effect and its own.
-        if not _is_name(name) or name in _TAKEN:
-            raise ExpressionError(f"{name!r} cannot name a parameter")
+        if not is_name(name) or name in _TAKEN:
+            raise ExpressionError(
+                f"{name[:80]!r} cannot name a parameter: expected {EXPECTED}; no word of expressions"
+            )
+        if "-" in name:
+            raise ExpressionError(f"{name!r} cannot stand in an expression, where - is a minus: write _")
         if name not in names:
             raise ExpressionError(f"parameter {name} does not occur in {add!r}")
     if not parameters:
         raise ExpressionError("an effect needs at least one parameter with a unit")
     channels = tuple(n for n in names if n not in _TAKEN and n not in parameters)
     for name in channels:
-        if not _is_name(name):
-            raise ExpressionError(f"{name!r} cannot name a channel")
+        if not is_name(name):
+            raise ExpressionError(f"{name[:80]!r} cannot name a channel: expected {EXPECTED}")
     return channels
 
 
@@ -148,10 +153,6 @@ def _check_size(tree: ast.Expression, add: str, parameters: list[str]) -> None:
             raise ExpressionError(f"{add!r} has no finite slope in {m} where its parameters are zero")
 
 
-def _is_name(name: str) -> bool:
-    return len(name) <= _LONGEST_NAME and _NAME.fullmatch(name) is not None
-
-
 def _plausible(name: str, value: object) -> float:
     if isinstance(value, (int, float)) and not isinstance(value, bool) and 0 < value < _LARGEST:
         return float(value)
@@ -164,19 +165,33 @@ def _shared(name: str, value: object) -> bool:
     raise ExpressionError(f"{name}: shared {value!r}: expected true or false")
 
 
-def _parse(text: str) -> ast.Expression:
+def _parse(text: str, parameters: Collection[str]) -> ast.Expression:
     if len(text) > LONGEST:
         raise ExpressionError(f"longer than {LONGEST} characters")
+    words = frozenset(keyword.kwlist)
     try:
-        with warnings.catch_warnings():  # "0or 1" and the like: such warnings are about Python programs
-            warnings.simplefilter("ignore")
-            tree = ast.parse(text.strip(), mode="eval")
+        tree = _tree(text, words.intersection(parameters))
     except (SyntaxError, ValueError, MemoryError, RecursionError) as error:
-        found = error.msg if isinstance(error, SyntaxError) else str(error)
-        raise ExpressionError(f"{text!r} is not an expression ({found})") from None
+        try:
+            tree = _tree(text, words)  # a channel may be called lambda
+        except (SyntaxError, ValueError, MemoryError, RecursionError):
+            found = error.msg if isinstance(error, SyntaxError) else str(error)
+            raise ExpressionError(f"{text!r} is not an expression ({found})") from None
     if not text.isascii():
         raise ExpressionError(f"{text!r}: letters, digits and signs of ASCII only")
     _translate(tree.body, symbol)
+    return tree
+
+
+def _tree(text: str, words: Collection[str]) -> ast.Expression:
+    """The syntax tree, in which these words of Python are names as others are."""
+    spelt = _WORD.sub(lambda m: m[0] + "_" if m[0].rstrip("_") in words else m[0], text.strip())
+    with warnings.catch_warnings():  # "0or 1" and the like: such warnings are about Python programs
+        warnings.simplefilter("ignore")
+        tree = ast.parse(spelt, mode="eval")
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and node.id.rstrip("_") in words:
+            node.id = node.id[:-1]
     return tree
 
 

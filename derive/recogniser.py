@@ -13,6 +13,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from derive.effect import Effect
+from derive.names import id_in_code
 
 FOLDER = "output_effects"
 """Below ``generated/``."""
@@ -44,7 +45,7 @@ def _of_derivation(node: ast.stmt) -> bool:
 def files(effects: Iterable[Effect]) -> Mapping[str, str]:
     """Path below ``generated/`` -> text: a module for each effect of the recorder among these."""
     return {
-        f"{FOLDER}/{e.id.replace('-', '_')}.py": f'"""Recogniser of {e.id}."""\n\n{e.recogniser}'
+        f"{FOLDER}/{id_in_code(e.id)}.py": f'"""Recogniser of {e.id}."""\n\n{e.recogniser}'
         for e in effects
         if e.kind == "output"
     }
@@ -53,7 +54,7 @@ def files(effects: Iterable[Effect]) -> Mapping[str, str]:
 def package_file(effects: Iterable[Effect]) -> Mapping[str, str]:
     """``__init__.py`` of the modules: every recogniser by its effect's id."""
     ids = [e.id for e in effects if e.kind == "output"]
-    names = [i.replace("-", "_") for i in ids]
+    names = [id_in_code(i) for i in ids]
     body = "".join(f'    "{i}": {n},\n' for i, n in zip(ids, names, strict=True))
     text = (
         '"""Effects of the recorder, by their ids: whether a series shows them; do not edit, see derive/effects/."""\n\n'

@@ -12,6 +12,8 @@ from functools import cache
 
 import sympy as sp
 
+from derive.names import channel_in_code, channel_of
+
 
 @dataclass(frozen=True)
 class Channel:
@@ -140,7 +142,6 @@ RATES: tuple[str, ...] = (
 )
 """First and second time derivatives of the motion and of the disc angle: formed from it, never read from a file."""
 
-_COLUMN = "C__"
 _OWN = frozenset((*(c.name for c in MOTION), *AUXILIARY, *RATES))
 _INPUTS = _OWN | {q.name for q in INSTRUMENT} | {"cos_phi", "sin_phi", "cos_j", "sin_j", "time"}
 
@@ -149,20 +150,20 @@ def local(column: str) -> str:
     """The name of a recorded channel in the derivation and in generated code.
 
     A column may have any name, that of an intermediate value or of a word of C among them. Those that the
-    derivation does not know have a name space of their own: parameters of effects are ``<id>__<name>`` with an id in
-    small letters, and nothing else has two underscores but second names of intermediate values, ``V2__<name>``.
+    derivation does not know have a name space of their own: parameters of effects are ``<id>__<name>`` (see
+    :mod:`derive.names`), and nothing else has two underscores but second names of intermediate values, ``V2__<name>``.
     """
-    return column if column in _OWN else _COLUMN + column
+    return column if column in _OWN else channel_in_code(column)
 
 
 def column_of(name: str) -> str:
     """The recorded channel that has this :func:`local` name."""
-    return name.removeprefix(_COLUMN)
+    return channel_of(name)
 
 
 def is_taken(name: str) -> bool:
     """Whether an intermediate value must not have this name: an input has it, or the emitters make it of one."""
-    return name in _INPUTS or name.startswith(("in_", "out_", _COLUMN))
+    return name in _INPUTS or name.startswith(("in_", "out_", "C__", "H__"))
 
 
 # Rate and acceleration of the disc angle: of the encoder, or 2 pi spin_frequency and zero where there is none.

@@ -7,6 +7,7 @@ from functools import cache
 import jinja2
 
 from derive.emit.printers import to_c, to_fused_c, to_latex, to_numpy, to_wide_c
+from derive.names import in_comment
 from derive.propagation import COEFFICIENT_PARAMETERS
 from derive.symbols import ACCELEROMETER, QUARTER_TURNS, SIGNS
 from derive.tape import Program
@@ -25,7 +26,7 @@ def environment(package: str) -> jinja2.Environment:
         optimized=False,  # most are rendered once: that takes longer than it spares
     )
     env.filters |= {"np": to_numpy, "c": to_c, "fused": to_fused_c, "wide": to_wide_c}
-    env.filters |= {"tex": to_latex, "c_name": _c_name}
+    env.filters |= {"tex": to_latex, "comment": in_comment}
     env.globals |= {
         "quarter_turns": QUARTER_TURNS,
         "signs": SIGNS,
@@ -39,10 +40,6 @@ def environment(package: str) -> jinja2.Environment:
 
 def _trig(n: int, phase: str) -> str:
     return "1" if n == 0 else f"{phase}{n}"
-
-
-def _c_name(name: str) -> str:
-    return name.replace("-", "_").replace(".", "__")
 
 
 def _program_inputs(program: Program, among: list[str]) -> list[str]:

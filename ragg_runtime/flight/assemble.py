@@ -27,7 +27,7 @@ from ragg_runtime.flight.record import (
     is_disc_angle,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
-from ragg_runtime.flight.source import Column, Rows
+from ragg_runtime.flight.source import Column, Rows, passed_over
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
@@ -140,19 +140,20 @@ def layout(
     *,
     need_output: bool = True,
     accelerometers: Accelerometers = PAPER,
+    passed: Sequence[str] = (),
 ) -> Layout:
     """Check names and units of a file's columns; UserError if one is missing or does not convert.
 
     ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers`` says
-    which columns are outputs.
+    which columns are outputs, ``passed`` names further columns of the file, for messages.
     """
     known = units(g0)
     names = [c.name for c in columns]
-    _need(path, names, _NEEDED, "the motion needs")
+    _need(path, names, _NEEDED, "the motion needs", passed)
     if any(n in names for n in ANGULAR_ACCELERATION):
-        _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs")
+        _need(path, names, ANGULAR_ACCELERATION, "angular acceleration, if given, needs", passed)
     if need_output:
-        _check_output(path, names, accelerometers)
+        _check_output(path, names, accelerometers, passed)
     fixed = {**SI_UNITS, **dict.fromkeys(accelerometers.columns, "V")}
     fixed |= {d.angle_column: "rad" for d in accelerometers.discs}
     si_units = {}
@@ -184,7 +185,11 @@ def enough(flight: Flight, rows: int) -> Flight:
     )
 
 
-def _check_output(path: Path, names: Sequence[str], a: Accelerometers) -> None:
+def _found(names: Sequence[str], passed: Sequence[str]) -> str:
+    return "the columns " + ", ".join(names) + (f"; {passed_over(passed)}" if passed else "")
+
+
+def _check_output(path: Path, names: Sequence[str], a: Accelerometers, passed: Sequence[str] = ()) -> None:
     if any(o.name in names or a.voltages(o, names) is not None for o in a.outputs):
         return
     if len(a.outputs) == 1 and all(n in names for n in DEMODULATED):
@@ -195,7 +200,7 @@ def _check_output(path: Path, names: Sequence[str], a: Accelerometers) -> None:
     raise UserError(
         "the instrument's output is missing",
         where=path,
-        found="the columns " + ", ".join(names),
+        found=_found(names, passed),
         expected=one + further,
         remedy=next(
             filter(None, (did_you_mean(n, (*a.columns, *DEMODULATED)) for n in names if n not in SI_UNITS)),
@@ -204,17 +209,17 @@ def _check_output(path: Path, names: Sequence[str], a: Accelerometers) -> None:
     )
 
 
-def _need(path: Path, names: list[str], needed: Sequence[str], what: str) -> None:
+def _need(path: Path, names: list[str], needed: Sequence[str], what: str, passed: Sequence[str]) -> None:
     missing = [n for n in needed if n not in names]
     if missing:
-        spare = [n for n in names if n not in SI_UNITS]
+        spare = [n for n in (*names, *passed) if n not in SI_UNITS]
         near = did_you_mean(missing[0], spare)
         raise UserError(
             ("the columns " if len(missing) > 1 else "the column ")
             + ", ".join(missing)
             + (" are missing" if len(missing) > 1 else " is missing"),
             where=path,
-            found="the columns " + ", ".join(names),
+            found=_found(names, passed),
             expected=f"{what} " + ", ".join(needed),
             remedy=None if near is None else f"is {near[13:-1]} meant for {missing[0]}?",
         )

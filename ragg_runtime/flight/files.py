@@ -83,7 +83,14 @@ def read_flights(
 def _flight(
     source: Source, g0: float, need_output: bool, accelerometers: Accelerometers, several: bool
 ) -> Flight:
-    plan = layout(source.path, source.columns, g0, need_output=need_output, accelerometers=accelerometers)
+    plan = layout(
+        source.path,
+        source.columns,
+        g0,
+        need_output=need_output,
+        accelerometers=accelerometers,
+        passed=source.passed,
+    )
     name = flight_name(source.path) + (f":{source.line}" if several else "")
     with _line_named(source, several):
         rows = source.rows()

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ragg_runtime.base.names import LONGEST, is_column
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.instants import GPS_EPOCH, is_clock, way_of
 from ragg_runtime.flight.mapping import UNKNOWN
@@ -261,7 +262,8 @@ def _entry(column: str, unit: str) -> str:
 
 
 def _key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else f'"{_quoted(name)}"'
+    """A channel's name: the column's own, or one made of its letters."""
+    return name if is_column(name) else ("c_" + re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_"))[:LONGEST]
 
 
 def _quoted(text: str) -> str:

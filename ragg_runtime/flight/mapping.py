@@ -40,6 +40,7 @@ from typing import Any
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.form_version import VERSION, WRITER, Form
+from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.flight.instants import WAYS
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
 from ragg_runtime.instrument.units import units
@@ -163,6 +164,8 @@ def parse_mapping(text: str, path: Path) -> Mapped:
 
 
 def _entry(name: str, raw: Any, where: str) -> Entry:
+    if not is_column(name):
+        read_name(name, where, "temperature")
     if isinstance(raw, str):
         raw = {"column": raw}
     if not isinstance(raw, dict) or "column" not in raw:

@@ -12,6 +12,7 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
+from ragg_runtime.base.names import EXPECTED, is_column
 from ragg_runtime.flight.record import Array
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
@@ -72,7 +73,7 @@ class Look:
         Names of the columns that are needed; ``None``: all of them.
     text
         Whether columns of text may pass. Otherwise what is no number is an error, except for instants in a
-        column ``time`` and names in a column ``line``.
+        column ``time``, names in a column ``line``, and columns that are passed over for their names.
     part
         The group (HDF5), structure (MATLAB) or sheet (Excel) that is meant, where a file has several.
     leave
@@ -88,7 +89,7 @@ class Look:
         return name not in self.leave and (self.only is None or name in self.only)
 
     def allows_text(self, name: str) -> bool:
-        return self.text or name == "time" or is_line(name)
+        return self.text or name == "time" or is_line(name) or not is_column(name)
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,7 @@ class Source:
 
     ``line`` is the flight line, where the file has several; ``origin`` the instant at which ``time`` is 0, if
     it is known (UTC, or GPS time where the file counts in that); ``notes`` say what was made of the file,
-    ``demodulation`` how its channels were made, if that is known.
+    ``demodulation`` how its channels were made, if that is known; ``passed`` names columns that are none of a flight.
     """
 
     path: Path
@@ -107,6 +108,13 @@ class Source:
     origin: datetime | None = None
     notes: tuple[str, ...] = ()
     demodulation: Demodulation | None = None
+    passed: tuple[str, ...] = ()
+
+
+def passed_over(names: Sequence[str]) -> str:
+    """In words: columns whose names nothing can have."""
+    shown = ", ".join(map(repr, names[:6])) + (" ..." if len(names) > 6 else "")
+    return f"passed over for their names ({EXPECTED}): {shown}"
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,13 @@ from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-from ragg_runtime.base.errors import UserError, at
+from ragg_runtime.base.errors import UserError, at, one_line
+from ragg_runtime.base.names import is_column
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.instants import WAYS, seconds, way_of
 from ragg_runtime.flight.lines import split
 from ragg_runtime.flight.mapping import Entry, Mapped
-from ragg_runtime.flight.record import Array
+from ragg_runtime.flight.record import SI_UNITS, Array
 from ragg_runtime.flight.source import (
     Column,
     Heading,
@@ -25,6 +26,7 @@ from ragg_runtime.flight.source import (
     columns_of,
     is_line,
     not_numbers,
+    passed_over,
 )
 
 _VECTOR = re.compile(r"(a|omega|omegadot|B)_([xyz])")
@@ -98,8 +100,9 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
     origin: datetime | None = None
     found = []
     for table in tables:
-        kept = tuple(h for h in table.headings if not h.text or h.name == "time")
-        dropped = [h for h in table.headings if h not in kept]
+        named = [h for h in table.headings if lenient or is_column(h.name) or _lacks_unit(h)]
+        kept = tuple(h for h in named if not h.text or h.name == "time")
+        dropped = [h for h in named if h not in kept]
         if dropped and not lenient:
             raise not_numbers(table.path, dropped[0].name, "text")
         rows = table.rows
@@ -114,6 +117,11 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
             rows, dated = partial(dict, whole), way.dated
             kept = tuple(Heading("time", "s") if h.text else h for h in kept)
         columns = tuple(Column(h.name, h.unit) for h in kept) if lenient else columns_of(table.path, kept)
+        notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
+        there = {h.name for h in named}
+        passed = tuple(one_line(h.name)[:80] for h in table.headings if h.name not in there)
+        if passed:
+            notes += (passed_over(passed),)
         found.append(
             Source(
                 path=table.path,
@@ -121,10 +129,16 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
                 rows=rows,
                 line=table.line,
                 origin=origin if dated else None,
-                notes=tuple(f"{h.name} holds text; it is left out" for h in dropped),
+                notes=notes,
+                passed=passed,
             )
         )
     return found
+
+
+def _lacks_unit(h: Heading) -> bool:
+    """Whether a column is one of the contract but for what stands behind its name in the place of a unit."""
+    return not h.unit and h.name.partition("(")[0].strip() in SI_UNITS
 
 
 def _check_names(table: Table, mapping: Mapped) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.layout import (
     TANGENTIAL,
     X_AXIS,
@@ -30,6 +32,11 @@ PLACE_KEYS = ("name", "angle", "sign", "output", "radius", "height", "direction"
 MOST = 64
 """Accelerometers that a layout may have: many times what any instrument has, few enough for a fit."""
 
+_OTHERS = re.compile(
+    r"time|line|(a|omega|omegadot)_[xyz]|Gamma_[xyz]{2}|spin_angle(_.*)?|inline|cross|temperature|roll|pitch|yaw|pressure|B_[xyz]"
+)
+"""Columns that mean something else in every flight."""
+
 _EXAMPLE = '[[disc.accelerometer]]\\nname = "A1"\\nangle = "0 deg"\\nsign = 1\\noutput = "G_out"'
 
 
@@ -41,7 +48,7 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
     for number, table in enumerate(tables, 1):
         if not isinstance(table, dict):
             raise UserError("disc must be a table", where=path, found=repr(table), expected="[[disc]]")
-        named = table.get("name") if isinstance(table.get("name"), str) else str(number)
+        named = table["name"] if is_name(table.get("name")) else str(number)
         where = at(path, f"[[disc]] {named}")
         _known(table, DISC_KEYS, where)
         discs.append(_disc(table, where, single=len(tables) == 1))
@@ -130,6 +137,10 @@ def _check(layout: Layout, path: Path | None) -> None:
     for name in layout.output_names:
         if name in taken:
             raise UserError(f"the output {name} has the name of a voltage", where=where)
+        if _OTHERS.fullmatch(name):
+            raise UserError(
+                f"the output {name} has the name of another column", where=where, expected="such as G_out_A"
+            )
 
 
 def _known(table: Mapping[str, Any], keys: Sequence[str], where: str) -> None:
@@ -144,15 +155,10 @@ def _known(table: Mapping[str, Any], keys: Sequence[str], where: str) -> None:
 
 
 def _text(table: Mapping[str, Any], key: str, where: str, default: str | None) -> str:
-    found = table.get(key, default)
-    if not isinstance(found, str) or not found.isprintable() or not found.strip() or " " in found:
-        raise UserError(
-            f"{key} is missing" if key not in table else f"{key} must be a word",
-            where=where,
-            found=None if key not in table else repr(found),
-            expected=f'{key} = "{ {"name": "A1", "output": "G_out"}[key] }"',
-        )
-    return found
+    example = {"name": '"A1"', "output": '"G_out"'}[key]
+    if key not in table and default is None:
+        raise UserError(f"{key} is missing", where=where, expected=f"{key} = {example}")
+    return read_name(table.get(key, default), at(where, key), example)
 
 
 def _number(table: Mapping[str, Any], key: str, si_unit: str, where: str) -> float:

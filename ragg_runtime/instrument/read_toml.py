@@ -13,6 +13,7 @@ import numpy as np
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.form_version import VERSION, WRITER, Form
+from ragg_runtime.base.names import read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
@@ -185,13 +186,15 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
             found=repr(entry),
             expected='"lag" or { id = "lag", tau = { value = [1, 1, 1, 1], unit = "ms" } }',
         )
-    effect_id = entry["id"]
+    effect_id = read_name(entry["id"], at(where, "id"), '"lag"')
     where = f"{where} ({effect_id})"
     own = {name: raw for name, raw in entry.items() if name not in ("id", "stage", "add", "params")}
     if ("stage" in entry or "add" in entry) and "params" not in entry:
         # An effect in one line: its parameters stand beside stage and add, with or without a value.
         entry = {k: entry[k] for k in ("id", "stage", "add") if k in entry} | {"params": own}
         own = {}
+    for name in (*own, *(entry["params"] if isinstance(entry.get("params"), dict) else ())):
+        read_name(name, at(where, "the name of a parameter"), "tau")
     values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
@@ -224,6 +227,7 @@ def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[s
             raise UserError(
                 "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
             )
+        _check_names(table, ("value", "unit", "shared", "plausible"), None, f"{where}: {name}")
         known.parse(table["unit"], f"{where}: {name}")
         params[name] = MappingProxyType(table)
     return MappingProxyType(

@@ -74,7 +74,9 @@ def test_what_is_no_formula_is_refused_at_once(text: str, why: str) -> None:
     ("identifier", "parameters"),
     [
         ("../up", K),
-        ("Mine", K),
+        ("_mine", K),
+        ("m" * 65, K),
+        ("mine", {"K-x": {"unit": "ug"}}),
         ("a" + "/b", K),
         ("mine\n", K),
         ("mine", {}),

@@ -66,7 +66,7 @@ def test_one_number_stands_for_all_and_lists_are_as_long_as_there_are_accelerome
         ('angle = "0.0 deg"', "angle = 90", "unit"),
         ('angle = "0.0 deg"\n', "", "angle is missing"),
         ('output = "G_out"\n', "", "output is missing"),
-        ('output = "G_out"', 'output = ""', "output must be a word"),
+        ('output = "G_out"', 'output = ""', "output: not a name"),
         ('radius = "0.1 m"\n', "", "radius is missing"),
         ('radius = "0.1 m"', 'radius = "-0.1 m"', "out of range"),
         ('radius = "0.1 m"', 'radius = "0.1 s"', "dimension"),
