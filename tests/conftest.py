@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import atexit
-import gc
 import os
 import shutil
 import tempfile
@@ -15,7 +14,6 @@ import derive  # noqa: F401  (tells SymPy how much to remember, which must be be
 
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
-gc.set_threshold(20_000)  # what is imported lives until the end, and need not be looked through often
 
 # Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
 # worker has derived and compiled the others find.
@@ -24,15 +22,6 @@ atexit.register(shutil.rmtree, _home, ignore_errors=True)
 _cache = os.environ.setdefault("RAGG_TESTS_CACHE", f"{_home}/cache")
 os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": _cache}
 
-
-FORKING = (
-    "test_hostile_files.py",
-    "test_file_formats.py",
-    "test_flight_files.py",
-    "test_faults.py",
-)
-"""Files that fork again and again, which takes twice as long in a process that has derived and fitted a thousand models: these
-are begun while it is small."""
 
 DEAREST = (
     "test_studio_browser.py",
@@ -50,20 +39,10 @@ DEAREST = (
     "test_layout_machine_code.py",
     "test_studio_server.py",
 )
-"""Files that take half a minute and more, the longest first. They are begun next: what one worker begins last the others
-wait for."""
+"""Files that take half a minute and more, the longest first: what one worker begins last the other waits for."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Files that fork and the dearest first, each whole."""
-    rank = {name: k for k, name in enumerate((*FORKING, *DEAREST))}
+    """The dearest files first, each whole."""
+    rank = {name: k for k, name in enumerate(DEAREST)}
     items.sort(key=lambda item: rank.get(item.path.name, len(rank)))
-
-
-@pytest.fixture(scope="module", autouse=True)
-def small_heap() -> None:
-    """What was imported and is remembered is looked through for cycles once, not again and again by the tests that follow:
-    files that are read look for cycles by themselves.
-    """
-    gc.collect()
-    gc.freeze()

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import openpyxl
 import pytest
-from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.convert import convert
@@ -24,8 +23,6 @@ from tests.runtime.foreign_files import ENDINGS, write
 
 WRITTEN = (".csv", ".csv.gz", ".parquet", ".nc")
 UNITS = {"time": "s", "a_x": "g", "omega_y": "deg/h", "inline": "Eo", "fuel": "kg"}
-
-numbers = st.one_of(st.just(float("nan")), st.floats(allow_infinity=False, allow_nan=False))
 
 
 def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Written]:
