@@ -9,7 +9,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -29,8 +28,7 @@ from derive.propagation import (
     from_generic,
     motion_numbers,
 )
-from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, dropped, simplified
-from derive.simplify.bound import root_up, round_up
+from derive.simplify import DYNAMIC_EXPERIMENT, PAPER_ENVELOPE, Envelope, certified_bound, simplified
 from derive.symbols import ANGLES, MOTION, QUARTER_TURNS, SECOND_ORDER, SIGNS
 
 Array = NDArray[np.float64]
@@ -225,36 +223,3 @@ def test_the_bound_is_attained_where_one_term_is_dropped() -> None:
     )
     model = simplified(envelope)
     assert certified_bound(envelope, model).eotvos == pytest.approx(4 * 1e-9 / (4 * 0.1) / 1e-9, rel=1e-12)
-
-
-def test_a_model_for_a_larger_error_has_the_larger_bound() -> None:
-    bounds = [
-        certified_bound(
-            PAPER_ENVELOPE, simplified(dataclasses.replace(PAPER_ENVELOPE, allotted=10.0**n))
-        ).exact
-        for n in range(-6, 6)
-    ]
-    assert bounds == sorted(bounds)
-    assert bounds[0] < Fraction(1, 1000) < 10**4 < bounds[-1]
-
-
-def test_dropped_and_kept_make_the_whole() -> None:
-    model, full = simplified(), collect()
-    for key, left in dropped(model).items():
-        kept = model.generic.get(key, {})
-        for motion, coefficient in full.generic[key].items():
-            zero = coefficient.ring.zero
-            assert left.get(motion, zero) + kept.get(motion, zero) == coefficient
-
-
-@given(st.fractions(min_value=0, max_value=10**6))
-def test_roots_and_floats_are_rounded_up(x: Fraction) -> None:
-    root = root_up(x)
-    assert root * root >= x
-    assert (root - Fraction(1, 10**19)) ** 2 <= x or root < Fraction(1, 10**19)
-    assert Fraction(round_up(x)) >= x
-    assert x == 0 or Fraction(math.nextafter(round_up(x), 0.0)) < x
-
-
-def test_the_root_of_a_square_is_itself() -> None:
-    assert root_up(Fraction(9, 16)) == Fraction(3, 4)

@@ -57,16 +57,6 @@ def test_combinations_of_other_layouts() -> None:
     assert half == pytest.approx(np.array([1.0, -1.0, 1.0, -1.0]) * np.sqrt(0.5), rel=1e-16)
 
 
-def test_an_output_without_gradient_says_so_by_itself() -> None:
-    """Two opposite each other with opposite signs: the gradient's harmonic keeps their difference alone."""
-    one = [sheets.accelerometer("A1", 0.0, 1), sheets.accelerometer("A2", 180.0, -1)]
-    i = parse_instrument(sheets.sheet([sheets.disc("A", one)], 2, size=0.0))
-    code: dict = {}
-    exec(derive.harmonics_of(i)["harmonics.py"], code)
-    assert code["COMBINATIONS"][0][code["WEIGHED"][0][2, "c"][0]] == (1.0, -1.0)
-    assert (2, "s") not in code["WEIGHED"][0]
-
-
 def test_the_gradient_has_the_gain_that_the_demodulator_takes() -> None:
     i = parse_instrument(sheets.sheet(sheets.complements(), 8, size=0.0))
     code: dict = {}

@@ -6,11 +6,6 @@ import os
 import signal
 
 
-def unimportable() -> None:
-    """Stands in for the beginning of a worker whose program cannot be imported."""
-    os._exit(3)
-
-
 def deadly(given: object, file: str) -> dict[str, str]:
     """Stands in for a flight that takes its worker down each time."""
     if "flight-1" in file:

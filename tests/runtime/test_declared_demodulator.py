@@ -136,28 +136,6 @@ def test_noise_that_no_accelerometer_has_is_not_adequate() -> None:
     assert compare(packaged(), rough, [x]).adequate
 
 
-@pytest.mark.parametrize("rate", [4.0, 8.0, 10.0])
-def test_our_low_pass_is_the_same_at_any_rate(rate: float) -> None:
-    f = np.linspace(0.0, 0.5, 200)
-    slow, fast = (signal.freqz(low_pass(r), worN=f, fs=r)[1] for r in (rate, RATE))
-    assert np.max(np.abs(np.abs(slow) - np.abs(fast))) < 1e-5
-
-
-@pytest.mark.parametrize("name", sorted(MADE))
-def test_kernels_are_scipys(name: str) -> None:
-    low, how = MADE[name]
-    x = np.random.default_rng(3).standard_normal(4000)
-    inner = slice(1500, -1500)
-    found = np.convolve(x, kernel(how, RATE).centred, mode="same")
-    np.testing.assert_allclose(found[inner], low(x)[inner], rtol=0, atol=1e-8)
-    thinned = np.convolve(
-        np.sin(0.05 * np.arange(4000)[::4]), kernel(replace(how, rate=RATE), 4.0).centred, mode="same"
-    )
-    np.testing.assert_allclose(
-        thinned[400:-400], low(np.sin(0.05 * np.arange(4000)))[::4][400:-400], atol=3e-5
-    )
-
-
 def test_it_stands_in_model_toml_and_in_a_mapping(tmp_path: Path) -> None:
     s, x = flown()
     for _, how in MADE.values():

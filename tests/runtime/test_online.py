@@ -24,7 +24,7 @@ from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.online import online
 from tests.rate import RATE
 from tests.runtime.flown_twice import files, flights, new_model, run
-from tests.runtime.test_export import make, make_strictly
+from tests.runtime.test_export import make_strictly
 
 Array = NDArray[np.float64]
 
@@ -163,26 +163,6 @@ def test_the_c_is_the_same_filter(walk: float, gap: float, exported: tuple[Path,
     assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
     p = np.array([float(line[2:]) for line in lines if line[0] == "#"])
     assert np.max(np.abs(p - f.parameters()[0])[f.index] / f.scale) < 1e-4
-
-
-def test_it_is_stable_over_many_samples(exported: tuple[Path, Path, Path]) -> None:
-    """A million samples leave a finite filter that still knows what it knew."""
-    model, folder, two = exported
-    m = loop.load(model)
-    x = after.read_for_compensation(m, [two])[0].part(
-        slice(0, 1024)
-    )  # 32 turns of the disc: it goes on where it began
-    o = observe(x, m.instrument)
-    make(folder, "CFLAGS=-std=c17 -O3", "-B", "ragg_online")
-    sigma = 4 * after.contents(m).outputs()[0].scale_factor
-    done = subprocess.run(
-        [folder / "ragg_online", f"{sigma:.17g}", "1", "300", "100"],
-        input=samples(o, o.series[0]), capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    p = np.array([float(line[2:]) for line in done.stdout.splitlines()])
-    f = Online(m.model, m.instrument, Tuning(noise=sigma))
-    assert np.max(np.abs(p - f.nominal)[f.index] / f.scale) < 6
-    assert "microseconds a sample" in done.stderr
 
 
 def test_the_command_follows_a_flight_within_its_uncertainty(

@@ -30,7 +30,7 @@ from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.run import ordered
-from ragg_runtime.survey.table import check_place, parquet
+from ragg_runtime.survey.table import parquet
 from ragg_runtime.survey.task import Record, examine, job
 from ragg_runtime.workflow import loop
 
@@ -175,14 +175,6 @@ def test_a_flight_that_kills_every_worker_is_given_up(
     assert {e["kind"] for e in failed.values()} == {"lost"}
 
 
-def test_a_worker_that_cannot_be_started_is_one_message(
-    flights: Flights, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(local, "_begin", dying.unimportable)
-    with pytest.raises(UserError, match="__main__"):
-        loop.survey(loop.load(flights[0]), flights[1], jobs=1)
-
-
 def wait_for_records(file: Path, count: int, process: subprocess.Popen[str]) -> None:
     deadline = time.monotonic() + 90
     while not (file.exists() and file.read_bytes().count(b"\n") > count):
@@ -305,31 +297,6 @@ def test_only_flights_that_have_not_changed_are_taken_from_the_results(
     assert second.records[1]["sha256"] != first.records[1]["sha256"]
 
 
-def test_a_record_that_was_changed_is_done_again(flights: Flights, tmp_path: Path) -> None:
-    m, kept = loop.load(flights[0]), tmp_path / "kept.jsonl"
-    first = loop.survey(m, flights[1][1:2], jobs=1, resume=kept)
-    whole = kept.read_text()
-    assert '"samples":1200,' in whole
-    kept.write_text(whole.replace('"samples":1200,', '"samples":1201,'))
-    assert loop.survey(m, flights[1][1:2], jobs=1, resume=kept).records == first.records
-    assert kept.read_text().count('"samples":1200,') == 1
-
-
-def test_two_surveys_do_not_write_to_one_file(flights: Flights, tmp_path: Path) -> None:
-    m = loop.load(flights[0])
-    kept = tmp_path / "kept.jsonl"
-    refused: list[str] = []
-
-    def second(done: int, total: int, record: Record | None) -> None:
-        if record is None:
-            with pytest.raises(UserError) as error:
-                loop.survey(m, flights[1], jobs=1, resume=kept)
-            refused.append(error.value.message)
-
-    loop.survey(m, flights[1][1:2], jobs=1, resume=kept, progress=second)
-    assert "another survey" in refused[0]
-
-
 def test_bad_use_is_one_message(flights: Flights) -> None:
     m = loop.load(flights[0])
     with pytest.raises(UserError, match="needs flights"):
@@ -406,14 +373,6 @@ def test_few_flights_are_chance_many_are_not() -> None:
     assert [(a.effect, a.firm) for a in strong.summary.advice] == [("lag", True)]
 
 
-def test_what_is_seen_in_the_values_themselves_is_certain() -> None:
-    one = record("0", {"saturation": []})
-    one["ranking"][0] |= {"log10_p": None, "delta_bic": None}
-    s = Survey((one, *(record(f"{k}", {}) for k in range(1, 9))))
-    assert [(a.effect, a.firm) for a in s.summary.advice] == [("saturation", True)]
-    json.dumps(s.as_json(), allow_nan=False)
-
-
 def test_an_effect_that_accounts_for_all_flights_is_advised_before_those_that_fit_some() -> None:
     claims: list[dict[str, list[str]]] = [
         {"arm-sag": ["lag"]}, {"cubic-input": ["lag", "arm-sag"]}, {"lag": ["cubic-input"]}, {"lag": []},
@@ -446,15 +405,3 @@ def test_trends_tell_constant_drifting_and_scattered_parameters() -> None:
     large = next(t for t in constant.summary.trends if t.name == "K1")
     assert 1e9 <= large.mean <= 1e9 + 0.01  # no digits lost to the large mean
     assert large.chi2 < 1.0
-
-
-def test_a_table_takes_the_place_of_a_table_alone(tmp_path: Path) -> None:
-    """A record was destroyed: it is a Parquet file as well."""
-    place = tmp_path / "x.parquet"
-    check_place(place)
-    for other in (b"PAR1", b"x"):
-        place.write_bytes(other)
-        with pytest.raises(UserError, match="written over something else"):
-            check_place(place)
-    place.write_bytes(parquet([]))
-    check_place(place)

@@ -282,16 +282,6 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
     assert set(e.channels) == {n.split()[0] for n in needs} | ({"temperature", "roll"} & set(channels))
 
 
-def test_the_derivative_of_a_channel_of_the_motion_needs_no_column() -> None:
-    term = Term("const", ("d_a_x",))
-    assert as_effect.columns(term) == []
-    assert from_expression("mine", "transducer", "K_x*d_a_x", {"K_x": {"unit": "s"}}).channels == ()
-
-
-def test_a_channel_of_an_odd_name_is_offered_in_no_expression() -> None:
-    assert as_effect.line(Term("const", ("f_i", 'x"] evil')), {}, "m/s^2") is None
-
-
 def test_one_term_that_explains_more_than_several_effects_takes_their_place() -> None:
     s = scenario(72, duration=400.0)
     run = s.simulate({})

@@ -12,9 +12,6 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from serving import DEMO, Served, brief, foreign, new, served
 
@@ -390,26 +387,6 @@ def test_14_figures_and_reports_are_taken_along(page: Page) -> None:
         assert "model-c/Makefile" in z.namelist()
         assert z.testzip() is None
     page.keyboard.press("1")
-
-
-def test_17_a_day_at_100_Hz_is_seen_before_it_is_read(browser: Browser, tmp_path: Path) -> None:
-    n = 8_640_000
-    time = np.arange(n) / 100.0
-    series = {"time": ("s", time), "G_out": ("V", np.sin(time) + 1e-3 * (np.arange(n) % 977))}
-    fields = [pa.field(name, pa.float64(), metadata={"units": unit}) for name, (unit, _) in series.items()]
-    table = pa.Table.from_arrays([pa.array(x) for _, x in series.values()], schema=pa.schema(fields))
-    pq.write_table(table, tmp_path / "day.parquet", use_dictionary=False, compression="none")
-    new(tmp_path / "model")
-    with served(tmp_path / "model", tmp_path / "day.parquet") as s:
-        page = browser.new_page()
-        page.goto(s.address)
-        expect(page.locator("html[data-drawn]")).to_be_attached(timeout=PATIENCE)
-        expect(page.locator(".window")).to_contain_text("86\u202f400 s at 100 Hz")
-        for _ in range(12):
-            page.keyboard.press("+")
-        expect(page.locator("figure.measured .legend")).to_contain_text("measured")
-        assert float(page.evaluate("() => performance.memory.usedJSHeapSize")) < 500e6
-        page.close()
 
 
 def test_15_the_address_holds_the_view_for_another_tab(page: Page, server: Served) -> None:
