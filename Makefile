@@ -65,16 +65,9 @@ $(RIVALS): requirements.lock pyproject.toml
 bench: $(RIVALS)  ## measure speed, as ratios within one run (10 to 20 minutes; docs/benchmarks.md)
 	.venv-bench/bin/python -m benchmarks
 
-# The other methods want older versions of the numerical packages than the lock: an environment of their own.
-PEERS := .venv-peers/.complete
-$(PEERS): pyproject.toml
-	$(PYTHON) -m venv .venv-peers
-	.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
-	@touch $@
-
 bench-diagnosis: export OPENBLAS_NUM_THREADS := 1
-bench-diagnosis: $(PEERS)  ## measure the diagnosis on 250 flights, beside other methods (resumable, half an hour)
-	.venv-peers/bin/python -m benchmarks.diagnosis --jobs 2
+bench-diagnosis: $(STAMP)  ## measure the diagnosis on 720 flights (resumable, an hour; docs/diagnosis.md)
+	$(BIN)/python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
 
 faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
 	$(BIN)/python -m tests.faults
@@ -95,4 +88,4 @@ docs: $(STAMP)  ## build the documentation site into docs/_build/html (offline; 
 	@echo "open docs/_build/html/index.html"
 
 clean:  ## remove the environment and caches
-	rm -rf docs/_build docs/_made $(VENV) .venv-peers .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info
+	rm -rf docs/_build docs/_made $(VENV) .venv-bench .venv-tools .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist *.egg-info

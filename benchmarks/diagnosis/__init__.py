@@ -1,7 +1,6 @@
-"""How well the diagnosis does on flights of the independent reference, beside what one would try instead.
+"""How well the diagnosis does: flights of the independent simulator, and questions asked of a real array.
 
-``python -m benchmarks.diagnosis`` flies some 240 flights (``plan``) with hidden effects of known strength
-(``inject``) or physics outside the catalogue (``outside``), diagnoses each and gives its columns to other
-methods (``peers``), one JSON line a flight (``fly``), so that it can be interrupted and resumed; ``score``
-and ``table`` turn the lines into ``docs/diagnosis.md``.
+``plan`` says which flights there are, ``records`` what is done to their noise and their files, ``strength`` how large a hidden
+effect must be, ``outside`` what no effect makes; ``fly`` diagnoses one, ``score`` judges it, ``table`` writes the page, and
+``ablation`` flies with single rules switched off.
 """

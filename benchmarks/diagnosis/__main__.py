@@ -1,188 +1,209 @@
-"""Fly the benchmark of the diagnosis: resumable, with progress; writes docs/diagnosis.md once complete."""
+"""Fly the benchmark of the diagnosis, or the ablation, with progress and resumably; print the tables, write files and the page.
+
+python -m benchmarks.diagnosis [--seed N ...] [--jobs N] [--only KIND] [--real FOLDER] [--save FILE] [--against FILE]
+python -m benchmarks.diagnosis --ablate [--rule ID ...] [--jobs N]
+python -m benchmarks.diagnosis --flight ID      one flight, shown
+python -m benchmarks.diagnosis --page           docs/diagnosis.md, from the results that are committed
+"""
 
 from __future__ import annotations
 
 import argparse
+import csv
 import hashlib
 import json
 import multiprocessing
+import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
-
-from benchmarks.diagnosis import plan, table
+from benchmarks.diagnosis import ablation, array, plan, score, table
 from benchmarks.diagnosis.fly import fly
 from benchmarks.diagnosis.plan import Spec
+from benchmarks.diagnosis.score import Row
 
-ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "bench-diagnosis.jsonl"
 PAGE = ROOT / "docs" / "diagnosis.md"
+RESULTS = {n: HERE / f"{n}.csv" for n in ("reference", "ablation", "array")}
 
-ROOMS = (
-    "base",
-    "diagnosis",
-    "evidence",
-    "fit",
-    "flight",
-    "instrument",
-    "lack_of_fit",
-    "model",
-    "model_dir",
-    "plausibility",
-    "reference",
-    "signals",
-)
-"""Of the runtime: what the result of a flight depends on; a change elsewhere (reports, commands) flies nothing anew."""
+ASIDE = ("report", "studio", "cli", "wording", "survey", "experiments", "compensation")
+"""Of the runtime: what no diagnosis depends on; a change there flies nothing anew."""
 
-SOURCES = (
-    "generated/manifest.json",
-    "derive/**/*.py",
-    *(f"ragg_runtime/{room}/**/*.py" for room in ROOMS),
-    *(f"benchmarks/diagnosis/{name}.py" for name in ("fly", "inject", "outside", "peers")),
-)
+OWN = ("plan", "records", "strength", "outside", "fly")
 
 
 def source_digest(root: Path = ROOT) -> str:
-    """Digest of the sources that a flight's result depends on.
-
-    Raises
-    ------
-    FileNotFoundError
-        A pattern of ``SOURCES`` names no file: it has moved, and its changes would go unseen.
-    """
+    """Of the sources that a flight's result depends on."""
+    paths = [root / "generated" / "manifest.json", *(root / "derive").rglob("*.py")]
+    for package in sorted((root / "ragg_runtime").iterdir()):
+        if package.is_dir() and package.name not in ASIDE:
+            paths += package.rglob("*.py")
+    paths += [root / "benchmarks" / "diagnosis" / f"{n}.py" for n in OWN]
     digest = hashlib.sha256()
-    for pattern in SOURCES:
-        paths = sorted(root.glob(pattern))
-        if not paths:
-            raise FileNotFoundError(f"no file is called {pattern}; name what took its place in SOURCES")
-        for path in paths:
-            digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for path in sorted(paths):
+        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:12]
 
 
-def read(cache: Path) -> Iterator[dict[str, Any]]:
-    """Lines of a cache; one cut off by an interruption is left out."""
-    if not cache.exists():
-        return
-    for text in cache.read_text("utf-8").splitlines():
-        try:
-            yield json.loads(text)
-        except json.JSONDecodeError:
-            continue
+def commit() -> str:
+    """The commit that is checked out."""
+    words = ["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"]
+    return subprocess.run(words, capture_output=True, text=True, check=False).stdout.strip()
 
 
-def finished(
-    lines: Iterator[dict[str, Any]], specs: Sequence[Spec], source: str | None
-) -> dict[str, dict[str, Any]]:
-    """The newest line of every planned flight, of this source version (``None``: of any)."""
-    wanted = {s.id: s.digest for s in specs}
-    return {
-        x["id"]: x
-        for x in lines
-        if wanted.get(x["id"]) == x["plan"] and (source is None or x["source"] == source)
-    }
+class Cache:
+    """Results that are there: a line of JSON each, by their key; a line that was cut off by an interruption is left out."""
 
-
-def run(specs: Sequence[Spec], cache: Path, jobs: int, source: str, sample: int = 0) -> None:
-    """Fly specs, appending a line to the cache as each is done; an interruption loses only those in the air."""
-    cache.parent.mkdir(parents=True, exist_ok=True)
-    if cache.exists() and not cache.read_bytes().endswith(b"\n"):
-        with cache.open("a", encoding="utf-8") as file:
-            file.write("\n")
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(elapsed_when_finished=False),
-    )
-    with (
-        Progress(*columns, console=Console(stderr=True)) as progress,
-        cache.open("a", encoding="utf-8") as file,
-    ):
-        task = progress.add_task("flights", total=len(specs))
-
-        def done(spec: Spec, result: Mapping[str, object]) -> None:
-            line: dict[str, object] = {"id": spec.id, "kind": spec.kind, "plan": spec.digest}
-            line |= {"source": source, "seed": sample} | dict(result)
-            file.write(json.dumps(line) + "\n")
-            file.flush()
-            progress.update(task, advance=1, description=spec.id)
-
-        if jobs == 1:
-            for spec in specs:
-                done(spec, fly(spec))
-            return
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-            flying: dict[Future[dict[str, object]], Spec] = {pool.submit(fly, s): s for s in specs}
+    def __init__(self, path: Path, source: str | None) -> None:
+        self.path, self.source = path, source
+        self.lines: dict[str, dict[str, Any]] = {}
+        text = path.read_text("utf-8") if path.exists() else ""
+        if text and not text.endswith("\n"):
+            path.write_text(text + "\n", "utf-8")
+        for one in text.splitlines():
             try:
-                while flying:
-                    for future in wait(flying, return_when=FIRST_COMPLETED).done:
-                        done(flying.pop(future), future.result())
-            except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
+                x = json.loads(one)
+            except json.JSONDecodeError:
+                continue
+            if source is None or x["source"] == source:
+                self.lines[x["key"]] = x
+
+    def add(self, key: str, x: dict[str, Any]) -> None:
+        x = {"key": key, "source": self.source} | x
+        self.lines[key] = x
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with self.path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(x) + "\n")
+
+
+Task = Callable[[], dict[str, Any]]
+
+
+def run(tasks: dict[str, Task], cache: Cache, jobs: int) -> None:
+    """Do what is not done yet; an interruption loses only what is in the air."""
+    missing = {k: t for k, t in tasks.items() if k not in cache.lines}
+    print(f"{len(tasks) - len(missing)} of {len(tasks)} are done already", file=sys.stderr)
+    at = {"commit": commit()}
+    if jobs == 1:
+        for n, (key, task) in enumerate(missing.items()):
+            cache.add(key, at | task())
+            print(f"\r{n + 1} of {len(missing)}: {key}\033[K", end="", file=sys.stderr)
+        return
+    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        flying = {pool.submit(t): k for k, t in missing.items()}
+        try:
+            for n, future in enumerate(as_completed(flying)):
+                cache.add(flying[future], at | future.result())
+                print(f"\r{n + 1} of {len(missing)}: {flying[future]}\033[K", end="", file=sys.stderr)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def flown(spec: Spec) -> dict[str, Any]:
+    """The line of a flight, with what it is."""
+    return {"id": spec.id, "kind": spec.kind, "record": spec.record} | fly(spec)
+
+
+def read_rows(path: Path) -> list[Row]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def write_rows(rows: Iterable[Row], path: Path) -> None:
+    rows = list(rows)
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    print(f"written: {path}", file=sys.stderr)
+
+
+def _ablate(options: argparse.Namespace, source: str) -> None:
+    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ablation"), source)
+    rules = [r for r in ablation.RULES if r.there and (not options.rule or r.id in options.rule)]
+    for r in rules:
+        flights = ablation.flights(r)
+        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, options.jobs)
+        acting = [s for s in flights if ablation.acts(r, cache.lines[f"/{s.id}"])]
+        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, options.jobs)
+        row = ablation.row(r, flights, cache.lines)
+        print("\n" + json.dumps(row), flush=True)
+    done = [r for r in ablation.RULES if ablation.complete(r, cache.lines)]
+    rows = [ablation.row(r, ablation.flights(r), cache.lines) for r in done]
+    print("\n".join(table.ablation(rows)))
+    if options.save is not None:
+        write_rows(rows, options.save)
+
+
+def _fly(options: argparse.Namespace, source: str) -> None:
+    cache = Cache(options.cache, source)
+    specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n)]
+    specs = [s for s in specs if not options.only or s.kind in options.only]
+    run({s.id: partial(flown, s) for s in specs}, cache, options.jobs)
+    rows = [score.row(cache.lines[s.id]) for s in specs]
+    print("\n" + "\n".join(table.flights(rows)))
+    if options.against is not None:
+        print("\n".join(table.against(rows, read_rows(options.against))))
+    if options.save is not None:
+        write_rows(rows, options.save)
+
+
+def _array(options: argparse.Namespace, source: str) -> None:
+    cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
+    tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
+    run(tasks, cache, options.jobs)
+    rows = [row for key in tasks for row in array.rows(key, cache.lines[key])]
+    print("\n" + "\n".join(table.array(rows)))
+    if options.save is not None:
+        write_rows(rows, options.save)
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.diagnosis", description=__doc__)
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.diagnosis")
+    parser.add_argument("--seed", type=int, action="append", help="which flights (default: the reference's)")
     parser.add_argument("--only", action="append", choices=list(plan.COUNTS), help="kinds of flights")
+    parser.add_argument("--flight", action="append", default=[], metavar="ID", help="show one flight")
+    parser.add_argument("--array", action="store_true", help="ask the real array instead")
     parser.add_argument(
-        "--seed",
-        type=int,
-        default=plan.PAGE,
-        help=f"which sample of flights (default, that of the page in docs: {plan.PAGE})",
+        "--real", type=Path, metavar="FOLDER", help="its recordings, *.bin.gz (default: what is shipped)"
     )
-    parser.add_argument("--flights", type=int, help="at most so many of each kind")
     parser.add_argument(
-        "--flight", action="append", default=[], metavar="KIND/NUMBER", help="show one flight"
+        "--ablate", action="store_true", help="fly with one rule after the other switched off"
     )
-    parser.add_argument("--cache", type=Path, default=CACHE, help="results, a JSON line a flight")
-    parser.add_argument("--keep", action="store_true", help="keep results of other versions of the sources")
     parser.add_argument(
-        "--page", type=Path, help="written once all flights are done (default sample: docs/diagnosis.md)"
+        "--rule", action="append", choices=[r.id for r in ablation.RULES], help="of the ablation"
     )
-    parser.add_argument("--table", action="store_true", help="fly nothing: print the page of what is there")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--cache", type=Path, default=CACHE, help="results, a JSON line each")
+    parser.add_argument("--save", type=Path, metavar="CSV", help="keep the results in short")
+    parser.add_argument(
+        "--against", type=Path, metavar="CSV", help="compare flight by flight with results in short"
+    )
+    parser.add_argument(
+        "--page", action="store_true", help="write the page from the results that are committed"
+    )
     options = parser.parse_args(arguments)
     for name in options.flight:
-        kind, _, number = name.partition("/")
-        print(json.dumps(fly(plan.spec(kind, int(number), options.seed)), indent=1))
+        sample, kind, record, index = name.split("/")
+        print(json.dumps(flown(Spec(kind, record, int(index), int(sample))), indent=1))
     if options.flight:
         return 0
+    if options.page:
+        PAGE.write_text(table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()}), "utf-8")
+        return 0
     source = source_digest()
-    everything = plan.specs(sample=options.seed)
-    chosen = plan.specs(options.only, options.flights, options.seed)
-    accepted = None if options.keep or options.table else source
-    if not options.table:
-        have = finished(read(options.cache), chosen, accepted)
-        print(f"{len(have)} of {len(chosen)} flights are done already", file=sys.stderr)
-        try:
-            run([s for s in chosen if s.id not in have], options.cache, options.jobs, source, options.seed)
-        except KeyboardInterrupt:
-            print("interrupted: run it again to go on", file=sys.stderr)
-            return 130
-    lines = list(finished(read(options.cache), everything, accepted).values())
-    text = table.page(lines, complete=len(lines) == len(everything), sample=options.seed)
-    print(text)
-    page = options.page or (PAGE if options.seed == plan.PAGE else None)
-    if page is not None and len(lines) == len(everything) and not options.table:
-        page.write_text(text, "utf-8")
-        print(f"written: {page}", file=sys.stderr)
+    try:
+        (_ablate if options.ablate else _array if options.array else _fly)(options, source)
+    except KeyboardInterrupt:
+        print("interrupted: run it again to go on", file=sys.stderr)
+        return 130
     return 0
 
 

@@ -1,58 +1,73 @@
-"""One flight: hide something in it, diagnose it, add what was found, ask the peers. One JSON object."""
+"""One flight: hide something in it, write its files, diagnose them as a user would. One JSON object."""
 
 from __future__ import annotations
 
 import signal
+import tempfile
 import time
 import traceback
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cached_property
-from types import FrameType, MappingProxyType
+from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.diagnosis import inject, outside, peers
-from benchmarks.diagnosis.inject import Bench, Hidden
-from benchmarks.diagnosis.plan import STRENGTH, Spec, scenario_of
-from ragg_runtime.diagnosis import diagnose
-from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.fit import fitted as fitted_
-from ragg_runtime.fit import observation
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.flight import Flight
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument
-from ragg_runtime.instrument.units import RawQuantity
-from ragg_runtime.model import model as load
-from ragg_runtime.model.evaluate import output, vector
-from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import record
-from ragg_runtime.model_dir import derive
-from ragg_runtime.reference.scenario import Scenario
-from ragg_runtime.reference.simulate import Simulation
+import ragg
+from benchmarks.diagnosis import outside, plan, records
+from benchmarks.diagnosis.outside import Outside
+from benchmarks.diagnosis.plan import Spec, World
+from benchmarks.diagnosis.records import Loudness, Recorded, Table
+from benchmarks.diagnosis.strength import Hidden, Oracle
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.flight.record import SI_UNITS
+from ragg_runtime.instrument.edit_toml import model_text
+from ragg_runtime.reference.effects import EffectValues
+from ragg_runtime.reference.simulate import Simulation, combine, simulate
+from ragg_runtime.signals.demodulate import low_pass
+from ragg_runtime.signals.fir import convolved
 
 Array = NDArray[np.float64]
 
-_SENSORS = {"a": 1e-6, "omega": 1e-7, "omegadot": 1e-6}
-"""White noise of the motion record, SI, before it is scaled to the error that it is to cause."""
-
-_TRIES = 60
-
-LONGEST = 60.0
+LONGEST = 90.0
 """s of processor time for one flight; usual are three."""
 
+TRIES = 60
 
-def fly(spec: Spec) -> dict[str, object]:
-    """The record of one flight; a crash is a result too."""
-    begin = time.perf_counter()
+STRONG = (300.0, 3000.0)
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """The columns of the file, and what is hidden in them."""
+
+    world: World
+    table: Table
+    hidden: tuple[Hidden, ...]
+    term: Outside | None
+
+
+def fly(spec: Spec) -> dict[str, Any]:
+    """The line of one flight; a crash is a result too."""
+    begin, cpu = time.perf_counter(), time.process_time()
+    found: dict[str, Any] = {}
     try:
         with _limited(LONGEST):
-            found = _flown(spec)
+            p = prepared(spec)
+            found |= {
+                "hidden": [h.as_json() for h in p.hidden],
+                "outside": None if p.term is None else [p.term.name, p.term.with_mimics],
+            }
+            ready = time.process_time()
+            found |= diagnosed(p)
+            found["cpu"] = round(time.process_time() - ready, 2)
     except Exception:
-        found = {"crash": traceback.format_exc()}
-    return found | {"total_seconds": round(time.perf_counter() - begin, 2)}
+        found["crash"] = traceback.format_exc()
+    found["seconds"] = round(time.perf_counter() - begin, 2)
+    return found | {"total_cpu": round(time.process_time() - cpu, 2)}
 
 
 @contextmanager
@@ -71,201 +86,177 @@ def _limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, old)
 
 
-@dataclass(frozen=True)
-class Prepared:
-    """A flight ready to be diagnosed, and what is hidden in it."""
-
-    scenario: Scenario
-    simulation: Simulation
-    flight: Flight
-    hidden: tuple[Hidden, ...]
-    untestable: tuple[str, ...]
-    term: outside.Outside | None
-    bench: Bench
-
-    @cached_property
-    def noise_Eo(self) -> float:
-        """rms of the noise that was added, the motion record's left out, Eo."""
-        e = self.simulation.G_out - self.simulation.G_out_noise_free
-        return float(np.std(e)) / self.bench.fitted.k_ggi
-
-
-def _flown(spec: Spec) -> dict[str, object]:
-    p = prepared(spec)
-    model, sheet = load.packaged(), p.scenario.sheet
-    begin = time.perf_counter()
-    d = diagnose.diagnose(
-        model, sheet, [p.flight], lambda m, ids, **k: derive.with_effects(sheet, m, ids, **k)
-    )
-    seconds = time.perf_counter() - begin
-    c = peers.columns(d.fitted)
-    return {
-        "hidden": [
-            h.as_json() | {"twins": inject.twins(p.bench, h), "kind": _kind(model, h.effect)}
-            for h in p.hidden
-        ],
-        "untestable": list(p.untestable),
-        "outside": None
-        if p.term is None
-        else {
-            "name": p.term.name,
-            "factor": p.term.factor,
-            "strength": p.term.strength,
-            "strength_with_mimics": p.term.strength_with_mimics,
-        },
-        "verdict": d.verdict,
-        "found": list(d.found),
-        "ranking": [
-            {"effect": r.effect, "log_p": max(r.log_p, -1e4), "twins": list(r.indistinguishable_from)}
-            for r in d.ranking[:6]
-        ],
-        "tested": len(d.ranking),
-        "remainder_log_p": d.remainder.log_p,
-        "terms": [
-            [t.term.harmonic, t.term.product, round(t.z, 2)] for s in d.remainder.searches for t in s.terms
-        ],
-        "seconds": round(seconds, 3),
-        "noise_floor": d.noise_floor,
-        "noise_true": p.noise_Eo,
-        "errors": _errors(p, d) if spec.kind != "outside" else None,
-        "peers": peers.claims(c),
-        "peer_columns": [len(c.y), len(c.effects)],
-    }
-
-
-def _kind(model: Model, effect: str) -> str:
-    return next(e.kind for e in model.candidates if e.id == effect)
-
-
 def prepared(spec: Spec) -> Prepared:
-    """Fly a spec: first without any effect, to measure strengths on, then with what it is to hide."""
-    s = scenario_of(spec)
-    plain = s.simulate(record_gradient=spec.gradient[1] == "recorded")
-    flight = _with_sensor_noise(spec, s, plain)
-    model = load.packaged()
-    bench = Bench(fitted_.fit(model, s.sheet, [observation.observe(flight, s.sheet)]), plain)
+    """The file of a flight."""
+    w, kind = plan.world(spec), records.KINDS[spec.record]
+    plain = _simulated(w, {})
+    channels = _table(plain, plain.voltages_noise_free)
+    loudness = kind.noise(channels, spec.rng(2))
     hidden: tuple[Hidden, ...] = ()
-    untestable: tuple[str, ...] = ()
     term = None
-    sim = plain
-    if spec.kind.startswith("single"):
-        hidden, untestable = _one(spec, bench)
-    elif spec.kind == "two":
-        hidden, untestable = _two(spec, bench)
-    if hidden:
-        values = {h.effect: h.values for h in hidden}
-        sim = s.simulate(values, record_gradient=spec.gradient[1] == "recorded")
-        flight = _with_sensor_noise(spec, s, sim)
-    if spec.kind == "outside":
-        r = bench.piece.observation.record
-        phi = np.arctan2(r.sin_phi, r.cos_phi)
-        name = outside.NAMES[spec.index % len(outside.NAMES)]
-        term = outside.drawn(bench, s, name, STRENGTH[spec.kind], phi)
-        flight = replace(flight, outputs={"G_out": flight.outputs["G_out"] + term.change})
-    return Prepared(s, sim, flight, hidden, untestable, term, bench)
+    if spec.kind != "quiet":
+        oracle = Oracle(w, plain.flight("plain", voltages=w.output == "voltages"), loudness)
+        hidden = _hidden(spec, oracle)
+        if spec.kind == "outside":
+            at = outside.World(
+                time=plain.time,
+                phi=2 * np.pi * w.scenario.sheet.spin_frequency * plain.time,
+                channels=plain.channels,
+                output=plain.G_out_noise_free,
+                rate=w.scenario.rate,
+                duration=w.scenario.duration,
+                scenario=w.scenario,
+            )
+            term = outside.drawn(oracle, at, plan.outside_name(spec), 10.0)
+    values = {h.effect: h.values for h in hidden}
+    recorder = {e: values.pop(e) for e in ("quantisation", "saturation") if e in values}
+    sim = _simulated(w, values) if values else plain
+    return Prepared(w, _recorded(spec, w, sim, loudness, term, recorder), hidden, term)
 
 
-def _with_sensor_noise(spec: Spec, s: Scenario, sim: Simulation) -> Flight:
-    """The flight as recorded: white noise on the motion channels, sized by the error that it causes."""
-    flight = sim.flight(spec.id)
-    if not spec.sensor_noise or s.noise is None:
-        return flight
-    rng = spec.rng(2)
-    noisy = dict(flight.channels)
-    noise = {
-        f"{q}_{k}": sigma * rng.standard_normal(len(flight.time))
-        for q, sigma in _SENSORS.items()
-        for k in "xyz"
+def _simulated(w: World, effects: EffectValues) -> Simulation:
+    s = w.scenario
+    return simulate(
+        s.instrument,
+        s.motion,
+        s.duration,
+        s.rate,
+        start=w.start,
+        gravity=s.gravity,
+        record_gradient=w.gradient,
+        rotations=s.rotations,
+        effects=effects,
+        seed=s.seed,
+        auxiliaries=s.auxiliaries,
+    )
+
+
+def _table(sim: Simulation, voltages: Array) -> Table:
+    return {
+        "time": sim.time,
+        **{n: np.asarray(x) for n, x in sim.channels.items()},
+        **{f"V_{j + 1}": v for j, v in enumerate(voltages)},
+        "G_out": combine(voltages),
     }
-    model = load.packaged()
-    p = vector(model, s.instrument)
-
-    def G(factor: float) -> Array:
-        channels = noisy | {n: noisy[n] + factor * e for n, e in noise.items()}
-        return output(model.chain, record(replace(flight, channels=channels), s.sheet), p)
-
-    wanted = spec.sensor_noise * float(np.std(sim.G_out - sim.G_out_noise_free))
-    factor = wanted / float(np.std(G(1.0) - G(0.0)))
-    return replace(flight, channels=noisy | {n: noisy[n] + factor * e for n, e in noise.items()})
 
 
-def _effects(bench: Bench) -> list[str]:
-    return [e.id for e in bench.fitted.model.candidates]
+def _recorded(
+    spec: Spec,
+    w: World,
+    sim: Simulation,
+    loudness: Loudness,
+    term: Outside | None,
+    recorder: Mapping[str, Any],
+) -> Table:
+    """What the recorder makes of a flight: noise, what the kind of its record is, and the outputs that are recorded."""
+    s, i = w.scenario, w.scenario.instrument.accelerometers
+    scale = (i["k_VI"] * i["K1"])[:, None]
+    noise = scale * records.sampled(loudness, w.density, spec.rng(3), len(sim.time), s.rate)
+    x = _table(sim, sim.voltages_noise_free + noise)
+    if term is not None:
+        x["G_out"] = x["G_out"] + term.change
+        if w.output == "voltages":
+            x["V_1"] = x["V_1"] + term.change
+    if "saturation" in recorder:
+        x["G_out"] = np.clip(x["G_out"], -recorder["saturation"]["V_max"], recorder["saturation"]["V_max"])
+    if "quantisation" in recorder:
+        q = recorder["quantisation"]["q"]
+        x["G_out"] = np.round(x["G_out"] / q) * q
+    if w.output != "voltages":
+        x = {n: v for n, v in x.items() if not n.startswith("V_")}
+    rms = float(np.std(combine(noise))) or 1e-12 * float(np.std(x["G_out"]))
+    x = records.KINDS[spec.record].change(x, Recorded(sim.G_out_noise_free, rms, s.rate), spec.rng(4))
+    return _channels(w, x) if w.output == "channels" else x
 
 
-def _one(spec: Spec, bench: Bench) -> tuple[tuple[Hidden, ...], tuple[str, ...]]:
-    """The effect whose turn it is, or, where the flight cannot show it, another one drawn at random."""
-    rng = spec.rng(1)
-    known = _effects(bench)
-    untestable: list[str] = []
-    effect = known[spec.index % len(known)]
-    for _ in range(_TRIES):
-        if (h := inject.drawn(bench, effect, STRENGTH[spec.kind], rng)) is not None:
-            return (h,), tuple(untestable)
-        untestable.append(effect)
-        effect = str(rng.choice([e for e in known if e not in untestable]))
+def _channels(w: World, x: Table) -> Table:
+    """Demodulated channels in the place of the output; at both ends the filter has not seen enough."""
+    phi, low = 2 * np.pi * w.scenario.sheet.spin_frequency * x["time"], low_pass(w.scenario.rate)
+    k, half, G = w.scenario.sheet.scale_factor, len(low) // 2, x.pop("G_out")
+    made = {"inline": 4 * G * np.sin(2 * phi), "cross": -2 * G * np.cos(2 * phi)}
+    ends = {"constant_values": np.nan}
+    return x | {n: np.pad(convolved(v, low) / k, half, **ends) for n, v in made.items()}  # type: ignore[call-overload]
+
+
+def _hidden(spec: Spec, o: Oracle) -> tuple[Hidden, ...]:
+    rng = spec.rng(5)
+    known = list(o.kinds)
+    if spec.kind == "pair":
+        return _pair(spec, o, rng)
+    if spec.kind == "outside" or (spec.kind == "off-sheet" and spec.index % 3 == 2):
+        return ()
+    low, high = {"five": (5.0, 5.0), "ten": (10.0, 10.0), "strong": STRONG}.get(spec.kind, (10.0, 1000.0))
+    strength = float(np.exp(rng.uniform(np.log(low), np.log(high))))
+    order = np.random.default_rng(list(plan.COUNTS).index(spec.kind)).permutation(len(known))
+    place = spec.index + plan.COUNTS[spec.kind] * (spec.sample % 10)
+    effect = known[order[place % len(known)]]  # in turn, in an order of each kind's own
+    for _ in range(TRIES):
+        h = o.drawn(effect, strength, rng)
+        if h is not None:
+            return (h,)
+        effect = str(rng.choice(known))
     raise RuntimeError("no effect is testable on this flight")
 
 
-def _two(spec: Spec, bench: Bench) -> tuple[tuple[Hidden, ...], tuple[str, ...]]:
-    """Two effects, each of the full strength beside the whole other; an error of the motion record in a third."""
-    rng = spec.rng(1)
-    kinds = {e.id: e.kind for e in bench.fitted.model.candidates}
-    known = [e for e, k in kinds.items() if k in ("deterministic", "step")]
-    strength = STRENGTH[spec.kind]
-    untestable: list[str] = []
-    for _ in range(_TRIES):
-        first = str(rng.choice(inject.MOTION_RECORD if spec.index % 3 == 0 else known))
-        second = str(rng.choice([e for e in known if e != first]))
-        instants = {e: float(bench.piece.observation.record.time[-1] * 0.4) for e in (first, second)}
-        pair = [
-            inject.drawn(bench, e, strength, rng, bench.block(o, instants[o] if kinds[o] == "step" else None))
-            for e, o in ((first, second), (second, first))
-        ]
+def _pair(spec: Spec, o: Oracle, rng: np.random.Generator) -> tuple[Hidden, ...]:
+    """Two effects, each of its strength beside the whole other one."""
+    columns = [e for e, k in o.kinds.items() if k in ("deterministic", "step")]
+    time = o.flight.time
+    middle = float(time[0] + 0.4 * (time[-1] - time[0]))
+    strong = 300.0 if spec.index % 2 else 10.0
+    for _ in range(TRIES):
+        first, second = (str(e) for e in rng.choice(columns, 2, replace=False))
+        pair = (
+            o.drawn(first, strong, rng, o.block(second, middle)),
+            o.drawn(second, 10.0, rng, o.block(first, middle)),
+        )
         if pair[0] is not None and pair[1] is not None:
-            return (pair[0], pair[1]), tuple(untestable)
-        untestable.append(f"{first} + {second}")
+            return pair[0], pair[1]
     raise RuntimeError("no two effects are testable on this flight")
 
 
-def _errors(p: Prepared, d: Diagnosis) -> dict[str, object]:
-    """Error after adding what was found, and after adding what was hidden, Eo: calibrated and held out."""
-    model, sheet = load.packaged(), p.scenario.sheet
-    steps = {h.effect: h.instant for h in p.hidden if h.instant is not None}
-    estimated = {
-        r.effect: q.value
-        for r in d.ranking
-        for q in r.parameters
-        if q.name == "t_step" and r.effect in d.found
+def diagnosed(p: Prepared) -> dict[str, Any]:
+    """What ``ragg diagnose`` says of sheet and flight in files."""
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        sheet = replace(p.world.scenario.sheet, effects=())
+        (place / "sheet.toml").write_text(model_text(sheet), "utf-8")
+        records.write(p.table, SI_UNITS, place / "flight.parquet")
+        try:
+            m = ragg.new(place / "model", place / "sheet.toml")
+            d = ragg.diagnose(m, ragg.read_flights(m, [place / "flight.parquet"])).as_json()
+        except UserError as e:
+            return {"verdict": "refused", "reason": str(e), "found": [], "ranking": [], "terms": []}
+    return essence(d)
+
+
+def essence(d: Mapping[str, Any]) -> dict[str, Any]:
+    """What the scoring needs of the JSON of a diagnosis."""
+    kept = [r for k, r in enumerate(d["ranking"]) if k < 6 or r["effect"] in d["found"]]
+    return {
+        "verdict": d["verdict"],
+        "reason": d["reason"],
+        "found": list(d["found"]),
+        "ranking": [
+            {
+                "effect": r["effect"],
+                "log10_p": r["log10_p"],
+                "probability": r["probability"],
+                "twins": list(r["indistinguishable_from"]),
+            }
+            for r in kept
+        ],
+        "probability": {
+            r["effect"]: round(r["probability"], 4)
+            for r in d["ranking"]
+            if r["probability"] is not None and r["probability"] > 1e-3
+        },
+        "credible_set": [list(s) for s in d["credible_set"][:50]],
+        "tested": len(d["ranking"]),
+        "terms_log10_p": d["unexplained"]["log10_p"],
+        "terms": [[t["harmonic"], t["term"], round(t["z"], 1)] for t in d["unexplained"]["terms"][:3]],
+        "before": d["error"]["before"]["rms_Eo"],
+        "after": d["error"]["after"]["rms_Eo"],
+        "noise_floor": d["noise_floor"]["rms_Eo"],
+        "converged": d.get("converged", True),
     }
-
-    def fitted(ids: Sequence[str], instants: Mapping[str, float]) -> tuple[float, float]:
-        ids = [e for e in ids if _kind(model, e) in ("deterministic", "step")]
-        instrument = _with_instants(sheet, {e: t for e, t in instants.items() if e in ids})
-        extended = derive.with_effects(sheet, model, ids) if ids else _plain(model)
-        return scored(fitted_.fit(extended, instrument, d.fitted.observations))
-
-    oracle = fitted([h.effect for h in p.hidden], steps)
-    same = set(d.found) == {h.effect for h in p.hidden} and not steps
-    tool = oracle if same else fitted(d.found, estimated)
-    before = scored(d.fitted)
-    return {"before": before, "tool": tool, "oracle": oracle}
-
-
-def _plain(model: Model) -> Model:
-    """The model without candidates, as those with effects added come."""
-    return replace(model, candidates=(), signatures=model.chain)
-
-
-def _with_instants(sheet: Instrument, instants: Mapping[str, float]) -> Instrument:
-    settings = tuple(
-        EffectSetting(e, MappingProxyType({"t_step": RawQuantity(t, "s")})) for e, t in instants.items()
-    )
-    return replace(sheet, effects=settings)
-
-
-def scored(f: Fitted) -> tuple[float, float]:
-    """rms error, Eo, of a fitted model: calibrated, and on the blocks of time that a fit left out."""
-    half, _ = f.coefficients((), held_out=True)
-    calibrated, held_out = f.score([np.zeros(f.size), f.vector(half)])
-    return calibrated.whole.rms_Eo, held_out.held_out.rms_Eo

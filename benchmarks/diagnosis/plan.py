@@ -1,147 +1,272 @@
-"""Which flights are flown: a fixed list, every flight determined by its index within its kind."""
+"""Which flights are flown: a fixed list for every seed, and the instrument, the motion and the world of each."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ragg_runtime.flight import Flight, read_flight
-from ragg_runtime.reference.motion import Motion, recorded_motion
-from ragg_runtime.reference.scenario import Scenario, scenario
+from benchmarks.diagnosis import outside, records
+from ragg_runtime.flight import read_flight
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.reference.accelerometer_noise import eotvos_noise
+from ragg_runtime.reference.auxiliaries import further, plausible
+from ragg_runtime.reference.gravity import Gradient
+from ragg_runtime.reference.instruments import perturbed, table_v, trimmed
+from ragg_runtime.reference.motion import Motion, Signal, recorded_motion
+from ragg_runtime.reference.scenario import Scenario, draw_gradient, draw_motion
+from ragg_runtime.reference.turbulence import SHAPES
 
-DURATION = 640.0
+Array = NDArray[np.float64]
+
+REFERENCE = (4401, 4402, 4403)
+"""Seeds of the reference: flown once on commit 0e1d107, and on whatever is compared with it."""
+
+HELD = (4411, 4412, 4413)
+"""Seeds that nobody has looked at: for the code that is written next."""
+
+ABLATION = 4420
+"""Seed of the flights of the ablation."""
+
+COUNTS = {"quiet": 100, "outside": 40, "five": 20, "ten": 20, "strong": 20, "pair": 20, "off-sheet": 20}
+"""Flights of every kind in a seed."""
+
+WHAT = {
+    "quiet": "nothing is hidden",
+    "outside": "physics that no effect makes, 10 sigma beyond all effects together",
+    "five": "an effect of 5 sigma",
+    "ten": "an effect of 10 sigma",
+    "strong": "an effect of 300 to 3,000 sigma",
+    "pair": "two effects: 10 and 300 sigma, or 10 and 10",
+    "off-sheet": "off its sheet by ten times what is usual, or by per cent and milliradians; in two of three 10 to 1,000 sigma",
+}
+
+DURATION, QUIET_DURATION = 400.0, 300.0
 RATE = 16.0
 
-COUNTS = {"effect-free": 64, "single-10": 62, "single-5": 62, "two": 40, "outside": 36}
-"""Flights of every kind."""
-
-STRENGTH = {"single-10": 10.0, "single-5": 5.0, "two": 10.0, "outside": 10.0}
-"""Strength of what is hidden, in sigmas after the projection (``inject``)."""
-
 RECORD = Path(__file__).parents[2] / "examples" / "demo-flight.parquet"
-"""A flight whose motion channels are flown again, as a record."""
+"""A flight whose motion channels are flown again."""
 
-_SEEDS = {"effect-free": 10_000, "single-10": 20_000, "single-5": 30_000, "two": 40_000, "outside": 50_000}
-
-PAGE = 141
-"""The sample that the page in docs shows. Raise it before the page is flown anew: 0 is what the method was once chosen on, and a
-sample that has been looked at is no proof of what was changed afterwards."""
-
-_APART = 1_000_000
-"""Between the seeds of two samples."""
+OFF_SHEET = {"dR": 1e-3, "beta_x": 5e-3, "beta_z": 5e-3, "vartheta_y": 5e-3, "vartheta_z": 5e-3} | {
+    "K0": 0.05,
+    "K1": 0.02,
+    **{f"K{k}": 1e-5 for k in (2, 4, 5, 6, 7, 8)},
+}
+"""How far an instrument is off its sheet, SI (K1: of its value): 1 mm, 5 mrad, 5 mg, 2 %, 100 ug/g^2."""
 
 
 @dataclass(frozen=True)
 class Spec:
-    """One flight.
-
-    Attributes
-    ----------
-    kind, index
-        The kind of flight, and its number within it.
-    seed
-        Of everything that is drawn.
-    trim
-        As in ``scenario``.
-    motion
-        A shape of spectrum, ``mixed`` (one for each component) or ``recorded``.
-    bursts, turbulence
-        Non-stationarity and scale of the motion.
-    noise_Eo, red_corner
-        White density of the cross channel, Eo/sqrt(Hz); Hz below which 1/f noise exceeds it, or ``None``.
-    gradient
-        ``constant`` or ``varying`` (20 Eo rms), then ``recorded`` or ``unrecorded``.
-    sensor_noise
-        White noise of the motion record, as the error of G_out that it causes over the noise.
-    """
+    """A flight: its kind, the kind of its record, its number, and the seed; they determine everything."""
 
     kind: str
+    record: str
     index: int
-    seed: int
-    trim: str
-    motion: str
-    bursts: float
-    turbulence: float
-    noise_Eo: float
-    red_corner: float | None
-    gradient: tuple[str, str]
-    sensor_noise: float
+    sample: int
 
     @property
     def id(self) -> str:
-        return f"{self.kind}/{self.index:03d}"
-
-    @property
-    def digest(self) -> str:
-        """Of the conditions: a changed plan is flown anew."""
-        return hashlib.sha256(json.dumps(asdict(self)).encode()).hexdigest()[:12]
+        return f"{self.sample}/{self.kind}/{self.record}/{self.index:03d}"
 
     def rng(self, stream: int) -> np.random.Generator:
-        """Random numbers of a purpose of the benchmark's own (``scenario`` has other streams)."""
-        return np.random.default_rng([self.seed, 900 + stream])
+        """Random numbers for one purpose."""
+        text = f"{self.id}/{stream}".encode()
+        return np.random.default_rng(int.from_bytes(hashlib.sha256(text).digest()[:8], "big"))
 
 
-def specs(kinds: Sequence[str] | None = None, most: int | None = None, sample: int = 0) -> list[Spec]:
-    """All flights of these kinds (default: of every kind), at most ``most`` of each, of one sample.
+def specs(sample: int) -> list[Spec]:
+    """All flights of a seed, the kinds in turn, so that a run cut short says something of each."""
+    order = sorted((n / count, kind, n) for kind, count in COUNTS.items() for n in range(count))
+    return [spec(kind, n, sample) for _, kind, n in order]
 
-    The kinds in turn, so that a run cut short says something of each.
+
+def spec(kind: str, index: int, sample: int) -> Spec:
+    """The flight of a kind and number: quiet ones over all kinds of record, others over those in which strengths are known."""
+    if kind == "off-sheet":
+        return Spec(kind, "white" if index % 2 else "red", index, sample)
+    names = tuple(records.KINDS) if kind == "quiet" else records.KNOWN
+    return Spec(kind, names[(index + sample) % len(names)], index, sample)
+
+
+def digest(s: Spec) -> str:
+    """Of a flight's plan."""
+    return hashlib.sha256(json.dumps(asdict(s)).encode()).hexdigest()[:12]
+
+
+@dataclass(frozen=True)
+class World:
+    """A flight before anything is hidden in it.
+
+    Attributes
+    ----------
+    scenario
+        Sheet, instrument, motion, gravity and auxiliaries; its noise is ``None``.
+    known
+        The true instrument, as sure of itself as a sheet is, for the oracle: what it must absorb is small.
+    density
+        Of the white noise of an accelerometer, (m/s^2)^2/Hz.
+    output
+        ``G_out``, ``voltages`` or ``channels``.
+    gradient
+        Whether it is recorded.
+    start
+        Of the record, s.
     """
-    counts = {k: COUNTS[k] if most is None else min(most, COUNTS[k]) for k in kinds or COUNTS}
-    order = sorted((index / count, kind) for kind, count in counts.items() for index in range(count))
-    return [spec(kind, round(place * counts[kind]), sample) for place, kind in order]
+
+    scenario: Scenario
+    known: Instrument
+    density: float
+    output: str
+    gradient: bool
+    start: float
 
 
-def spec(kind: str, index: int, sample: int = 0) -> Spec:
-    """The flight of this kind and number; another ``sample`` draws everything anew."""
-    seed = _SEEDS[kind] + index + _APART * sample
-    rng = np.random.default_rng([seed, 899])
-    motions = ("mixed", "dryden", "kolmogorov", "flat", "resonant", "recorded")
-    gradients = (
-        ("constant", "recorded"),
-        ("varying", "recorded"),
-        ("constant", "recorded"),
-        ("varying", "unrecorded"),
-    )
-    return Spec(
-        kind,
-        index,
-        seed,
-        trim=("matched", "table-v")[index % 2],
-        motion=str(rng.choice(motions)),
+def world(s: Spec) -> World:
+    """The world of a flight."""
+    rng = s.rng(0)
+    options: Mapping[str, object] = records.KINDS[s.record].world
+    elsewhere = bool(options.get("elsewhere"))
+    rate = float(str(options.get("rate", RATE)))
+    duration = float(str(options.get("duration", QUIET_DURATION if s.kind == "quiet" else DURATION)))
+    sheet, true, known, loud = _elsewhere(rng) if elsewhere else _paper(s, rng)
+    if "spin_off" in options:
+        off = 1.0 + float(str(options["spin_off"])) * float(rng.choice([-1.0, 1.0]))
+        true = replaced_spin(true, true.layout.discs[0].spin_frequency * off)
+    motion = draw_motion(
+        rng,
+        duration,
+        shape=str(rng.choice(list(SHAPES))) if rng.random() < 0.5 else None,
         bursts=float(rng.choice([0.0, 0.3, 0.6, 1.0])),
-        turbulence=float(rng.choice([0.5, 1.0, 2.0])),
-        noise_Eo=float(rng.choice([1.0, 2.0, 5.0])),
-        red_corner=[None, 0.05, 0.2][int(rng.integers(3))],
-        gradient=gradients[int(rng.integers(4))],
-        sensor_noise=float(rng.choice([0.0, 0.2])),
+        turbulence_scale=float(rng.choice([0.5, 1.0, 2.0])),
+    )
+    if options.get("recorded") or rng.random() < 0.1:
+        motion = _recorded(rng, duration)
+    gravity = draw_gradient(rng, 20e-9 if rng.random() < 0.5 else 0.0)
+    auxiliaries = {**plausible(rng), **further(rng)}
+    start = float(str(options.get("start", 0.0)))
+    if start:
+        motion = Motion(*(_later(part, start) for part in (motion.a, motion.omega)))
+        tensor = gravity.tensor
+        gravity = Gradient(lambda time: tensor(time - start))
+        auxiliaries = {n: (lambda time, f=f: f(time - start)) for n, f in auxiliaries.items()}
+    density = loud * float(rng.choice([1.0, 2.0, 5.0])) * 1e-9
+    density *= float(str(options.get("density", 1.0)))
+    scenario = Scenario(
+        sheet=sheet,
+        instrument=true,
+        motion=motion,
+        gravity=gravity,
+        noise=None,
+        auxiliaries=auxiliaries,
+        duration=duration,
+        rate=rate,
+        rotations="first-order",
+        seed=int(s.rng(1).integers(2**31)),
+    )
+    return World(
+        scenario=scenario,
+        known=known,
+        density=eotvos_noise(density, sheet.radius).omega_T,
+        output=str(options.get("output", "G_out")),
+        gradient=bool(options.get("gradient", True)),
+        start=start,
     )
 
 
-def scenario_of(s: Spec) -> Scenario:
-    """The instrument and the world of a flight."""
-    drawn = scenario(
-        s.seed,
-        trim="matched" if s.trim == "matched" else "table-v",
-        duration=DURATION,
-        rate=RATE,
-        shape=None if s.motion in ("mixed", "recorded") else s.motion,
-        bursts=s.bursts,
-        turbulence_scale=s.turbulence,
-        noise_density=s.noise_Eo * 1e-9,
-        red_corner=s.red_corner,
-        gradient_rms=20e-9 if s.gradient[0] == "varying" else 0.0,
+@dataclass(frozen=True)
+class _Later:
+    """A signal that begins later, by so many seconds."""
+
+    of: Signal
+    by: float
+
+    def value(self, time: Array, shift: float = 0.0) -> Array:
+        return self.of.value(time - self.by, shift)
+
+    def rate(self, time: Array, shift: float = 0.0) -> Array:
+        return self.of.rate(time - self.by, shift)
+
+
+def _later(part: Sequence[Signal], by: float) -> tuple[Signal, Signal, Signal]:
+    x, y, z = (_Later(signal, by) for signal in part)
+    return x, y, z
+
+
+def _recorded(rng: np.random.Generator, duration: float) -> Motion:
+    x = read_flight(RECORD, 9.8)
+    a, omega = (np.stack([x.channels[f"{q}_{k}"] for k in "xyz"]) for q in ("a", "omega"))
+    spare = x.time[-1] - x.time[0] - duration - 2.0
+    return recorded_motion(x.time - x.time[0] - 1.0 - spare * rng.random(), a, omega)
+
+
+def _paper(s: Spec, rng: np.random.Generator) -> tuple[Instrument, Instrument, Instrument, float]:
+    """Sheet, true instrument, the same for a sheet, and a factor on the noise: of the paper's layout."""
+    sheet = trimmed() if rng.random() < 0.5 else table_v()
+    if s.kind != "off-sheet" or s.index % 2:
+        true = perturbed(sheet, rng, 10.0 if s.kind == "off-sheet" else 1.0)
+        return sheet, true, true, 1.0
+    sigma = {
+        n: x * 10 ** rng.uniform(-0.5, 0.2) * (np.abs(sheet.accelerometers[n]) if n == "K1" else np.ones(4))
+        for n, x in OFF_SHEET.items()
+    }
+    true = sheet.replace(
+        **{n: sheet.accelerometers[n] + x * rng.standard_normal(4) for n, x in sigma.items()}
     )
-    return replace(drawn, motion=_recorded(s.rng(0))) if s.motion == "recorded" else drawn
+    sure = replace(true, sigmas={n: np.maximum(x, sheet.sigma(n)) for n, x in sigma.items()})
+    if rng.random() < 0.3:  # the sheet says how little it is sure
+        sheet = replace(sheet, sigmas=sure.sigmas)
+    return sheet, true, sure, 1.0
 
 
-def _recorded(rng: np.random.Generator) -> Motion:
-    flight: Flight = read_flight(RECORD, 9.8)
-    a, omega = (np.stack([flight.channels[f"{q}_{k}"] for k in "xyz"]) for q in ("a", "omega"))
-    spare = flight.time[-1] - flight.time[0] - DURATION
-    start = flight.time[0] + 1.0 + (spare - 2.0) * rng.random()
-    return recorded_motion(flight.time - start, a, omega)
+_MEMS: Mapping[str, float] = {
+    "dR": 5e-4,
+    **dict.fromkeys(("beta_x", "beta_z", "vartheta_x", "vartheta_y", "vartheta_z"), 5e-3),
+    "K0": 0.2,
+    "K1": 1e-2,
+    **{f"K{k}": 1e-5 for k in (2, 4, 5, 6, 7, 8)},
+}
+"""How far a MEMS accelerometer may be from its sheet, SI (K1: of its value): 20 mg, per cent, milliradians, 100 ug/g^2."""
+
+
+def _elsewhere(rng: np.random.Generator) -> tuple[Instrument, Instrument, Instrument, float]:
+    """The same of another radius, spin rate and class of accelerometers: navigation, ten times worse, MEMS whose sheet says so."""
+    grade = int(rng.integers(3))
+    radius, spin = float(10 ** rng.uniform(-1.5, -0.3)), float(10 ** rng.uniform(-1.0, -0.1))
+    base = table_v() if rng.random() < 0.5 else trimmed()
+    values = dict(base.accelerometers)
+    sigma = {n: base.sigma(n) / 20.0 * (1.0, 10.0, 1.0)[grade] for n in _MEMS}
+    stated: dict[str, Array] = {}
+    if grade == 2:
+        sigma = {n: x * (np.abs(values[n]) if n == "K1" else np.ones(4)) for n, x in _MEMS.items()}
+        stated = sigma
+    drawn = {n: values[n] + x * rng.standard_normal(4) for n, x in sigma.items()}
+
+    def of(accelerometers: Mapping[str, Array], sigmas: Mapping[str, Array]) -> Instrument:
+        return Instrument.build(
+            radius=radius, spin_frequency=spin, g0=9.8, accelerometers=accelerometers, sigmas=sigmas
+        )
+
+    true = {**values, **drawn}
+    return of(values, stated), of(true, {}), of(true, stated), (1.0, 10.0, 1e4)[grade]
+
+
+def replaced_spin(i: Instrument, f: float) -> Instrument:
+    """An instrument of the paper's layout whose disc turns at f Hz."""
+    return Instrument.build(radius=i.radius, spin_frequency=f, g0=i.g0, accelerometers=i.accelerometers)
+
+
+def outside_name(s: Spec) -> str:
+    """What is put into a flight with physics outside the catalogue."""
+    return outside.NAMES[(s.index + COUNTS["outside"] * (s.sample % 3)) % len(outside.NAMES)]
+
+
+def ablation(kinds: Sequence[tuple[str, str]], count: int) -> Iterator[Spec]:
+    """So many flights of the seed of the ablation, pairs of kind and record in turn."""
+    for n in range(count):
+        kind, record = kinds[n % len(kinds)]
+        yield Spec(kind, record, n // len(kinds), ABLATION)

@@ -1,25 +1,48 @@
-"""From the lines of the flights to numbers: how often right, how often a false alarm, how large an error."""
+"""Scoring: what counts as right, wrong or silent for each kind of flight.
+
+- A *wrong* claim is one of an effect that is not hidden, and in no group with one that is; or of more effects than are hidden. It is
+  wrong under any verdict (``missing-effect`` or ``partly-explained``), whatever else is right.
+- Something hidden: *right* if all of it is claimed, itself or in the group that the diagnosis cannot tell apart, and nothing else;
+  *part* if some of it is and nothing else; *silent* if the verdict is ``adequate``; *unexplained* if nothing is claimed and
+  the verdict is ``unexplained``, or the record refused. A reason does not help: the effect was there to be found.
+- Nothing hidden: *right* if ``adequate``, or if nothing is claimed but what was done to the record (``allowed``); *said* if the
+  verdict is ``unexplained``, or the record refused, with a reason that says what is wrong with it; *unexplained* without one.
+  Of records in which nothing follows the motion ``unexplained`` and refused are *right*, all else *wrong*.
+- Outside the catalogue: any claim is *wrong*; *right* is ``unexplained``; ``adequate`` is *silent*, a refused record *said*.
+- A false alarm is, of a tame record, any verdict but ``adequate`` or a claim of what is allowed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from benchmarks.diagnosis import records
+
 Line = Mapping[str, Any]
-"""The JSON object of one flight (``fly``), with its ``id`` and ``kind``."""
+"""The JSON object of one flight (``fly``), with its ``id``, ``kind`` and ``record``."""
 
-COLUMN_KINDS = ("deterministic", "step")
-"""Kinds of effects that are columns of a fit: the only ones that other methods can select."""
+OUTCOMES = ("right", "part", "said", "silent", "unexplained", "wrong", "crash")
 
-OURS = "ragg diagnose"
+WORTH = {
+    "right": 1.0,
+    "part": 0.5,
+    "said": 0.5,
+    "silent": 0.0,
+    "unexplained": 0.0,
+    "wrong": -1.0,
+    "crash": -1.0,
+}
+"""What an outcome counts in a mean change; *said* is all that a spoiled record can be asked for, but no verdict."""
 
 
 @dataclass(frozen=True)
 class Share:
-    """``hits`` of ``total``."""
+    """``hits`` of ``total``, with Wilson's 90 % interval."""
 
     hits: int
     total: int
@@ -28,30 +51,28 @@ class Share:
     def value(self) -> float:
         return self.hits / self.total if self.total else float("nan")
 
-    def interval(self, z: float = 1.96) -> tuple[float, float]:
-        """Wilson's 95 % interval."""
+    def interval(self, z: float = 1.6449) -> tuple[float, float]:
         n, p = self.total, self.value
         if not n:
             return (float("nan"), float("nan"))
         middle = (p + z**2 / (2 * n)) / (1 + z**2 / n)
         half = z / (1 + z**2 / n) * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
-        return (float(middle - half), float(middle + half))
+        return (float(max(0.0, middle - half)), float(min(1.0, middle + half)))
+
+    def __str__(self) -> str:
+        if not self.total:
+            return "-"
+        low, high = self.interval()
+        return f"{self.hits} of {self.total} ({100 * self.value:.0f} %, {100 * low:.0f}-{100 * high:.0f})"
 
 
 def share(lines: Iterable[Line], test: Callable[[Line], bool]) -> Share:
-    """How many of the lines pass a test; those that crashed do not."""
-    passed = ["crash" not in x and test(x) for x in lines]
+    passed = [test(x) for x in lines]
     return Share(sum(passed), len(passed))
 
 
 def truths(x: Line) -> list[str]:
-    """What was hidden."""
     return [h["effect"] for h in x["hidden"]]
-
-
-def is_column(x: Line) -> bool:
-    """Whether all that was hidden are columns of a fit."""
-    return all(h["kind"] in COLUMN_KINDS for h in x["hidden"])
 
 
 def group(x: Line, effect: str) -> set[str]:
@@ -60,109 +81,76 @@ def group(x: Line, effect: str) -> set[str]:
     return {effect, *twins}
 
 
-def claimed(x: Line) -> set[str]:
-    """All found effects with their groups."""
-    return set().union(*(group(x, e) for e in x["found"]))
+def outcome(x: Line) -> str:
+    """One of :data:`OUTCOMES`."""
+    if "crash" in x:
+        return "crash"
+    kind = records.KINDS[x["record"]]
+    silent = x["verdict"] == "adequate"
+    if x["kind"] == "outside":
+        if x["found"]:
+            return "wrong"
+        return "silent" if silent else "said" if x["verdict"] == "refused" else "right"
+    if kind.nothing:
+        return "wrong" if silent or x["found"] else "right"
+    allowed = kind.allowed if not x["hidden"] else frozenset()
+    truth, claims = set(truths(x)), [group(x, e) for e in x["found"]]
+    if any(not g & (truth | allowed) for g in claims) or len(claims) > max(len(truth), len(allowed)):
+        return "wrong"
+    if not truth:
+        if silent or claims:
+            return "right"
+        return "said" if x["reason"] else "unexplained"
+    named = truth & set().union(*claims)
+    if not named:
+        return "silent" if silent else "unexplained"
+    return "right" if named == truth else "part"
 
 
-def right_first(x: Line) -> bool:
-    """The hidden effect is found and ranks first, alone or in its group."""
-    (truth,) = truths(x)
-    return bool(x["ranking"]) and truth in group(x, x["ranking"][0]["effect"]) and truth in claimed(x)
+def alarm(x: Line) -> bool:
+    """Of an effect-free flight: any verdict but ``adequate``, or a claim that is allowed."""
+    return "crash" in x or (x["verdict"] != "adequate" and not (outcome(x) == "right" and x["found"]))
 
 
-def right_alone(x: Line) -> bool:
-    """Right first, and no further effect is claimed."""
-    return right_first(x) and len(x["found"]) == 1
+def least_p(x: Line) -> tuple[float, float, float]:
+    """Family-wise p-values of an effect-free flight: of the effects, of the generic terms, and of both together."""
+    best = min((r["log10_p"] for r in x["ranking"]), default=0.0)
+    effects = min(1.0, x["tested"] * 10.0**best)
+    terms = min(1.0, 10.0 ** x["terms_log10_p"])
+    return effects, terms, min(1.0, 2.0 * min(effects, terms))
 
 
-def both(x: Line) -> bool:
-    return set(truths(x)) <= claimed(x)
+Row = dict[str, str]
+"""What is kept of a flight in a file of results, as text."""
+
+COLUMNS = ("id", "kind", "record", "outcome", "verdict", "hidden", "found", "alarm")
+COLUMNS += ("p_effects", "p_terms", "p", "probability", "credible", "cpu", "commit")
 
 
-def exactly_both(x: Line) -> bool:
-    return both(x) and len(x["found"]) == len(truths(x))
+def row(x: Line) -> Row:
+    """A flight in short."""
+    found: dict[str, object] = {n: x.get(n, "") for n in ("id", "kind", "record", "verdict", "cpu", "commit")}
+    found |= {"outcome": outcome(x), "hidden": "+".join(truths(x)) if "hidden" in x else ""}
+    if x.get("outside"):
+        found["hidden"] = str(x["outside"][0]).replace(",", ";")
+    found["found"] = "+".join(x.get("found", ()))
+    if x["kind"] == "quiet":
+        found["alarm"] = int(alarm(x))
+        if "terms_log10_p" in x:
+            found |= dict(zip(("p_effects", "p_terms", "p"), (f"{p:.3g}" for p in least_p(x)), strict=True))
+    elif "probability" in x and x.get("hidden"):
+        truth = set(truths(x))
+        found["probability"] = ";".join(f"{p:g}{'*' * (e in truth)}" for e, p in x["probability"].items())
+        found["credible"] = int(any(set(s) == truth for s in x["credible_set"]))
+    return {n: str(found.get(n, "")) for n in COLUMNS}
 
 
-def group_size(x: Line) -> int:
-    """Size of the group in which the hidden effect came first."""
-    return len(group(x, x["ranking"][0]["effect"]))
-
-
-def alarmed(x: Line) -> bool:
-    return bool(x["verdict"] != "adequate")
-
-
-def unexplained(x: Line) -> bool:
-    return bool(x["verdict"] == "unexplained")
-
-
-@dataclass(frozen=True)
-class Peer:
-    """The same questions to another method. What no method can tell from the hidden effect counts as it."""
-
-    name: str
-
-    def effects(self, x: Line) -> list[str]:
-        return list(x["peers"][self.name]["effects"])
-
-    @staticmethod
-    def _meant(hidden: Mapping[str, Any]) -> set[str]:
-        return {hidden["effect"], *hidden["twins"]}
-
-    def alarmed(self, x: Line) -> bool:
-        return bool(self.effects(x))
-
-    def right_first(self, x: Line) -> bool:
-        found = self.effects(x)
-        return bool(found) and found[0] in self._meant(x["hidden"][0])
-
-    def right_alone(self, x: Line) -> bool:
-        return self.right_first(x) and len(self.effects(x)) == 1
-
-    def both(self, x: Line) -> bool:
-        found = set(self.effects(x))
-        return all(found & self._meant(h) for h in x["hidden"])
-
-    def exactly_both(self, x: Line) -> bool:
-        return self.both(x) and len(self.effects(x)) == len(x["hidden"])
-
-    def claims_nothing(self, x: Line) -> bool:
-        return not self.effects(x)
-
-
-def ratios(lines: Iterable[Line], which: int) -> list[float]:
-    """Error after adding what was found over the oracle's: calibrated (0) or held out (1)."""
-    return [x["errors"]["tool"][which] / x["errors"]["oracle"][which] for x in lines if x["errors"]]
-
-
-def family_p(x: Line) -> float:
-    """p-value of the best effect of an effect-free flight, corrected for the number tested."""
-    best = min((r["log_p"] for r in x["ranking"]), default=0.0)
-    return min(1.0, x["tested"] * float(np.exp(best)))
-
-
-def remainder_p(x: Line) -> float:
-    """p-value of the search of an effect-free flight's remainder, corrected for the terms tried."""
-    return float(np.exp(x["remainder_log_p"]))
-
-
-def of_kind(lines: Iterable[Line], *kinds: str, crashed: bool = False) -> list[Line]:
-    """Lines of these kinds; with ``crashed`` also those that hold nothing but a crash."""
-    return [x for x in lines if x["kind"] in kinds and (crashed or "crash" not in x)]
-
-
-def crashes(lines: Iterable[Line]) -> list[Line]:
-    return [x for x in lines if "crash" in x]
-
-
-def by_effect(lines: Sequence[Line]) -> dict[str, dict[str, Share]]:
-    """Effect -> kind of flight -> how often right first, or found among two."""
-    found: dict[str, dict[str, Share]] = {}
-    for kind, test in (("single-10", right_first), ("single-5", right_first), ("two", None)):
-        for x in of_kind(lines, kind):
-            for effect in truths(x):
-                hit = test(x) if test else effect in claimed(x)
-                old = found.setdefault(effect, {}).get(kind, Share(0, 0))
-                found[effect][kind] = Share(old.hits + hit, old.total + 1)
-    return dict(sorted(found.items()))
+def reliability(rows: Iterable[Row], edges: Sequence[float]) -> list[tuple[float, Share]]:
+    """Of all effects of all flights with something hidden, by their stated probability: its mean, and how many are hidden."""
+    said = [(float(t.rstrip("*")), t.endswith("*")) for r in rows for t in r["probability"].split(";") if t]
+    found = []
+    for low, high in pairwise(edges):
+        own = [(p, t) for p, t in said if low <= p < high]
+        mean = float(np.mean([p for p, _ in own])) if own else float("nan")
+        found.append((mean, Share(sum(t for _, t in own), len(own))))
+    return found

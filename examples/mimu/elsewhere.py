@@ -1,9 +1,15 @@
 """Whether what the page says holds elsewhere: other parts of a recording, other quadruples of the board, worse data.
 
-    python -m examples.mimu.elsewhere RAW.bin.gz [NAME ...]
+    python -m examples.mimu.elsewhere [RAW.bin.gz [NAME ...]]
 
-Each case is a gradiometer made of the raw packets of a recording, and asked the questions of the page: what is left out one at
-a time must be found and agree with the survey. Prints a line for every question, and how many hold.
+Each case is a gradiometer made of the raw packets of a recording (without one, of what is shipped), and asked the questions of the
+page. Prints a line for every question, and how many hold. An answer holds if
+
+- what is left out is claimed, under whatever verdict, and its values agree with the survey (:func:`agrees`); or
+- what is left out, fixed at the value of the survey, is worth less than :data:`WORTH` sigma on this record, nothing is claimed, and
+  the answer says by name that the record does not suffice: in ``reason``, or among what is not testable.
+
+Claims of effects for which the survey has no evidence (all but :data:`FOUNDED`) are counted beside that.
 """
 
 from __future__ import annotations
@@ -20,9 +26,10 @@ from numpy.typing import NDArray
 from examples.mimu import record
 from examples.mimu.record import FRONT, RATE, Array
 from examples.mimu.sheet import sheet
-from examples.mimu.story import MISREAD, RADIUS, SHORT, diagnosed_of, flights, sure_of_angles
+from examples.mimu.story import HERE, MISREAD, RADIUS, SHORT, diagnosed_of, flights, sure_of_angles
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight import Flight, write_flight
+from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.flight import Flight, read_flight, write_flight
 from ragg_runtime.instrument.read_toml import parse_instrument
 
 BACK = tuple(k + 1 for k in FRONT)
@@ -45,6 +52,36 @@ SCATTER = 0.3
 TURNS = ("imu-acceleration-misalignment", "imu-misalignment")
 """One side turned against the other: of the forces alone, or of the rates as well, where a milliradian is next to nothing."""
 
+WORTH = 5.0
+"""Sigmas below which an effect of known size need not be found."""
+
+FOUNDED = frozenset(
+    {
+        *TURNS,
+        "gyro-delay",
+        "imu-lever-arm",
+        "imu-acceleration-bias",
+        "gyro-scale",
+        "arm-length",
+        "imu-saturation",
+    }
+)
+"""Effects for which the survey of the array gives evidence."""
+
+CASES = (
+    "page",
+    "first half",
+    "second half",
+    "later",
+    "half of the rests",
+    "back",
+    "mixed",
+    "half rate",
+    "noise",
+)
+SHIPPED = ("page", "first half", "second half", "half rate")
+"""Cases of a recording, and those that can be made of what is shipped."""
+
 
 @dataclass(frozen=True)
 class Case:
@@ -54,7 +91,7 @@ class Case:
     picked: Sequence[int]
     rests: Flight
     moved: Flight
-    unmarked: Flight
+    unmarked: Flight | None = None
 
     @property
     def lifts(self) -> Array:
@@ -102,8 +139,12 @@ class Raw:
         return Case(name=name, picked=picked, rests=lying, moved=flown[0], unmarked=flown[1])
 
 
-def cases(raw: Raw) -> Iterator[Case]:
-    """The record of the page, and others."""
+def cases(path: Path | None) -> Iterator[Case]:
+    """The record of the page, and others, of a recording, or of what is shipped."""
+    if path is None:
+        yield from _shipped()
+        return
+    raw = Raw.of(path)
     yield raw.case("page")
     yield raw.case("first half", seconds=(0.0, record.LENGTH / 2))
     yield raw.case("second half", seconds=(record.LENGTH / 2, record.LENGTH))
@@ -115,22 +156,53 @@ def cases(raw: Raw) -> Iterator[Case]:
     yield raw.case("noise", noise=NOISE)
 
 
-def questions(c: Case) -> Iterator[tuple[str, bool, str]]:
-    """What is asked, whether the answer holds, and the answer in words."""
+def _shipped() -> Iterator[Case]:
+    """Of the flights beside this file, in which saturated samples are marked already."""
+    lying, moved = (read_flight(HERE / f"{n}.parquet", record.G0) for n in ("rests", "motion"))
+    half = len(moved) // 2
+    parts = (slice(None), slice(0, half), slice(half, None), slice(None, None, THINNED))
+    for name, rows in zip(SHIPPED, parts, strict=True):
+        channels, outputs = ({n: v[rows] for n, v in x.items()} for x in (moved.channels, moved.outputs))
+        part = replace(
+            moved, time=moved.time[rows], channels=channels, outputs=outputs, valid=moved.valid[rows]
+        )
+        yield Case(name, FRONT, lying, part)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """To a question: whether it holds, in words, and which of its claims have no evidence."""
+
+    question: str
+    holds: bool
+    words: str
+    unfounded: tuple[str, ...]
+
+    @staticmethod
+    def of(question: str, d: Diagnosis, holds: bool, values: str = "") -> Answer:
+        words = "; ".join(x for x in (values, f"{d.verdict} {', '.join(d.found)}".strip()) if x)
+        return Answer(question, holds, words, tuple(e for e in d.found if e not in FOUNDED))
+
+
+def questions(c: Case) -> Iterator[Answer]:
+    """What is asked, and the answers."""
     own = [f"{x:.4g} mm" for x in c.lifts]
     flat = sheet(height="0 mm", lift="10")
     same = bool(np.ptp(c.lifts) == 0.0)
     if same:
         d = ask(c, sheet(height="0 mm", lift="0.3"))
-        yield "lever arm", *agrees(d, "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
+        yield agrees("lever arm", d, "imu-lever-arm", {"l_z": -1e-3 * c.lifts.mean()}, 0.2e-3)
     free = flat if same else sheet(height=own, lift="10")
     short = sheet(height="0 mm" if same else own, lift="10", radius=f"{RADIUS - SHORT:.5g} mm", arm="0.02")
-    yield "arm length", *agrees(ask(c, short), "arm-length", {"delta_R": SHORT}, SCATTER)
-    yield "gyro scale", *agrees(ask(c, free, MISREAD), "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)
+    yield agrees("arm length", ask(c, short), "arm-length", {"delta_R": SHORT}, SCATTER)
+    d = ask(c, free, MISREAD)
+    yield agrees("gyro scale", d, "gyro-scale", {"s_x": 0.03, "s_y": 0.03}, 0.0)
     d = ask(c, sure_of_angles(free))
-    yield "misalignments", any(e in d.found for e in TURNS), said(d)
+    yield Answer.of("misalignments", d, any(e in d.found for e in TURNS))
+    if c.unmarked is None:
+        return
     d = ask(replace(c, moved=c.unmarked), free)
-    yield "saturation", "imu-saturation" in d.found, said(d)
+    yield Answer.of("saturation", d, "imu-saturation" in d.found)
 
 
 def ask(c: Case, text: str, factor: float = 1.0) -> Diagnosis:
@@ -143,31 +215,56 @@ def ask(c: Case, text: str, factor: float = 1.0) -> Diagnosis:
         return diagnosed_of(i, flights(i, paths[1], factor, rests=paths[0]))
 
 
-def agrees(d: Diagnosis, effect: str, known: Mapping[str, float], scatter: float) -> tuple[bool, str]:
-    """Whether it is found, with these values within :data:`FAR` sigmas and what is not known better; and the answer in words."""
+def agrees(question: str, d: Diagnosis, effect: str, known: Mapping[str, float], scatter: float) -> Answer:
+    """Whether an effect is claimed with these values, within :data:`FAR` sigmas and what is not known better; or need not be."""
     values = {q.name: q for r in d.ranking if r.effect == effect for q in r.parameters}
-    there = effect in d.found
-    near = there and all(
+    near = effect in d.found and all(
         n in values and abs(values[n].value - x) < FAR * np.hypot(values[n].std, scatter / FAR)
         for n, x in known.items()
     )
     parts = [f"{n} = {values[n].value:.4g} ± {values[n].std:.2g}" for n in known if n in values]
-    return bool(near), "; ".join([*parts, said(d)])
+    if not near:
+        sigmas = worth(d.fitted, effect, known)
+        parts.append(f"worth {sigmas:.1f} sigma")
+        near = sigmas < WORTH and not d.found and effect in _insufficient(d)
+    return Answer.of(question, d, bool(near), "; ".join(parts))
 
 
-def said(d: Diagnosis) -> str:
-    return f"{d.verdict} {', '.join(d.found)}"
+def _insufficient(d: Diagnosis) -> str:
+    """Where an answer may say that the record does not suffice for an effect."""
+    j = d.as_json()
+    return " ".join([str(j["reason"]), *(n.effect for n in d.not_testable)])
 
 
-def main(raw: str, *names: str) -> None:
-    found = []
-    for c in cases(Raw.of(Path(raw))):
+def worth(f: Fitted, effect: str, known: Mapping[str, float]) -> float:
+    """Sigmas by which an effect of known size (display units) shows beside a calibration whose sheet is as sure as it says.
+
+    What is left once its size is fitted counts as noise, whatever it is.
+    """
+    n, rows = f.n_base, f.calibration.rows
+    sizes = np.zeros(f.size - n)
+    for k, c in enumerate(f.candidates):
+        if c.effect == effect and c.name.split(".", 1)[1] in known:
+            sizes[k] = known[c.name.split(".", 1)[1]] * c.unit_factor / c.scale
+    sure = np.diag([f.instrument.widths.get(c.name, 1.0) for c in f.calibration.columns])
+    T = np.vstack([f.data, np.hstack([sure, np.zeros((n, f.data.shape[1] - n))])])
+    Q = np.linalg.qr(T[:, :n])[0]
+    own, rest = (x - Q @ (Q.T @ x) for x in (T[:, n:-1] @ sizes, T[:, -1]))
+    rest = rest - own * (own @ rest) / (own @ own)
+    return float(np.sqrt(own @ own / (rest @ rest / rows)))
+
+
+def main(raw: str | None = None, *names: str) -> None:
+    answers = []
+    for c in cases(None if raw is None else Path(raw)):
         if names and c.name not in names:
             continue
-        for question, holds, words in questions(c):
-            found.append(holds)
-            print(f"{c.name:18} {question:14} {'yes' if holds else 'NO':4} {words}", flush=True)
-    print(f"{sum(found)} of {len(found)} hold")
+        for a in questions(c):
+            answers.append(a)
+            print(f"{c.name:18} {a.question:14} {'yes' if a.holds else 'NO':4} {a.words}", flush=True)
+    unfounded = [e for a in answers for e in a.unfounded]
+    print(f"{len(unfounded)} claims without evidence" + (f": {', '.join(unfounded)}" if unfounded else ""))
+    print(f"{sum(a.holds for a in answers)} of {len(answers)} hold")
 
 
 if __name__ == "__main__":

@@ -9,13 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.diagnosis import first_flight
-from ragg_runtime.diagnosis import confirm, strong
+from ragg_runtime.diagnosis import confirm
 from ragg_runtime.evidence.selection import Choice, Field
-from ragg_runtime.fit import fitted, observation
 from ragg_runtime.fit.columns import Column
-from ragg_runtime.model.model import Model, packaged
-from ragg_runtime.model_dir import derive
 
 
 def chosen_of_three() -> tuple[Field, Choice]:
@@ -62,24 +58,3 @@ def test_effects_are_left_out_that_the_model_does_as_well_without(
     assert bool(asked) == (final > 1009.0)
     assert set(found.blocks) == set(kept)
     assert found.chi2 == pytest.approx(sum({"first": 400, "second": 100, "third": 25}[e] for e in kept))
-
-
-def test_an_instrument_off_its_sheet_is_not_given_a_mount_that_bends() -> None:
-    """Beside rectified vibration of 630 sigma and a time offset of 120, which are in the model, a mount that bends explains 38 in
-    chi-square, as linear tests have it, 30 times larger than it is; in the model, at sizes that it may have, 9.
-    """
-    w = first_flight.world(13, 202)
-    p = first_flight.prepared(w, "off its sheet")
-    sheet = w.scenario.sheet
-
-    def extend(m: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model:
-        return derive.with_effects(sheet, m, ids, candidates=candidates)
-
-    hidden = [h.effect for h in p.hidden]
-    assert sorted(hidden) == ["time-offset", "vibration-rectification"]
-    right = extend(packaged(), hidden, candidates=True)
-    last = strong.Stage.of(fitted.fit(right, sheet, [observation.observe(p.flight, sheet)]), {})
-    assert last.choice.chosen == ("mount-compliance",)
-    found = confirm.confirmed(last, extend)
-    assert found.choice.chosen == () and not found.remainder.significant
-    assert "mount-compliance" not in found.field.candidates

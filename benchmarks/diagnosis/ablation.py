@@ -1,0 +1,687 @@
+"""What each rule of the diagnosis is worth: the same 40 flights with it and without it.
+
+A rule is switched off by putting something neutral in the place of a function or a constant of today's code. Flights: 20 of the kinds
+that the rule was written for, and the same 20 of all kinds for every rule. With the rules on, each flight is flown once, and watched:
+where a rule's function returns what the neutral one would, it does nothing on that flight, which then is not flown without it.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import optimize
+
+from benchmarks.diagnosis import plan, score
+from benchmarks.diagnosis.fly import fly
+from benchmarks.diagnosis.plan import Spec
+from benchmarks.diagnosis.score import Row
+
+Array = NDArray[np.float64]
+RUNTIME = Path(__file__).resolve().parents[2] / "ragg_runtime"
+HALF = 20
+
+Kinds = tuple[tuple[str, str], ...]
+
+ALL: Kinds = (
+    ("quiet", "white"),
+    ("outside", "white"),
+    ("five", "white"),
+    ("ten", "red"),
+    ("pair", "white"),
+    ("strong", "red"),
+    ("off-sheet", "white"),
+    ("quiet", "elsewhere"),
+    ("outside", "red"),
+    ("ten", "elsewhere"),
+)
+"""Kinds of the flights that every rule is tried on."""
+
+STRONG: Kinds = (("strong", "white"), ("strong", "red"), ("pair", "white"), ("pair", "red"))
+WEAK: Kinds = (("ten", "white"), ("pair", "white"), ("five", "red"), ("outside", "white"))
+OUTSIDE: Kinds = (("outside", "white"), ("outside", "red"))
+OFF: Kinds = (("off-sheet", "white"), ("off-sheet", "red"))
+
+
+def quiet(*names: str) -> Kinds:
+    return tuple(("quiet", n) for n in names)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A name of the runtime (``diagnosis.confirm:_needed``), and what takes its place.
+
+    ``neutral`` is called with what the function is called with; if ``after``, with what it returns; if ``constant``, it is the value.
+    ``acts``: whether what the function returned is not neutral (default: it differs from what ``neutral`` returns).
+    """
+
+    name: str
+    neutral: Any
+    after: bool = False
+    constant: bool = False
+    acts: Callable[[Any], bool] | None = None
+
+    @property
+    def place(self) -> tuple[Any, str]:
+        module, _, path = self.name.partition(":")
+        owner: Any = importlib.import_module(f"ragg_runtime.{module}")
+        *outer, name = path.split(".")
+        for n in outer:
+            owner = getattr(owner, n)
+        getattr(owner, name)
+        return owner, name
+
+    @property
+    def there(self) -> bool:
+        """Whether the code still has it."""
+        try:
+            return bool(self.place)
+        except (ImportError, AttributeError):
+            return False
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule: what it does in a sentence, kinds of flights it was written for, the code that goes with it, how to switch it off."""
+
+    id: str
+    sentence: str
+    kinds: Kinds
+    code: tuple[str, ...]
+    patches: tuple[Patch, ...]
+
+    @property
+    def there(self) -> bool:
+        return all(p.there for p in self.patches)
+
+
+def _first(*args: Any) -> Any:
+    return args[0]
+
+
+def _nothing(*args: Any, **kwargs: Any) -> None:
+    return None
+
+
+def _empty(*args: Any, **kwargs: Any) -> list[Any]:
+    return []
+
+
+def _false(*args: Any, **kwargs: Any) -> bool:
+    return False
+
+
+def _some(x: Any) -> bool:
+    return x is not None and len(x) > 0
+
+
+def _significant(x: Any) -> bool:
+    from ragg_runtime.lack_of_fit import omnibus
+
+    return x is not None and x[0] < np.log(omnibus.FAMILY)
+
+
+def _without_bursts(
+    residual: Any, rate: float, without: Any = None, kept: Any = None, slow: Any = None
+) -> tuple[Any, list[list[Any]]]:
+    from ragg_runtime.signals.noise_spectrum import estimate
+
+    return estimate(residual, rate, without, kept, slow), [[] for _ in residual]
+
+
+def _level(*args: Any) -> Any:
+    from ragg_runtime.signals.noise_level import Level
+
+    return Level()
+
+
+def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, ceiling: float = np.inf) -> Any:
+    """``scipy.optimize.least_squares`` on the triangles: residual [y, sqrt(rest)], Jacobian -R."""
+    from ragg_runtime.fit.trust_region import Minimum, settled
+
+    known: dict[bytes, Any] = {}
+
+    def at(x: Array) -> Any:
+        key = x.tobytes()
+        if key not in known:
+            while len(known) > 3:
+                known.pop(next(iter(known)))
+            known[key] = linearise(x)
+        return known[key]
+
+    def residual(x: Array) -> Array:
+        p = at(x)
+        there = np.isfinite(p.cost)
+        return np.append(p.y, np.sqrt(p.rest)) if there else np.full(len(x) + 1, 1e100)
+
+    def jacobian(x: Array) -> Array:
+        return np.vstack([-at(x).R, np.zeros((1, len(x)))])
+
+    x = np.array(start, dtype=np.float64)
+    if not np.isfinite(at(x).cost):
+        return Minimum(x=x, at=at(x), converged=False, reason="no finite output", trials=1)
+    got = optimize.least_squares(residual, x, jac=jacobian, ftol=1e-7, xtol=1e-10, gtol=1e-10, max_nfev=most)
+    end = at(got.x)
+    arrived = bool(got.status > 0 or settled(end))
+    return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, trials=got.nfev, faithful=True)
+
+
+def _no_inflation(self: Any, places: Sequence[int]) -> Array:
+    return np.ones(len(places))
+
+
+RULES: tuple[Rule, ...] = (
+    Rule(
+        "trust-region",
+        "own trust region instead of scipy.optimize.least_squares",
+        (*OFF, ("strong", "white"), ("pair", "red")),
+        ("fit/trust_region.py",),
+        (Patch("fit.calibrate:minimise", _scipy, constant=True),),
+    ),
+    Rule(
+        "line-rival",
+        "a line beside a multiple of the spin rate in the place of an effect",
+        (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")),
+        ("diagnosis/line_rival.py", "lack_of_fit/near_lines.py"),
+        (
+            Patch(
+                "diagnosis.diagnose:line_rival",
+                lambda *a: (None, ()),
+                acts=lambda r: r[0] is not None or bool(r[1]),
+            ),
+        ),
+    ),
+    Rule(
+        "confirm-needed",
+        "effects that the model does as well without are dropped",
+        (*OFF, ("pair", "white")),
+        ("diagnosis/confirm.py:_needed",),
+        (Patch("diagnosis.confirm:_needed", lambda f, field, choice, final, extend: choice),),
+    ),
+    Rule(
+        "confirm-rivals",
+        "where the chosen effects leave something, their rivals are tried in the model",
+        (*WEAK, ("strong", "white")),
+        ("diagnosis/confirm.py:_others",),
+        (Patch("diagnosis.confirm:_others", _empty),),
+    ),
+    Rule(
+        "bursts",
+        "stretches that are far louder are no measure of the noise",
+        (*quiet("bursts", "louder-part"), ("ten", "bursts")),
+        ("fit/bursts.py",),
+        (Patch("fit.noise:quiet_estimate", _without_bursts, acts=lambda r: any(r[1])),),
+    ),
+    Rule(
+        "jumps",
+        "jumps of the output are fitted beside the columns before the noise is estimated",
+        (*quiet("jump"), ("ten", "red"), ("five", "white")),
+        (
+            "fit/disturbances.py:_jumps",
+            "fit/left_over.py:_jump",
+            "fit/left_over.py:_told",
+            "fit/left_over.py:_and",
+        ),
+        (Patch("fit.disturbances:_jumps", _empty), Patch("fit.left_over:_jump", _nothing)),
+    ),
+    Rule(
+        "lines",
+        "lines of the output are fitted beside the columns before the noise is estimated",
+        (*quiet("line", "mains"), ("outside", "white")),
+        ("fit/disturbances.py:_lines",),
+        (Patch("fit.disturbances:_lines", _empty),),
+    ),
+    Rule(
+        "noise-level",
+        "the noise's level follows time, motion, angle or gaps",
+        (
+            *quiet("ramp", "along-axes", "with-ax", "with-size", "cyclic"),
+            ("ten", "along-axes"),
+            ("ten", "ramp"),
+        ),
+        ("signals/noise_level.py", "fit/noise.py:_level"),
+        (Patch("fit.noise:_level", _level, acts=lambda r: bool(r.parts)),),
+    ),
+    Rule(
+        "uneven",
+        "where the level changes, tests are tempered by the spread of scores in blocks of time",
+        (*quiet("ramp", "along-axes", "with-ax", "with-size"), ("ten", "along-axes"), ("five", "with-size")),
+        ("evidence/uneven.py", "lack_of_fit/omnibus.py:inflation"),
+        (
+            Patch("evidence.selection:uneven.telling", lambda blocks: (), acts=_some),
+            Patch("lack_of_fit.omnibus:Scores.inflation", _no_inflation),
+        ),
+    ),
+    Rule(
+        "off-sheet",
+        "a sheet is taken to be less sure than it says where the record says so",
+        (*OFF, ("ten", "elsewhere")),
+        ("fit/off_sheet.py:widened", "fit/off_sheet.py:_widths"),
+        (Patch("fit.fitted:widened", _nothing),),
+    ),
+    Rule(
+        "room",
+        "the prior of an effect in the model widens as the record says",
+        STRONG,
+        ("fit/off_sheet.py:with_room", "fit/off_sheet.py:room_taken"),
+        (Patch("fit.off_sheet:with_room", _nothing),),
+    ),
+    Rule(
+        "time-varying",
+        "generic terms that come and go",
+        (*OUTSIDE, ("quiet", "ramp")),
+        ("lack_of_fit/time_varying.py", "lack_of_fit/omnibus.py:_varying"),
+        (Patch("lack_of_fit.omnibus:_varying", _nothing, acts=_significant),),
+    ),
+    Rule(
+        "spectral-line",
+        "a line in the spectrum of what is left",
+        (*OUTSIDE, *quiet("line", "mains")),
+        ("lack_of_fit/spectral_line.py", "lack_of_fit/omnibus.py:_line"),
+        (Patch("lack_of_fit.omnibus:_line", _nothing, acts=_significant),),
+    ),
+    Rule(
+        "known-lines",
+        "lines that were taken out of the noise count as something left",
+        (*quiet("line", "mains"), ("outside", "white")),
+        ("lack_of_fit/omnibus.py:_known",),
+        (Patch("lack_of_fit.omnibus:_known", _empty),),
+    ),
+    Rule(
+        "simpler",
+        "one generic term in the place of several effects",
+        (*OUTSIDE, ("pair", "white")),
+        ("diagnosis/diagnose.py:_simpler",),
+        (Patch("diagnosis.diagnose:_simpler", _nothing),),
+    ),
+    Rule(
+        "nonlinear-selection",
+        "strong effects are derived into the model one after the other",
+        STRONG,
+        ("diagnosis/strong.py", "diagnosis/contenders.py"),
+        (Patch("diagnosis.strong:STRONG", np.inf, constant=True, acts=_false),),
+    ),
+    Rule(
+        "contenders",
+        "of a strong effect up to three contenders are fitted in the model",
+        STRONG,
+        ("diagnosis/contenders.py:Contest", "diagnosis/strong.py:_best"),
+        (Patch("diagnosis.strong:CONTENDERS", 1, constant=True),),
+    ),
+    Rule(
+        "open-ends",
+        "a contender that an effect not yet in the model may have decided against is followed to its end",
+        STRONG,
+        ("diagnosis/strong.py:_better", "diagnosis/strong.py:_with_rivals"),
+        (Patch("diagnosis.strong:_best", lambda r: (r[0], r[1], ()), after=True),),
+    ),
+    Rule(
+        "strong-needed",
+        "a strong effect that later ones have made superfluous is dropped",
+        STRONG,
+        ("diagnosis/strong.py:_needed", "diagnosis/strong.py:significance"),
+        (Patch("diagnosis.strong:_needed", _first),),
+    ),
+    Rule(
+        "charge",
+        "contenders pay for their coefficients (BIC)",
+        STRONG,
+        ("diagnosis/contenders.py:charge",),
+        (Patch("diagnosis.contenders:charge", lambda columns, rows: 0.0),),
+    ),
+    Rule(
+        "hopeless",
+        "a contender that leaves twice what another one leaves is given up",
+        (("strong", "white"), ("strong", "elsewhere"), ("outside", "white"), ("off-sheet", "white")),
+        ("diagnosis/contenders.py:HOPELESS",),
+        (Patch("diagnosis.contenders:HOPELESS", np.inf, constant=True),),
+    ),
+    Rule(
+        "truncated",
+        "what is small beside a strong effect may be left of it",
+        STRONG,
+        ("diagnosis/diagnose.py:_truncated", "diagnosis/strong.py:_may_be_left"),
+        (
+            Patch("diagnosis.diagnose:_truncated", _false, acts=bool),
+            Patch("diagnosis.strong:_may_be_left", lambda *a: {}),
+        ),
+    ),
+    Rule(
+        "impossible",
+        "an effect that nature knows at one size alone is excluded at another",
+        (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")),
+        ("diagnosis/impossible.py",),
+        (
+            Patch("diagnosis.strong:impossible", lambda *a: ()),
+            Patch("diagnosis.confirm:impossible", lambda *a: ()),
+        ),
+    ),
+    Rule(
+        "swap",
+        "after each addition a chosen effect may be swapped for a better one",
+        (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")),
+        ("evidence/selection.py:_swap",),
+        (Patch("evidence.selection:_swap", lambda f, chosen, blocks, count: (chosen, blocks)),),
+    ),
+    Rule(
+        "drop",
+        "after each addition a chosen effect that is not significant any more is dropped",
+        (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")),
+        ("evidence/selection.py:_drop",),
+        (Patch("evidence.selection:_drop", lambda f, chosen, blocks, count: (chosen, blocks)),),
+    ),
+    Rule(
+        "plain",
+        "an effect that says in plain words that a length of the sheet is wrong goes before others",
+        (("ten", "elsewhere"), *OFF),
+        ("evidence/selection.py:plain", "fit/fitted.py:freed"),
+        (Patch("evidence.selection:Field.plain", lambda self, best, *a: best),),
+    ),
+    Rule(
+        "doubtful",
+        "effects that are an error of the sheet in disguise are not offered",
+        (("ten", "elsewhere"), *OFF),
+        ("evidence/sheet.py",),
+        (Patch("evidence.sheet:doubtful", _nothing),),
+    ),
+    Rule(
+        "switching",
+        "samples at which a switch's side is open, and the ends of late motion, are left out",
+        (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")),
+        ("fit/switching.py",),
+        (
+            Patch("fit.fitted:certain", lambda m, i, o: o),
+            Patch("diagnosis.contenders:certain", lambda m, i, o: o),
+        ),
+    ),
+    Rule(
+        "loud-fit",
+        "where more is left than noise all samples weigh the same",
+        (*OUTSIDE, ("strong", "red"), ("off-sheet", "red")),
+        ("fit/calibrate.py:_loud", "fit/calibrate.py:_Unweighted"),
+        (Patch("fit.calibrate:MISFIT", np.inf, constant=True),),
+    ),
+    Rule(
+        "step-instant",
+        "the instant of a step is refined to the sample, through the filter",
+        (("ten", "white"), ("strong", "red"), *quiet("jump")),
+        ("evidence/steps.py:refined", "evidence/steps.py:sharpened"),
+        (
+            Patch("evidence.steps:refined", lambda prepared, step, *a: step),
+            Patch("evidence.steps:sharpened", lambda prepared, sample, *a: sample),
+        ),
+    ),
+    Rule(
+        "shared-noise",
+        "noise that all voltages share stands in a combination of its own",
+        (("ten", "voltages"), ("quiet", "voltages"), ("pair", "voltages")),
+        ("signals/combinations.py",),
+        (Patch("fit.noise:combinations.telling", _nothing),),
+    ),
+    Rule(
+        "beside-random",
+        "beside a random effect terms are not taken for more than its uneven noise",
+        (("ten", "white"), ("strong", "white"), ("quiet", "heavy-tails")),
+        ("lack_of_fit/remainder.py:beside",),
+        (Patch("lack_of_fit.remainder:Remainder.beside", lambda self, uneven: self.significant),),
+    ),
+    Rule(
+        "too-loud",
+        "noise that no accelerometer of the sheet has is not adequate",
+        quiet("shuffled", "pure-noise", "sensors-1-mg", "elsewhere"),
+        ("diagnosis/doubts.py:too_loud",),
+        (Patch("diagnosis.diagnose:too_loud", _nothing),),
+    ),
+    Rule(
+        "loud",
+        "a residual that is louder than its noise is unexplained",
+        (*OUTSIDE, *quiet("sensors-1-mg", "clock-set")),
+        ("diagnosis/comparison.py:loud",),
+        (Patch("diagnosis.comparison:loud", _false, acts=bool),),
+    ),
+    Rule(
+        "explains-nothing",
+        "a model that explains no more than its parameters would of noise",
+        quiet("shuffled", "pure-noise"),
+        ("diagnosis/explained.py",),
+        (Patch("diagnosis.diagnose:spoiled", lambda target, e: spoiled_but(target, e)),),
+    ),
+    Rule(
+        "vertical-force",
+        "a_z of the wrong sign, or with gravity, is tried in a fit of its own",
+        (*OFF, ("quiet", "sensors-1-mg"), ("outside", "white")),
+        ("diagnosis/vertical_force.py",),
+        (Patch("diagnosis.doubts:misrecorded", _nothing),),
+    ),
+    Rule(
+        "thinned-channels",
+        "channels that may have been made at a higher rate",
+        quiet("channels"),
+        ("diagnosis/doubts.py:thinned", "diagnosis/doubts.py:_spoiled", "diagnosis/doubts.py:_folded"),
+        (Patch("diagnosis.doubts:thinned", _nothing),),
+    ),
+    Rule(
+        "rounding",
+        "what the digits of a file make counts as its own noise",
+        quiet("digits", "noiseless", "sensors-1-mg"),
+        ("fit/rounding.py",),
+        (Patch("fit.rounding:Rounding.prevails", _false, acts=bool),),
+    ),
+    Rule(
+        "convergence",
+        "a calibration that has not arrived, or whose halves contradict each other, confirms nothing",
+        (*OFF, ("outside", "white"), ("strong", "white")),
+        ("fit/convergence.py",),
+        (Patch("fit.convergence:complaint", _nothing),),
+    ),
+    Rule(
+        "filled-in",
+        "values that were filled in between recorded ones are taken out",
+        quiet("stuck", "coarse", "digits"),
+        ("plausibility/filled_in.py",),
+        (
+            Patch(
+                "plausibility.examine:without_filling", lambda flight: (flight, []), acts=lambda r: bool(r[1])
+            ),
+        ),
+    ),
+    Rule(
+        "clock",
+        "uneven stamps are replaced by even ones, the disc's angle counted from another origin, if that fits better",
+        quiet("rounded-stamps", "uneven-stamps", "clock-set", "from-2-s", "from-10-s"),
+        ("plausibility/clock.py",),
+        (Patch("plausibility.examine:steadied", _nothing),),
+    ),
+    Rule(
+        "mistakes",
+        "mistakes of units, signs, axes and order are tried",
+        (*quiet("clock-set", "codes", "stuck", "from-10-s"), *OFF),
+        ("plausibility/identify.py", "plausibility/mistakes.py"),
+        (Patch("plausibility.examine:likely_mistake", _nothing),),
+    ),
+    Rule(
+        "timing-search",
+        "a spin rate, a phase or a shift in time is searched for as a mistake",
+        (*quiet("clock-set", "clock-50-ppm", "from-10-s"), ("strong", "white")),
+        ("plausibility/timing.py",),
+        (Patch("plausibility.identify:searches", _empty),),
+    ),
+    Rule(
+        "output-spikes",
+        "spikes of the output are marked",
+        quiet("spikes", "codes", "heavy-tails", "stuck"),
+        ("plausibility/examine.py:_output_spikes", "plausibility/spikes.py:spikes"),
+        (
+            Patch(
+                "plausibility.examine:_output_spikes",
+                lambda m, i, p: (p.flight.valid.copy(), []),
+                acts=lambda r: bool(r[1]),
+            ),
+        ),
+    ),
+    Rule(
+        "motion-spikes",
+        "spikes of the motion record are marked and interpolated",
+        quiet("codes", "stuck", "recorded-motion", "sensors-1-mg"),
+        ("plausibility/examine.py:_without_motion_spikes", "plausibility/spikes.py:glitches"),
+        (Patch("plausibility.examine:_without_motion_spikes", _first),),
+    ),
+)
+
+
+def spoiled_but(target: Any, e: Any) -> Any:
+    """Doubts about a fit, but for the one that it explains nothing."""
+    from ragg_runtime.diagnosis import doubts
+
+    return doubts.misrecorded(target) or doubts.thinned(target)
+
+
+def flights(rule: Rule) -> list[Spec]:
+    """The 40 flights of a rule."""
+    own = [replace(s, index=s.index + 100) for s in plan.ablation(rule.kinds, HALF)]
+    return [*own, *plan.ablation(ALL, HALF)]
+
+
+@contextmanager
+def _patched(patch: Patch, make: Callable[[Any], Any]) -> Iterator[None]:
+    """With what ``make`` makes of the original in its place."""
+    owner, name = patch.place
+    original = owner.__dict__[name] if isinstance(owner, type) else getattr(owner, name)
+    setattr(owner, name, make(original))
+    try:
+        yield
+    finally:
+        setattr(owner, name, original)
+
+
+@contextmanager
+def off(rule: Rule) -> Iterator[None]:
+    """With a rule switched off."""
+
+    def neutral(patch: Patch) -> Callable[[Any], Any]:
+        if patch.after:
+            return lambda original: lambda *a, **k: patch.neutral(original(*a, **k))
+        return lambda original: patch.neutral
+
+    with ExitStack() as stack:
+        for p in rule.patches:
+            stack.enter_context(_patched(p, neutral(p)))
+        yield
+
+
+@contextmanager
+def watching(acted: set[str]) -> Iterator[None]:
+    """With all rules on; those that do anything are put into ``acted``."""
+
+    def watched(rule: Rule, p: Patch) -> Callable[[Any], Any]:
+        def make(original: Any) -> Any:
+            def call(*a: Any, **k: Any) -> Any:
+                result = original(*a, **k)
+                if rule.id not in acted and _does(p, result, a, k):
+                    acted.add(rule.id)
+                return result
+
+            return call
+
+        return make
+
+    with ExitStack() as stack:
+        for rule in RULES:
+            for p in rule.patches:
+                if not p.there:
+                    continue
+                if p.constant:
+                    acted.add(rule.id)
+                else:
+                    stack.enter_context(_patched(p, watched(rule, p)))
+        yield
+
+
+def _does(p: Patch, result: Any, args: Any, kwargs: Any) -> bool:
+    if p.acts is not None:
+        return p.acts(result)
+    other = p.neutral(result) if p.after else p.neutral(*args, **kwargs)
+    try:
+        return result is not other and not bool(result == other)
+    except (ValueError, TypeError):  # arrays
+        return True
+
+
+def watched(spec: Spec) -> dict[str, Any]:
+    """The line of a flight with all rules on, and which of them did anything."""
+    acted: set[str] = set()
+    with watching(acted):
+        found = _line(spec)
+    return found | {"acted": sorted(acted)}
+
+
+def without(rule: str, spec: Spec) -> dict[str, Any]:
+    """The line of a flight with a rule switched off."""
+    with off(next(r for r in RULES if r.id == rule)):
+        return _line(spec)
+
+
+def _line(spec: Spec) -> dict[str, Any]:
+    return {"id": spec.id, "kind": spec.kind, "record": spec.record} | fly(spec)
+
+
+def acts(rule: Rule, line: Mapping[str, Any]) -> bool:
+    return rule.id in line["acted"]
+
+
+def complete(rule: Rule, lines: Mapping[str, Any]) -> bool:
+    """Whether all flights of a rule are there."""
+    on = [(s, lines.get(f"/{s.id}")) for s in flights(rule)]
+    return all(x is not None and (not acts(rule, x) or f"{rule.id}/{s.id}" in lines) for s, x in on)
+
+
+def row(rule: Rule, specs: Sequence[Spec], lines: Mapping[str, Any]) -> Row:
+    """What changes without a rule."""
+    pairs = []
+    for s in specs:
+        on = lines[f"/{s.id}"]
+        pairs.append((on, lines[f"{rule.id}/{s.id}"] if acts(rule, on) else on))
+    outcomes = [(score.outcome(a), score.outcome(b)) for a, b in pairs]
+    change = np.array([score.WORTH[b] - score.WORTH[a] for a, b in outcomes])
+    moved = Counter(f"{a} to {b}" for a, b in outcomes if a != b)
+    flown = [(a, b) for a, b in pairs if a is not b]
+    time = (
+        [sum(x.get("cpu", 0.0) for x in side) for side in zip(*flown, strict=True)] if flown else [0.0, 0.0]
+    )
+    half = 1.6449 * float(np.std(change)) / np.sqrt(len(change))
+    return {
+        "rule": rule.id,
+        "sentence": rule.sentence,
+        "lines": str(sum(map(_lines, rule.code))),
+        "kinds": ", ".join(f"{k} {r}" for k, r in rule.kinds),
+        "acts": f"{len(flown)} of {len(pairs)}",
+        "worse": str(int(np.sum(change < 0))),
+        "better": str(int(np.sum(change > 0))),
+        "other": str(sum(a != b for a, b in outcomes) - int(np.sum(change != 0))),
+        "change": f"{np.mean(change):+.3f} ± {half:.3f}",
+        "time": f"{time[0]:.0f} s to {time[1]:.0f} s",
+        "moved": ", ".join(f"{n} {m}" for m, n in sorted(moved.items())),
+        "commit": str(pairs[0][0]["commit"]),
+    }
+
+
+def _lines(code: str) -> int:
+    """Lines of a file of the runtime, or of one function, class or constant of it; none where it is gone."""
+    path, _, name = code.partition(":")
+    if not (RUNTIME / path).exists():
+        return 0
+    text = (RUNTIME / path).read_text("utf-8")
+    if not name:
+        return len(text.splitlines())
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name == name:
+            return int(node.end_lineno or node.lineno) - node.lineno + 1
+    return 1

@@ -1,0 +1,398 @@
+"""What is done to the noise of a flight and to its file: every kind of record that the benchmark flies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Table = dict[str, Array]
+"""The columns of a file, ``time`` first, SI."""
+
+SPIN = 0.25
+"""Hz: of the paper's instrument, on which every kind of record but ``elsewhere`` is flown."""
+
+MILLI_G = 9.8e-3
+
+_QUARTERS = np.array([0.0, np.pi, np.pi / 2, 3 * np.pi / 2])
+
+
+@dataclass(frozen=True)
+class Loudness:
+    """Of the noise: shape of its spectrum, and its level (4, N) or (N,) from sample to sample."""
+
+    psd: Callable[[Array], Array]
+    """One-sided, of frequencies > 0 Hz, over that of the white noise."""
+    level: Array | float = 1.0
+
+
+NoiseKind = Callable[[Table, np.random.Generator], Loudness]
+Change = Callable[[Table, "Recorded", np.random.Generator], Table]
+
+
+def flat(f: Array) -> Array:
+    return np.ones_like(f)
+
+
+def white(x: Table, rng: np.random.Generator) -> Loudness:
+    return Loudness(flat)
+
+
+def red(x: Table, rng: np.random.Generator) -> Loudness:
+    """1/f below 0.05 or 0.2 Hz."""
+    corner = float(rng.choice([0.05, 0.2]))
+    return Loudness(lambda f: 1.0 + corner / f)
+
+
+def walk(x: Table, rng: np.random.Generator) -> Loudness:
+    """f^-2: a random walk that in 15 minutes drifts by one to three standard deviations of the white noise."""
+    drift = rng.uniform(1.0, 3.0)
+    rate = 1.0 / float(x["time"][1] - x["time"][0])
+    # of a walk the variance grows by 2 pi^2 c a second where the density is c f^-2, and the white noise has rate / 2
+    c = drift**2 * (rate / 2) / (2 * np.pi**2 * 900.0)
+    return Loudness(lambda f: 1.0 + c / f**2)
+
+
+def bump(x: Table, rng: np.random.Generator) -> Loudness:
+    """Five times the density over 0.1 Hz about twice the spin rate."""
+    return Loudness(lambda f: 1.0 + 4.0 * np.exp(-0.5 * ((f - 2 * SPIN) / 0.05) ** 2))
+
+
+def along_axes(x: Table, rng: np.random.Generator) -> Loudness:
+    """Each accelerometer's noise in proportion to the force along its input axis, with a floor of a fifth."""
+    psi = 2 * np.pi * SPIN * x["time"][None] + _QUARTERS[:, None]
+    f = np.abs(x["a_y"] * np.cos(psi) - x["a_x"] * np.sin(psi))
+    return Loudness(flat, 0.2 + f / np.sqrt(np.mean(f**2)))
+
+
+def with_size(x: Table, rng: np.random.Generator) -> Loudness:
+    """In proportion to |a|."""
+    a = np.sqrt(x["a_x"] ** 2 + x["a_y"] ** 2 + x["a_z"] ** 2)
+    return Loudness(flat, 0.2 + a / np.sqrt(np.mean(a**2)))
+
+
+def with_ax(x: Table, rng: np.random.Generator) -> Loudness:
+    """In proportion to |a_x|."""
+    a = np.abs(x["a_x"])
+    return Loudness(flat, 0.2 + a / np.sqrt(np.mean(a**2)))
+
+
+def with_temperature(x: Table, rng: np.random.Generator) -> Loudness:
+    """Three to six times larger at the warmest than at the coldest."""
+    T = x["temperature"]
+    return Loudness(flat, 1.0 + rng.uniform(2.0, 5.0) * (T - T.min()) / np.ptp(T))
+
+
+def ramp(x: Table, rng: np.random.Generator) -> Loudness:
+    """Grows or falls by a factor of 2 to 6."""
+    s = np.linspace(0.0, 1.0, len(x["time"]))
+    return Loudness(flat, rng.uniform(2.0, 6.0) ** (s if rng.random() < 0.5 else 1.0 - s))
+
+
+def louder_part(x: Table, rng: np.random.Generator) -> Loudness:
+    """1.5 to 10 times larger for a third to two thirds of the record."""
+    a = rng.uniform(0.0, 0.5)
+    s = np.linspace(0.0, 1.0, len(x["time"]))
+    loud = (s > a) & (s < a + rng.uniform(1 / 3, 2 / 3))
+    return Loudness(flat, np.where(loud, 10 ** rng.uniform(0.2, 1.0), 1.0))
+
+
+def bursts(x: Table, rng: np.random.Generator) -> Loudness:
+    """One to four stretches of 2 to 8 s that are 3 to 20 times as noisy."""
+    t = x["time"] - x["time"][0]
+    factor = np.ones(len(t))
+    for _ in range(int(rng.integers(1, 5))):
+        a = rng.uniform(0.0, t[-1] - 8.0)
+        factor[(t > a) & (t < a + rng.uniform(2.0, 8.0))] = rng.uniform(3.0, 20.0)
+    return Loudness(flat, factor)
+
+
+def cyclic(x: Table, rng: np.random.Generator) -> Loudness:
+    """Swells once or twice a turn."""
+    phi = 2 * np.pi * SPIN * x["time"] * int(rng.integers(1, 3)) + rng.uniform(0, 6)
+    return Loudness(flat, 1.0 + rng.uniform(0.3, 0.9) * np.cos(phi))
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """What a change may need to know of a flight: the clean output (N,) V, the rms of its noise, the rate, Hz."""
+
+    clean: Array
+    rms: float
+    rate: float
+
+
+def as_it_is(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    return x
+
+
+def heavy(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """Noise of Student's t with three degrees of freedom."""
+    return x | {"G_out": r.clean + r.rms * rng.standard_t(3, len(r.clean)) / np.sqrt(3.0)}
+
+
+def _added(x: Table, e: Array) -> Table:
+    return x | {"G_out": x["G_out"] + e}
+
+
+def mains(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """50 Hz, which wanders by some mHz, seen through the sampling, 0.3 to 3 times the noise."""
+    n = len(r.clean)
+    f = 50.0 + 0.005 * np.cumsum(rng.standard_normal(n)) / np.sqrt(n)
+    phase = 2 * np.pi * np.cumsum(f) / r.rate + rng.uniform(0, 6)
+    return _added(x, np.sqrt(2.0) * rng.uniform(0.3, 3.0) * r.rms * np.cos(phase))
+
+
+def line(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """A line of 0.3 to 10 times the noise, far from the multiples of the spin rate."""
+    f = float(rng.uniform(0.06, 0.45) * r.rate)
+    size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-0.5, 1.0)
+    return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
+
+
+def near_line(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """A line 0.3 mHz beside one or two turns, 0.05 to 1 times the noise."""
+    f = float(rng.choice([SPIN, 2 * SPIN])) + 0.0003
+    size = np.sqrt(2.0) * r.rms * 10 ** rng.uniform(-1.3, 0.0)
+    return _added(x, size * np.cos(2 * np.pi * f * x["time"] + rng.uniform(0, 6)))
+
+
+def jump(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """The output's zero jumps by 0.3 to 3 times the noise."""
+    n = len(r.clean)
+    size = rng.choice([-1.0, 1.0]) * 10 ** rng.uniform(-0.5, 0.5) * r.rms
+    return _added(x, np.where(np.arange(n) > rng.uniform(0.2, 0.8) * n, size, 0.0))
+
+
+def coarse(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """Output in steps of 0.3 to 3 times the noise."""
+    q = rng.uniform(0.3, 3.0) * r.rms
+    return x | {"G_out": np.round(x["G_out"] / q) * q}
+
+
+def spikes(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """Ten samples of the output 20 to 1,000 times the noise off."""
+    at = rng.choice(len(r.clean), 10, replace=False)
+    e = np.zeros(len(r.clean))
+    e[at] = r.rms * rng.choice([-1.0, 1.0], 10) * 10 ** rng.uniform(1.3, 3.0, 10)
+    return _added(x, e)
+
+
+def gaps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """30 % of the output's samples are missing, in gaps of 0.1 to 10 s."""
+    lost = np.zeros(len(r.clean), dtype=np.bool_)
+    while np.mean(lost) < 0.3:
+        a = int(rng.integers(len(lost)))
+        lost[a : a + 1 + int(10 ** rng.uniform(-1, 1) * r.rate)] = True
+    return x | {"G_out": np.where(lost, np.nan, x["G_out"])}
+
+
+def rough_gaps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """The output fails where it is rough."""
+    a = np.hypot(*(x[n] - np.mean(x[n]) for n in ("a_x", "a_z")))
+    return x | {"G_out": np.where(a < np.quantile(a, rng.uniform(0.7, 0.95)), x["G_out"], np.nan)}
+
+
+def rows_lost(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """One row in a hundred is not in the file, and one stretch of up to 5 s."""
+    n = len(r.clean)
+    kept = rng.random(n) > 0.01
+    a = int(rng.integers(n // 4, n // 2))
+    kept[a : a + int(rng.uniform(1.0, 5.0) * r.rate)] = False
+    kept[:2] = True
+    return {c: v[kept] for c, v in x.items()}
+
+
+def codes(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """-9999 or 999 in one column where a value is missing, one sample in two hundred."""
+    name = str(rng.choice(["G_out", "a_x", "omega_y", "temperature"]))
+    gone = rng.random(len(r.clean)) < 0.005
+    return x | {name: np.where(gone, float(rng.choice([-9999.0, 999.0])), x[name])}
+
+
+def stuck(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """The output or a motion sensor repeats its last value for 2 to 8 s, twice."""
+    name = str(rng.choice(["G_out", "a_x", "a_z", "omega_y"]))
+    v = x[name].copy()
+    for share in (0.3, 0.7):
+        a = int(share * len(v))
+        v[a : a + int(rng.uniform(2.0, 8.0) * r.rate)] = v[a]
+    return x | {name: v}
+
+
+def noisy_sensors(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """White noise of every sensor of motion: 0.1 ug, 2e-4 deg/h, and what a good derivative makes of it."""
+    sizes = {"a": 1e-6, "omega": 1e-9, "omegadot": 1e-8}
+    names = [(f"{q}_{k}", s) for q, s in sizes.items() for k in "xyz"]
+    return x | {n: x[n] + s * rng.standard_normal(len(x[n])) for n, s in names}
+
+
+def sensors_in_steps(step: float) -> Change:
+    """Motion sensors that resolve so much, m/s^2 (and 1e-5 rad/s)."""
+
+    def change(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+        steps = {"a": step, "omega": 1e-5}
+        names = [(f"{q}_{k}", s) for q, s in steps.items() for k in "xyz"]
+        return x | {n: np.round(x[n] / s) * s for n, s in names}
+
+    return change
+
+
+def rounded_stamps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """Stamps to one or ten milliseconds."""
+    return x | {"time": np.round(x["time"], int(rng.integers(2, 4)))}
+
+
+def uneven_stamps(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """Stamps that are off by 1e-5 to 1e-3 of a step, at random."""
+    e = 10 ** rng.uniform(-5.0, -3.0) / r.rate * rng.standard_normal(len(r.clean))
+    e[0] = 0.0
+    return x | {"time": x["time"] + e}
+
+
+def clock_set(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """The recorder's clock is set forward by 25 ms on the way; sampling goes on."""
+    late = np.arange(len(r.clean)) > rng.uniform(0.3, 0.7) * len(r.clean)
+    return x | {"time": x["time"] + 0.025 * late}
+
+
+def digits(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """As a file of 6 to 9 significant digits holds it."""
+    n = int(rng.integers(6, 10))
+    written = {k: np.array([float(f"{v:.{n}g}") for v in values]) for k, values in x.items() if k != "time"}
+    return x | written
+
+
+def without_omegadot(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """No angular acceleration, and gaps of up to 20 rows every few seconds."""
+    kept = np.ones(len(r.clean), dtype=np.bool_)
+    at = int(5 * r.rate)
+    while at < len(kept):
+        kept[at : at + int(rng.integers(1, 20))] = False
+        at += int(rng.uniform(2.0, 20.0) * r.rate)
+    return {c: v[kept] for c, v in x.items() if not c.startswith("omegadot")}
+
+
+def shuffled(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """The output's samples in another order."""
+    return x | {"G_out": rng.permutation(x["G_out"])}
+
+
+def pure_noise(x: Table, r: Recorded, rng: np.random.Generator) -> Table:
+    """White noise of the size of the output."""
+    return x | {"G_out": float(np.std(x["G_out"])) * rng.standard_normal(len(r.clean))}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of record.
+
+    Attributes
+    ----------
+    noise, change
+        What its noise is like, and what else is done to it.
+    known
+        Whether effects are hidden in it, too: their strengths are measured with the noise as it is.
+    tame
+        Whether the promise on false alarms holds for it: its noise is what the model of the noise means to describe, its file whole.
+    allowed
+        Effects that are really there.
+    nothing
+        Whether nothing in it follows the motion: ``adequate`` is wrong.
+    world
+        Options of ``plan.world``.
+    """
+
+    noise: NoiseKind = white
+    change: Change = as_it_is
+    known: bool = False
+    tame: bool = False
+    allowed: frozenset[str] = frozenset()
+    nothing: bool = False
+    world: Mapping[str, object] = field(default_factory=dict)
+
+
+def _tame(noise: NoiseKind = white, **world: object) -> Kind:
+    return Kind(noise, known=True, tame=True, world=world)
+
+
+_STEPS, _SPIN = frozenset({"quantisation"}), frozenset({"spin-rate-offset"})
+
+KINDS: Mapping[str, Kind] = {
+    "white": _tame(),
+    "red": _tame(red),
+    "walk": _tame(walk),
+    "bump": _tame(bump),
+    "along-axes": _tame(along_axes),
+    "with-size": _tame(with_size),
+    "with-ax": Kind(with_ax, tame=True),
+    "with-temperature": _tame(with_temperature),
+    "ramp": _tame(ramp),
+    "louder-part": Kind(louder_part, tame=True),
+    "bursts": Kind(bursts, known=True, tame=True),
+    "cyclic": Kind(cyclic, tame=True),
+    "heavy-tails": Kind(change=heavy, known=True, tame=True),
+    "unknown-gradient": _tame(red, gradient=False),
+    "recorded-motion": _tame(recorded=True),
+    "elsewhere": _tame(elsewhere=True),
+    "voltages": _tame(output="voltages"),
+    "channels": Kind(tame=True, world={"output": "channels", "duration": 1200.0, "rate": 8.0}),
+    "20s": Kind(tame=True, world={"duration": 20.0}),
+    "60s": Kind(tame=True, world={"duration": 60.0}),
+    "4-Hz": _tame(rate=4.0),
+    "gaps": Kind(change=gaps, known=True, tame=True),
+    "rough-gaps": Kind(change=rough_gaps, tame=True),
+    "rows-lost": Kind(change=rows_lost, tame=True),
+    "noisy-sensors": Kind(change=noisy_sensors),
+    "sensors-0.5-mg": Kind(change=sensors_in_steps(0.5 * MILLI_G)),
+    "sensors-1-mg": Kind(change=sensors_in_steps(MILLI_G)),
+    "mains": Kind(change=mains),
+    "line": Kind(change=line),
+    "near-line": Kind(change=near_line),
+    "jump": Kind(change=jump, allowed=frozenset({"bias-step"})),
+    "spikes": Kind(change=spikes),
+    "coarse": Kind(change=coarse, allowed=_STEPS),
+    "codes": Kind(change=codes),
+    "stuck": Kind(change=stuck),
+    "rounded-stamps": Kind(change=rounded_stamps),
+    "uneven-stamps": Kind(change=uneven_stamps),
+    "clock-set": Kind(change=clock_set),
+    "from-2-s": Kind(world={"start": 2.0}),
+    "from-10-s": Kind(world={"start": 10.0}),
+    "from-1802-s": Kind(world={"start": 1802.0}),
+    "clock-50-ppm": Kind(allowed=_SPIN, world={"spin_off": 50e-6}),
+    "spin-off": Kind(allowed=_SPIN, world={"spin_off": 1e-8}),
+    "no-omegadot": Kind(change=without_omegadot),
+    "digits": Kind(change=digits, allowed=_STEPS),
+    "noiseless": Kind(change=digits, allowed=_STEPS, world={"density": 0.0}),
+    "shuffled": Kind(change=shuffled, nothing=True),
+    "pure-noise": Kind(change=pure_noise, nothing=True),
+}
+"""Every kind of record, by name."""
+
+KNOWN = tuple(n for n, k in KINDS.items() if k.known)
+TAME = tuple(n for n, k in KINDS.items() if k.tame)
+
+
+def sampled(loudness: Loudness, density: float, rng: np.random.Generator, size: int, rate: float) -> Array:
+    """(4, N) m/s^2: noise of four accelerometers, white density (m/s^2)^2/Hz; no power below rate / (2 N)."""
+    period = 2 * size
+    f = np.fft.rfftfreq(period, 1 / rate)[1:]
+    scale = np.sqrt(density * loudness.psd(f) * rate * period / 4)
+    spectrum = np.zeros((4, size + 1), dtype=np.complex128)
+    drawn = rng.standard_normal((2, 4, size))
+    spectrum[:, 1:] = scale * (drawn[0] + 1j * drawn[1])
+    spectrum[:, -1] = np.sqrt(2) * spectrum[:, -1].real
+    return np.asarray(np.fft.irfft(spectrum, period)[:, :size] * loudness.level)
+
+
+def write(x: Table, units: Mapping[str, str], path: Path) -> None:
+    """A Parquet file with units in its columns' metadata."""
+    fields = [pa.field(n, pa.float64(), metadata={"units": units[n]}) for n in x]
+    pq.write_table(pa.table([pa.array(v) for v in x.values()], schema=pa.schema(fields)), path)

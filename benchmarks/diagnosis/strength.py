@@ -1,0 +1,252 @@
+"""How large an effect must be to stand so many sigmas above a flight's noise, for one who knows that noise.
+
+The strength of an effect is the norm of its signature, whitened with the noise as it is, once everything is projected out that
+a calibration could take for it: the parameters of the instrument within what a sheet leaves open, an unknown gradient, and a
+second effect with all of its parameters. It is the expected significance of the best test there is. Signatures are the
+derivatives of the generated model at the true instrument. No column has: ``spin-rate-jitter`` (the expected score of the test
+of its variance), ``quantisation`` (the growth of the variance by q^2/12, in sigmas of its estimate) and ``saturation`` (the
+norm of what is clipped, at least ten samples).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+from scipy.interpolate import BSpline
+
+from benchmarks.diagnosis.plan import World
+from benchmarks.diagnosis.records import Loudness
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.columns import Column
+from ragg_runtime.fit.linearise import Point, linearised
+from ragg_runtime.fit.observation import observe
+from ragg_runtime.flight import Flight
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import packaged
+from ragg_runtime.reference.effects import CATALOGUE
+
+Array = NDArray[np.float64]
+
+LARGEST, LARGEST_STRONG = 30.0, 1000.0
+"""Plausible sizes beyond which an effect is not hidden: up to 10 sigma, and above."""
+
+LONGEST: Mapping[str, float] = {"lag": 0.03, "gyro-delay": 0.1, "time-offset": 0.1}
+"""s: what the simulator can do, and a Taylor series describes."""
+
+NEVER = ("arm-length", "disc-spin", "imu-saturation", "second-order-misalignment")
+"""Effects that are not hidden: nature knows them at one size alone, or a sheet as sure as these does not offer them."""
+
+FILTERS = ("lag", "output-filter", "second-order-loop")
+"""No filter at all with the other sign."""
+
+COVARIANCES = ("angular-jitter", "vibration-level", "vibration-rectification")
+"""Of a vibration along one line."""
+
+DIRECTIONS = 6
+"""Directions of an effect's parameters that are tried before another effect takes its place."""
+
+CLIPPED = 10
+"""Least number of samples that a hidden saturation clips."""
+
+KNOT = 10.0
+"""s: between the knots of an unknown gradient."""
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """An effect as it is hidden: its parameters for the simulator, SI, the largest over its plausible size, and sigmas."""
+
+    effect: str
+    values: Mapping[str, float | list[float]]
+    plausible: float
+    strength: float
+
+    def as_json(self) -> dict[str, object]:
+        return asdict(self)
+
+
+class Oracle:
+    """A flight without effects, whitened with the noise as it is: what strengths are measured on."""
+
+    def __init__(self, w: World, flight: Flight, loudness: Loudness) -> None:
+        self.model, self.flight = packaged(), flight
+        self.o = observe(flight, w.known)
+        i = w.known.accelerometers
+        scale = (i["k_VI"] * i["K1"])[:, None]
+        of_each = np.broadcast_to(scale * loudness.level, (4, len(flight))) ** 2
+        variance = of_each if w.output == "voltages" else np.sum(of_each, axis=0, keepdims=True)
+        self.rms = np.sqrt(w.density * flight.rate / 2 * variance)
+        self.taps = whitening(loudness, flight.rate, len(flight))
+        p = vector(self.model, w.known)
+        self.raw = linearised(Point(self.model, w.known, p, with_candidates=True), self.o)[:-1]
+        self.columns = design.candidate_columns(self.model, w.known)
+        self.n = len(self.raw) - len(self.columns)
+        white = self.whitened(self.raw)
+        self.rows = white.shape[1]
+        base = [np.hstack([white[: self.n], np.eye(self.n)])]
+        if not w.gradient:
+            unknown = self.whitened(self._gradient())
+            base.append(np.pad(unknown, ((0, 0), (0, self.n))))
+        self.Q = _orthonormal(np.concatenate(base))
+        self.white = white[self.n :]
+        self.left = self.projected(self.white)
+        self.kinds = {e.id: e.kind for e in self.model.candidates if e.id not in NEVER}
+
+    def whitened(self, x: Array) -> Array:
+        """(k, rows) of columns (k, m, N), V."""
+        y = signal.lfilter(self.taps, [1.0], x / self.rms, axis=-1)
+        return np.asarray(y[:, :, self.o.record.valid].reshape(len(x), -1))
+
+    def projected(self, rows: Array) -> Array:
+        """(k, rows + n): whitened rows less what the calibration takes for them."""
+        wide = np.pad(rows, ((0, 0), (0, self.n)))
+        return np.asarray(wide - (wide @ self.Q) @ self.Q.T)
+
+    def of(self, effect: str) -> list[int]:
+        return [n for n, c in enumerate(self.columns) if c.effect == effect]
+
+    def block(self, effect: str, instant: float | None = None) -> Array:
+        """Projected columns of an effect; of a step from its instant on."""
+        if self.kinds[effect] != "step" or instant is None:
+            return self.left[self.of(effect)]
+        on = self.flight.time >= instant
+        return self.projected(self.whitened(self.raw[self.n :][self.of(effect)] * on))
+
+    def _gradient(self) -> Array:
+        t, r = self.flight.time, self.o.record
+        inner = np.linspace(t[0], t[-1], max(2, int((t[-1] - t[0]) / KNOT) + 1))
+        steps = (inner[1] - inner[0]) * np.arange(1.0, 4.0)
+        knots = np.concatenate([t[0] - steps[::-1], inner, t[-1] + steps])
+        splines = BSpline.design_matrix(t, knots, 3).toarray().T
+        sin2, cos2 = 2 * r.sin_phi * r.cos_phi, r.cos_phi**2 - r.sin_phi**2
+        signs = np.ones(1) if len(self.rms) == 1 else np.array(self.o.output.signs)
+        turned = np.concatenate([splines * sin2, splines * cos2])[:, None] * signs[:, None]
+        return np.asarray(turned * np.mean(self.rms))
+
+    def drawn(
+        self, effect: str, strength: float, rng: np.random.Generator, beside: Array | None = None
+    ) -> Hidden | None:
+        """An effect of this strength in a random direction of its parameters; ``None`` if that is not sane on this flight."""
+        kind, at = self.kinds[effect], self.of(effect)
+        if kind == "output":
+            return self._quantised(strength) if effect == "quantisation" else self._saturated(strength)
+        if kind == "random":
+            return self._jitter(effect, strength)
+        time = self.flight.time
+        instant = float(time[0] + (time[-1] - time[0]) * rng.uniform(0.15, 0.85)) if kind == "step" else None
+        block, own = self.block(effect, instant), [self.columns[n] for n in at]
+        for _ in range(DIRECTIONS):
+            weights = _direction(effect, own, rng)
+            signature = weights @ block
+            norm = float(np.linalg.norm(signature if beside is None else _beside(signature, beside)))
+            # what is all but absorbed is rounding: its size would mean nothing
+            if norm <= 1e-5 * np.linalg.norm(weights @ self.white[at]):
+                continue
+            values = _values(effect, own, strength / norm * weights)
+            size = float(np.max(np.abs(weights))) * strength / norm * design.EFFECT_PRIOR
+            most = LARGEST if strength <= 10.0 else LARGEST_STRONG
+            if size > most or np.max(np.abs(np.concatenate([np.ravel(v) for v in values.values()]))) > (
+                LONGEST.get(effect, np.inf)
+            ):
+                continue
+            return Hidden(effect, values | ({} if instant is None else {"t_step": instant}), size, strength)
+        return None
+
+    def beyond_all(self, change: Array) -> float:
+        """Norm of a change (N,) of the output beyond the calibration and all effects together."""
+        row = self.projected(self.whitened(change[None, None]))[0]
+        return float(np.linalg.norm(_beside(row, self.left)))
+
+    def _jitter(self, effect: str, strength: float) -> Hidden | None:
+        at = self.of(effect)[0]
+        c = self.columns[at]
+        s2 = (self.white[at] / c.scale) ** 2
+        sigma = float(np.sqrt(strength * np.sqrt(2.0 / np.sum((s2 - np.mean(s2)) ** 2))))
+        size = design.EFFECT_PRIOR * sigma / c.scale
+        return None if size > LARGEST else Hidden(effect, {"sigma_phi": sigma}, size, strength)
+
+    def _quantised(self, strength: float) -> Hidden:
+        rms = float(np.sqrt(np.mean(self.rms**2)))
+        q = float(rms * np.sqrt(12 * strength * np.sqrt(2 / self.rows)))
+        return Hidden("quantisation", {"q": q}, float("nan"), strength)
+
+    def _saturated(self, strength: float) -> Hidden | None:
+        if len(self.rms) > 1:
+            return None
+        G = self.flight.outputs["G_out"]
+        low, high = 0.0, float(np.sort(np.abs(G))[-CLIPPED])
+
+        def seen(limit: float) -> float:
+            change = np.clip(G, -limit, limit) - G
+            return float(np.linalg.norm(self.projected(self.whitened(change[None, None]))))
+
+        for _ in range(30):
+            middle = (low + high) / 2
+            low, high = (middle, high) if seen(middle) > strength else (low, middle)
+        return Hidden("saturation", {"V_max": high}, float("nan"), seen(high))
+
+
+def whitening(loudness: Loudness, rate: float, size: int) -> Array:
+    """Taps of the causal filter that makes stationary noise white: the minimum phase of one over the root of its spectrum."""
+    n = 1 << int(np.ceil(np.log2(4 * size)))
+    f = np.fft.rfftfreq(n, 1 / rate)
+    f[0] = rate / (2 * size)
+    log = -0.5 * np.log(loudness.psd(np.maximum(f, rate / (2 * size))))
+    if not np.any(log):
+        return np.ones(1)
+    cepstrum = np.fft.irfft(log, n)
+    cepstrum[1 : n // 2] *= 2.0
+    cepstrum[n // 2 + 1 :] = 0.0
+    return np.asarray(np.fft.irfft(np.exp(np.fft.rfft(cepstrum)), n)[: min(size, 4096)])
+
+
+def _orthonormal(rows: Array) -> Array:
+    """(n, k): an orthonormal basis of rows (k, n)."""
+    Q, R = np.linalg.qr((rows / np.linalg.norm(rows, axis=1, keepdims=True)).T)
+    return np.asarray(Q[:, np.abs(np.diag(R)) > 1e-10])
+
+
+def _beside(signature: Array, others: Array) -> Array:
+    sizes = np.linalg.norm(others, axis=1)
+    some = others[sizes > 0.0] / sizes[sizes > 0.0, None]
+    U, s, _ = np.linalg.svd(some.T, full_matrices=False)
+    U = U[:, s > 1e-7 * s[0]]
+    return np.asarray(signature - U @ (U.T @ signature))
+
+
+def _direction(effect: str, own: Sequence[Column], rng: np.random.Generator) -> Array:
+    """Unit vector over an effect's columns: one parameter, in one accelerometer or in all four."""
+    weights = np.zeros(len(own))
+    if effect in COVARIANCES:
+        d = rng.standard_normal(3)
+        d /= np.linalg.norm(d)
+        for n, c in enumerate(own):
+            weights[n] = d["xyz".index(c.name[-2])] * d["xyz".index(c.name[-1])]
+        return weights
+    names = list(dict.fromkeys(c.name for c in own))
+    name = names[int(rng.integers(len(names)))]
+    at = [n for n, c in enumerate(own) if c.name == name]
+    if len(at) > 1 and rng.random() < 0.5:
+        at = [at[int(rng.integers(len(at)))]]
+    drawn = rng.standard_normal(len(at))
+    weights[at] = np.abs(drawn) if effect in FILTERS else drawn
+    return weights / float(np.linalg.norm(weights))
+
+
+def _values(effect: str, own: Sequence[Column], coefficients: Array) -> dict[str, float | list[float]]:
+    values: dict[str, float | list[float]] = {}
+    for c, x in zip(own, coefficients, strict=True):
+        name = c.name.split(".", 1)[1]
+        if name not in CATALOGUE[effect] or x == 0.0:
+            continue
+        if c.accelerometer is None:
+            values[name] = float(x * c.scale)
+        else:
+            four = values.setdefault(name, [0.0] * 4)
+            assert isinstance(four, list)
+            four[c.accelerometer - 1] = float(x * c.scale)
+    return values
