@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.signal import freqz
@@ -36,6 +39,29 @@ def test_channels_are_the_gradients_with_their_signs(
     out = _channels(tensor)
     np.testing.assert_allclose(out.inline * 1e9, inline, rtol=0, atol=1e-5)
     np.testing.assert_allclose(out.cross * 1e9, cross, rtol=0, atol=1e-5)
+
+
+def test_the_page_gives_the_formulas_of_the_code() -> None:
+    """docs/flight-file.md, evaluated: what it says of a pure gradient and of its demodulation is so."""
+    page = (Path(__file__).parents[2] / "docs" / "flight-file.md").read_text("utf-8")
+    said = dict(re.findall(r"^    (G_out|inline|cross) = (.+)$", page, flags=re.MULTILINE))
+    assert {*said} == {"G_out", "inline", "cross"}
+    tensor, instrument = np.array([300, 120, 50, 200, -80, -500]) * 1e-9, perfect()
+    flight = simulate(instrument, still(), 300, RATE, gravity=Gradient(tensor))
+    known = {
+        "sin": np.sin,
+        "cos": np.cos,
+        "phi": disc_angle(0.25, flight.time),
+        "k_ggi": instrument.scale_factor,
+    }
+    G_out = eval(said["G_out"], {**known, "inline": tensor[0] - tensor[3], "cross": tensor[1]})
+    np.testing.assert_allclose(flight.G_out, G_out, rtol=0, atol=1e-5 * np.max(np.abs(G_out)))
+    known |= {"G_out": flight.G_out, "LP": lambda x: np.convolve(x, low_pass(RATE), "valid")}
+    out = demodulate(flight.G_out, known["phi"], RATE, instrument.scale_factor)
+    for name, true in (("inline", tensor[0] - tensor[3]), ("cross", tensor[1])):
+        by_page = eval(said[name], dict(known))
+        np.testing.assert_allclose(by_page, getattr(out, name), rtol=0, atol=1e-15)
+        np.testing.assert_allclose(by_page, true, rtol=0, atol=1e-14)
 
 
 def test_neighbouring_harmonics_are_stopped() -> None:
