@@ -8,16 +8,22 @@ machine shows in ``Host``. So every request is checked for all three before anyt
 from __future__ import annotations
 
 import secrets
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs
 
 from starlette.datastructures import Headers
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 BODY = 1 << 20
 """Longest body of a request, bytes; files have a limit of their own."""
+
+POSTED = 1 << 10
+"""Longest body that hands over the token, bytes."""
+
+ONCE = "open the address that `ragg studio` printed; it serves once: start it again for a new one"
 
 POLICY = "; ".join(
     (
@@ -45,16 +51,19 @@ HEADERS = {
 
 @dataclass
 class Keys:
-    """The one-time token of the address and the secret of the cookie it is exchanged for."""
+    """The one-time token of the address and the secret of the cookie it is exchanged for; ``forget`` is called when it is."""
 
     token: str = field(default_factory=lambda: secrets.token_urlsafe(32))
     cookie: str = field(default_factory=lambda: secrets.token_urlsafe(32))
     used: bool = False
+    forget: Callable[[], None] = lambda: None
 
     def exchange(self, token: str) -> bool:
         """Whether this is the token, for the first time."""
         good = secrets.compare_digest(token.encode(), self.token.encode()) and not self.used
         self.used = self.used or good
+        if good:
+            self.forget()
         return good
 
 
@@ -72,8 +81,24 @@ class Guard:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":  # there is no websocket here
             return
-        refusal = self._refusal(scope)
+        refusal = await self._posted(scope, receive) or self._refusal(scope)
         await (refusal or self._inner)(scope, receive, _with_headers(send))
+
+    async def _posted(self, scope: Scope, receive: Receive) -> Response | None:
+        """The answer to the file that the browser was opened with (its origin is none); ``None``: this is no such request."""
+        headers = Headers(scope=scope)
+        if (scope["method"], scope["path"]) != ("POST", "/") or headers.getlist("host") != [self._hosts[0]]:
+            return None
+        body, more = b"", True
+        while more and len(body) <= POSTED:
+            message = await receive()
+            body += message.get("body", b"")
+            more = message.get("more_body", False)
+        token = parse_qs(body.decode("latin-1")).get("token", [""])[0] if len(body) <= POSTED else ""
+        if not self._keys.exchange(token):
+            return _refused(ONCE)
+        # The browser would not send a strict cookie where a redirect follows another site's form: the page goes on itself.
+        return self._with_cookie(HTMLResponse('<!doctype html><meta http-equiv="refresh" content="0;url=/">'))
 
     def _refusal(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)
@@ -96,10 +121,8 @@ class Guard:
         if scope["path"] == "/" and scope["method"] == "GET":
             token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if self._keys.exchange(token):
-                return self._welcomed()
-        return _refused(
-            "open the address that `ragg studio` printed; it serves once: start it again for a new one"
-        )
+                return self._with_cookie(RedirectResponse("/", 303))  # the token does not stay in the address
+        return _refused(ONCE)
 
     def _known(self, headers: Headers) -> bool:
         try:
@@ -108,8 +131,7 @@ class Guard:
             return False
         return found is not None and secrets.compare_digest(found.value.encode(), self._keys.cookie.encode())
 
-    def _welcomed(self) -> Response:
-        response = RedirectResponse("/", 303)  # the token does not stay in the address
+    def _with_cookie(self, response: Response) -> Response:
         response.set_cookie(self._name, self._keys.cookie, httponly=True, samesite="strict", path="/")
         return response
 

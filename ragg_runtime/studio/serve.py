@@ -7,12 +7,14 @@ import socket
 import sys
 import webbrowser
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import uvicorn
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.studio.guard import Guard, Keys
+from ragg_runtime.studio.opening import remove_opening, write_opening
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.routes import UPLOAD, application
 from ragg_runtime.studio.session import Session
@@ -59,10 +61,24 @@ def serve(
         if model is not None:
             session.open(model, flights)
         if browser:
-            webbrowser.open(address)
+            page = write_opening(f"http://{LOOPBACK}:{own}/", keys.token)
+            keys.forget = partial(remove_opening, page)
+            webbrowser.open(page.as_uri())
         with contextlib.suppress(KeyboardInterrupt):  # which is how one ends it: what was done is kept
-            uvicorn.Server(config).run(sockets=[listening])
+            _Server(config, keys).run(sockets=[listening])
         session.jobs.cancel()
+
+
+class _Server(uvicorn.Server):
+    """One that leaves no token behind, however it is ended."""
+
+    def __init__(self, config: uvicorn.Config, keys: Keys) -> None:
+        super().__init__(config)
+        self._keys = keys
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        self._keys.forget()
+        await super().shutdown(sockets)
 
 
 def _listening(port: int) -> socket.socket:

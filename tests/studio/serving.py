@@ -72,13 +72,15 @@ def foreign(path: Path) -> None:
 
 
 @contextmanager
-def served(*arguments: object) -> Iterator[Served]:
+def served(*arguments: object, browser: str = "") -> Iterator[Served]:
+    """``browser``: as the environment's variable; none is opened without."""
+    further = [] if browser else ["--no-browser"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "ragg_runtime", "studio", *map(str, arguments), "--no-browser"],
+        [sys.executable, "-m", "ragg_runtime", "studio", *map(str, arguments), *further],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+        env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "BROWSER": browser},
     )
     assert process.stdout is not None
     assert process.stderr is not None

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import json
+import re
 import signal
 import socket
+import stat
 import struct
+import sys
+import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import httpx
 import numpy as np
@@ -62,6 +70,72 @@ def test_the_token_serves_once_and_the_cookie_keeps_to_its_site(server: Served, 
         for token in (server.address.removeprefix(server.origin), "/?token=" + "x" * 43):
             assert other.get(token).status_code == 403
         assert other.get("/api/state").status_code == 403
+
+
+@contextmanager
+def opened(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Served, list[str], Path]]:
+    """The server, the command line of the browser that it opened, and the page that it was opened with."""
+    (folder / "run").mkdir(mode=0o700)
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder / "run"))
+    seen, browser = folder / "seen.json", folder / "browser"
+    browser.write_text(
+        f"#!{sys.executable}\nimport json, sys\nopen({str(seen)!r}, 'w').write(json.dumps(sys.argv))\n"
+    )
+    browser.chmod(0o700)
+    with served(browser=f"{browser} %s") as s:
+        end = time.monotonic() + 60
+        while not (seen.exists() and seen.read_text()) and time.monotonic() < end:
+            time.sleep(0.05)
+        words = json.loads(seen.read_text())
+        yield s, words, Path(url2pathname(urlsplit(words[1]).path))
+
+
+def test_no_command_line_holds_the_token(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The browser is opened with a file that nobody else may read, which posts the token."""
+    with opened(tmp_path, monkeypatch) as (server, words, page):
+        token = server.address.partition("token=")[2]
+        assert len(words) == 2
+        assert not any(token in w for w in words)
+        assert page.is_relative_to(tmp_path / "run")
+        assert [stat.S_IMODE(p.stat().st_mode) for p in (page, page.parent)] == [0o600, 0o700]
+        text = page.read_text()
+        assert re.findall(r'action="([^"]*)"', text) == [f"{server.origin}/"]
+        (posted,) = re.findall(r'name="token" value="([^"]*)"', text)
+        headers = {"origin": "null", "sec-fetch-site": "cross-site"}  # what a browser says of a file
+        with httpx.Client(base_url=server.origin, timeout=60) as c:
+            for wrong in ({"token": "x" * 43}, {"token": posted, "more": "x" * 2000}, {}):
+                assert c.post("/", data=wrong, headers=headers).status_code == 403
+            away = {**headers, "host": "evil.example"}
+            assert c.post("/", data={"token": posted}, headers=away).status_code == 421
+            assert page.exists()
+            first = c.post("/", data={"token": posted}, headers=headers)
+            assert first.status_code == 200
+            assert "url=/" in first.text
+            assert "SameSite=strict" in first.headers["set-cookie"]
+            assert not page.parent.exists()
+            assert c.get("/").status_code == c.get("/api/state").status_code == 200
+        with httpx.Client(base_url=server.origin, timeout=60) as other:
+            assert other.post("/", data={"token": posted}, headers=headers).status_code == 403
+            assert other.get(f"/?token={token}").status_code == 403
+
+
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
+def test_the_page_goes_with_the_server(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, end: signal.Signals
+) -> None:
+    with opened(tmp_path, monkeypatch) as (server, _, page):
+        with httpx.Client(base_url=server.origin, timeout=60) as c:
+            assert c.get("/").status_code == 403  # it serves
+        assert page.exists()
+        server.process.send_signal(end)
+        server.process.wait(20)
+        assert not page.parent.exists()
+
+
+def test_the_printed_address_serves_beside_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with opened(tmp_path, monkeypatch) as (server, _, page), server.client() as c:
+        assert c.get("/").status_code == 200
+        assert not page.exists()
 
 
 def test_it_listens_to_this_machine_alone(server: Served) -> None:
