@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Literal
 
 Verdict = Literal["agrees", "open input", "unexplained"]
@@ -137,15 +137,6 @@ class Table:
     rows: tuple[tuple[Cell, ...], ...]
     finding: str
 
-    def as_json(self) -> Json:
-        """The table as JSON."""
-        return {
-            "title": self.title,
-            "columns": list(self.columns),
-            "rows": [list(r) for r in self.rows],
-            "finding": self.finding,
-        }
-
 
 @dataclass(frozen=True)
 class Result:
@@ -161,7 +152,7 @@ class Result:
             "title": self.title,
             "settings": dict(self.settings),
             "rows": [r.as_json() for r in self.rows],
-            "checks": [t.as_json() for t in self.tables],
+            "checks": [asdict(t) for t in self.tables],
         }
 
 

@@ -33,7 +33,7 @@ export function axis(label, more = {}) {
 }
 
 /** Labels of a logarithmic axis: 1, 2, 5 where little is spanned, powers of ten where much. */
-export const logValues = (u, found) => {
+const logValues = (u, found) => {
   const shown = found.filter((v) => v !== null);
   const decades = Math.log10(shown.at(-1) / shown[0]) || 0;
   return found.map((v) => {
