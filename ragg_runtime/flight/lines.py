@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.one_table import line_name
@@ -20,6 +19,8 @@ def split(table: Table, column: str) -> list[Table]:
 
     A column with a single value gives one table without a line. Rows without a line's name are left out.
     """
+    import pandas as pd  # slow to import, and only files with lines need it
+
     headings = tuple(h for h in table.headings if h.name != column)
     whole = dict(table.rows())
     labels = whole.pop(column)

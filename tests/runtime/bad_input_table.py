@@ -238,12 +238,10 @@ FILE = {
 }
 
 TIME = {
-    "milliseconds, called seconds": Row(flown(timed(lambda t: 1e3 * t)), ("too slowly", "unit of time")),
     "jittering stamps": Row(
         flown(timed(jittered(0.1)), hidden=True, derived=True), ("jitters", "sampled evenly"), status=0
     ),
     "a time that starts anywhere": Row(flown(timed(lambda t: t + 1.7e9)), ("4800 samples",), status=0),
-    "cut out of a longer one": Row(flown(kept(lambda k: k[37:])), ("angle 0 at t = 0 s",), status=0),
     "cut out, its time set to zero": Row(
         flown(lambda x: timed(lambda t: t - t[0])(kept(lambda k: k[37:])(x))),
         (_LIKELY, "cut out", "spin_angle"),
@@ -289,9 +287,6 @@ MISTAKES = {
 }
 
 COMMANDS = {
-    "no model directory": Row(
-        nothing, ("nowhere", "no model directory"), ("compare", "nowhere", "flight.csv")
-    ),
     "an unknown effect on the command line": Row(
         flown(same), ("lagg", "did you mean"), ("add", "model", "lagg", "flight.csv")
     ),
@@ -299,11 +294,6 @@ COMMANDS = {
     "a mapping with a question left": Row(
         text('[time]\ncolumn = "time"\n[columns]\na_x = { column = "a_x", unit = "?" }\n', "m.toml"),
         ("m.toml", "a_x", "not answered"),
-        (*COMPARE, "--map", "m.toml"),
-    ),
-    "a mapping of another file": Row(
-        text('[time]\ncolumn = "UTC"\nformat = "iso"\n', "m.toml"),
-        ("UTC", "not in the file", "ragg map"),
         (*COMPARE, "--map", "m.toml"),
     ),
 }
