@@ -69,7 +69,7 @@ bench-diagnosis: export OPENBLAS_NUM_THREADS := 1
 bench-diagnosis: $(STAMP)  ## measure the diagnosis on 720 flights (resumable, an hour; docs/diagnosis.md)
 	$(BIN)/python -m benchmarks.diagnosis --jobs 2 --against benchmarks/diagnosis/reference.csv
 
-faults: $(STAMP)  ## kill commands, fill the disc, forbid writing: 200 trials
+faults: $(STAMP)  ## kill commands at random moments: 100 trials
 	$(BIN)/python -m tests.faults
 
 package:  ## build wheel and sdist, install into an empty environment, run the demo there

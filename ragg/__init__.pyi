@@ -11,5 +11,4 @@ from ragg_runtime.workflow.loop import new as new
 from ragg_runtime.workflow.loop import read_flights as read_flights
 from ragg_runtime.workflow.loop import remove as remove
 from ragg_runtime.workflow.loop import survey as survey
-from ragg_runtime.workflow.online import online as online
 from ragg_runtime.workflow.simulate import simulate as simulate

@@ -1,9 +1,11 @@
 """``python -m ragg_runtime`` is ``ragg``."""
 
-from ragg_runtime.cli.safe_path import without_current_folder
+import sys
 
-without_current_folder()  # before anything else is imported
+if not sys.flags.safe_path:
+    # `python -m` looks into the current folder first: a model directory has a `generated/` of its own there.
+    del sys.path[0]
 
-from ragg_runtime.cli.main import main  # noqa: E402
+from ragg_runtime.cli.main import main
 
 main()

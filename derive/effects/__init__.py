@@ -1,7 +1,7 @@
 """The catalogue of physical effects: one file each, found by its name.
 
 ``derive/effects/<id with underscores>.py`` must define ``EFFECT``, an :class:`derive.effect.Effect`
-whose id matches the file. A user's own files of that kind are read by :func:`from_sources`.
+whose id matches the file. A user's own modules of that kind are read by :func:`of_module` and :func:`of_text`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 import inspect
 import pkgutil
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -28,28 +27,27 @@ def catalogue() -> tuple[Effect, ...]:
     return tuple(sorted(found, key=_id))
 
 
-def from_sources(sources: Mapping[Path, bytes]) -> tuple[Effect, ...]:
-    """The effects of a user's own Python files, by id. The sources are executed: trusted files only.
-
-    What is executed is the text that was handed over, not the file again nor byte code beside it.
-    """
-    found = []
-    for path in sorted(sources):
-        module = ModuleType(f"user_effect_{path.stem}")
-        module.__file__ = str(path)
-        try:
-            exec(compile(sources[path], str(path), "exec"), module.__dict__)
-        except (Exception, SystemExit) as error:
-            raise ValueError(f"{path}: {type(error).__name__}: {error}") from error
-        found.append(_effect_of(module, path.stem, sources[path].decode()))
-    return tuple(sorted(found, key=_id))
+def of_module(module: ModuleType, text: str) -> Effect:
+    """The effect of a user's own module, whose source is ``text``; ValueError if it defines none."""
+    return _effect_of(module, None, text)
 
 
-def _effect_of(module: ModuleType, stem: str, text: str) -> Effect:
+def of_text(path: Path, text: str) -> Effect:
+    """The effect of a user's own Python file. It is executed: as it was handed over, not the file again nor byte code beside it."""
+    module = ModuleType(f"user_effect_{path.stem}")
+    module.__file__ = str(path)
+    try:
+        exec(compile(text, str(path), "exec"), module.__dict__)
+    except (Exception, SystemExit) as error:
+        raise ValueError(f"{type(error).__name__}: {error}") from error
+    return of_module(module, text)
+
+
+def _effect_of(module: ModuleType, stem: str | None, text: str) -> Effect:
     effect = getattr(module, "EFFECT", None)
     if not isinstance(effect, Effect):
         raise ValueError(f"{module.__file__}: defines no EFFECT = Effect(...)")
-    if effect.id.replace("-", "_") != stem:
+    if stem is not None and effect.id.replace("-", "_") != stem:
         raise ValueError(f"{module.__file__}: its effect is named {effect.id!r}, expected the file's name")
     if effect.kind != "output":
         return effect

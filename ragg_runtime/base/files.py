@@ -6,9 +6,7 @@ import contextlib
 import errno
 import hashlib
 import os
-import platform
 import re
-import secrets
 import shutil
 import stat
 import sys
@@ -81,12 +79,12 @@ class Target:
             if self.is_stream:
                 if not os.access(path, os.W_OK):
                     raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-                beside = Path(tempfile.gettempdir()) / f"ragg-output{path.suffix}"
+                beside = Path(tempfile.gettempdir()) / "ragg-output"
             else:
                 beside = self._place = Path(os.path.realpath(path))
-            clear_stale(beside)
-            self.temporary = temporary_name(beside)
-            os.close(os.open(self.temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600))
+            handle, name = tempfile.mkstemp(path.suffix, f".{beside.name[:60]}.", beside.parent)
+            os.close(handle)
+            self.temporary = Path(name)
         except FileNotFoundError:
             raise UserError("the folder does not exist", where=path.parent, remedy="make it first") from None
         except OSError as error:
@@ -175,69 +173,6 @@ def write_text(path: Path, text: str) -> None:
     with contextlib.closing(Target(path)) as target:
         target.write(text.encode())
         target.place()
-
-
-def temporary_name(path: Path) -> Path:
-    """A free name beside ``path`` that tells who uses it, and on which machine."""
-    return path.with_name(f"{_prefix(path)}{os.getpid()}-{secrets.token_hex(4)}{path.suffix}")
-
-
-@contextlib.contextmanager
-def scratch() -> Iterator[Path]:
-    """A folder for this process alone in the temporary folder; those that killed processes left there go first."""
-    beside = Path(tempfile.gettempdir()) / "ragg"
-    clear_stale(beside)
-    folder = temporary_name(beside)
-    folder.mkdir(mode=0o700)
-    try:
-        yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-def clear_stale(path: Path) -> None:
-    """Remove what processes of this user that were killed on this machine left of :func:`temporary_name` for this path."""
-    _clear(path.parent, re.escape(_prefix(path)))
-
-
-def clear_all_stale(folder: Path) -> None:
-    """The same of all paths in a folder."""
-    _clear(folder, rf"\..+\.{_machine()}-")
-
-
-def _clear(folder: Path, prefix: str) -> None:
-    if sys.platform == "win32":  # whether a process lives cannot be asked there without ending it
-        return
-    with contextlib.suppress(OSError):
-        for name in os.listdir(folder):
-            process = re.match(rf"{prefix}(\d+)-", name)
-            if process is None or _lives(int(process[1])):
-                continue
-            place = folder / name
-            if place.lstat().st_uid != os.geteuid():
-                continue
-            if place.is_dir() and not place.is_symlink():
-                shutil.rmtree(place, ignore_errors=True)
-            else:
-                place.unlink(missing_ok=True)
-
-
-def _prefix(path: Path) -> str:
-    return f".{path.name[:60]}.{_machine()}-"
-
-
-def _machine() -> str:
-    return hashlib.sha256(platform.node().encode()).hexdigest()[:6]
-
-
-def _lives(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    except (OSError, OverflowError):
-        return True
-    return True
 
 
 def sync(path: Path) -> None:

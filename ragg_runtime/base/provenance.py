@@ -7,27 +7,24 @@ import shlex
 import sys
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any
-
-from ragg_runtime.base.form_version import VERSION, Form, installed
+from importlib import metadata
 
 LIBRARIES = ("numpy", "scipy", "sympy", "pint", "pandas", "pyarrow", "xarray", "h5netcdf", "h5py")
 """What the numbers of a result depend on, beside this package."""
-
-RESULT = Form("the result")
-"""The JSON of a command; who wrote it stands in its ``provenance``."""
-
-
-def versioned(result: Mapping[str, Any]) -> dict[str, Any]:
-    """A JSON result with its version in front."""
-    return {VERSION: RESULT.version, **result}
 
 
 @cache
 def versions() -> dict[str, str]:
     """Name -> version of this package, Python and the libraries that results depend on."""
-    found = {"ragg": installed("ragg"), "python": platform.python_version()}
-    return found | {name: installed(name) for name in LIBRARIES}
+    found = {"ragg": _installed("ragg"), "python": platform.python_version()}
+    return found | {name: _installed(name) for name in LIBRARIES}
+
+
+def _installed(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return "not installed"
 
 
 def command() -> str:

@@ -1,4 +1,4 @@
-"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``online``, ``export``."""
+"""Commands of what comes after a model: ``ragg calibrate``, ``compare --frozen``, ``compensate``, ``export``."""
 
 from __future__ import annotations
 
@@ -63,10 +63,11 @@ def calibrate(
 @series_option
 @click.option(
     "--calibration",
-    type=click.Choice(["frozen", "self", "crossed"]),
+    type=click.Choice(["frozen", "self", "crossed", "online"]),
     default="self",
     show_default=True,
-    help="As saved; fitted to these flights; each block of time fitted to all others.",
+    help="As saved; fitted to these flights; each block of time fitted to all others; sample by sample, as a computer on "
+    "board would (`export --c`: the same filter in C).",
 )
 @click.option(
     "--demodulator",
@@ -75,14 +76,32 @@ def calibrate(
     show_default=True,
     help="FIR 0.2 Hz; order 6, 0.18 Hz, forward and backward; the same forward alone.",
 )
+@click.option(
+    "--noise",
+    type=Finite(0.0, min_open=True),
+    help="online: Eo/sqrt(Hz), cross channel (default: what the saved calibration left).",
+)
+@click.option(
+    "--walk",
+    type=Finite(0.0),
+    help="online: how fast the gradient may wander, Eo/sqrt(s) (default: as fast as a low-pass of 0.2 Hz follows it).",
+)
+@click.option(
+    "--forget",
+    type=Finite(0.0, min_open=True),
+    help="online: time constant, s, of what is forgotten (default: nothing).",
+)
 @mapping_option
 @json_option
 def compensate(
     model_dir: Path,
     flights: Sequence[Path],
     output: str,
-    calibration: Literal["frozen", "self", "crossed"],
+    calibration: Literal["frozen", "self", "crossed", "online"],
     demodulator: str,
+    noise: float | None,
+    walk: float | None,
+    forget: float | None,
     mapping: Path | None,
     json_file: str | None,
 ) -> None:
@@ -94,78 +113,31 @@ def compensate(
 
     out = Path(output)
     after.check_output(out)
+    if calibration != "online" and any(x is not None for x in (noise, walk, forget)):
+        raise UserError(
+            "--noise, --walk and --forget are of the recursive filter", expected="--calibration online"
+        )
     m = load(model_dir)
-    odd = _calibration_notes(m) if calibration == "frozen" else []
+    kept = calibration == "frozen" or (calibration == "online" and m.directory.calibration is not None)
+    odd = _calibration_notes(m) if kept else []
     under_way(f"reading {len(flights)} flight(s)")
     read = after.read_for_compensation(m, flights, mapping)
-    under_way("compensating" if calibration == "frozen" else "calibrating and compensating")
+    under_way(
+        {"frozen": "compensating", "online": "following"}.get(calibration, "calibrating and compensating")
+    )
     with progress.shown("compare", sum(map(len, read))):
-        c = after.compensate(m, read, calibration, demodulator, out)
+        c = after.compensate(
+            m, read, calibration, demodulator, out, noise=noise, walk=walk, forget=forget or float("inf")
+        )
     result = c.as_json()
     notes = [*result.get("notes", ()), *odd, *made_from.notes(m, read)]
     origin = made_from.origin(m, read, command_line()) | {"notes": notes}
     emit(
         result | {"output": str(out)} | origin,
         json_file,
-        terminal.with_notes(in_words.compensated(result, out), read),
-    )
-
-
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.argument("flights", type=DIRECTORY, nargs=-1, required=True)
-@series_option
-@click.option(
-    "--noise",
-    type=Finite(0.0, min_open=True),
-    help="Eo/sqrt(Hz), cross channel (default: what the saved calibration left).",
-)
-@click.option(
-    "--walk",
-    type=Finite(0.0),
-    help="How fast the gradient may wander, Eo/sqrt(s) (default: as fast as a low-pass of 0.2 Hz follows it).",
-)
-@click.option(
-    "--forget",
-    type=Finite(0.0, min_open=True),
-    help="Time constant, s, of what is forgotten (default: nothing).",
-)
-@mapping_option
-@json_option
-def online(
-    model_dir: Path,
-    flights: Sequence[Path],
-    output: str,
-    noise: float | None,
-    walk: float | None,
-    forget: float | None,
-    mapping: Path | None,
-    json_file: str | None,
-) -> None:
-    """Calibrate and compensate sample by sample, as a computer on board would (`export --c`: the same filter in C).
-
-    Begins at what `calibrate --save` kept, else at the sheet. A row of OUT every 0.25 s.
-    """
-    from ragg_runtime.cli import terminal
-    from ragg_runtime.report import in_words
-    from ragg_runtime.workflow import after
-    from ragg_runtime.workflow import online as _online
-    from ragg_runtime.workflow import origin as made_from
-
-    out = Path(output)
-    after.check_output(out)
-    m = load(model_dir)
-    odd = [] if m.directory.calibration is None else _calibration_notes(m)
-    under_way(f"reading {len(flights)} flight(s)")
-    read = after.read_for_compensation(m, flights, mapping)
-    under_way("following")
-    with progress.shown("compare", sum(map(len, read))):
-        w = _online.online(m, read, noise, walk, forget or float("inf"), out)
-    origin = made_from.origin(m, read, command_line()) | {"notes": [*odd, *made_from.notes(m, read)]}
-    emit(
-        w.as_json() | {"output": str(out)} | origin,
-        json_file,
-        terminal.with_notes(in_words.watched(w.as_json(), out), read),
+        terminal.with_notes(
+            (in_words.watched if calibration == "online" else in_words.compensated)(result, out), read
+        ),
     )
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.cli import completion
 from ragg_runtime.cli.file_commands import mapping_option
 from ragg_runtime.cli.outputs import Command, OutputFile
@@ -20,7 +19,6 @@ from ragg_runtime.cli.shared import (
     emit,
     json_option,
     load,
-    say_notes,
     telling,
     under_way,
 )
@@ -36,11 +34,11 @@ if TYPE_CHECKING:
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
     """Derive all models and generate their code and pages."""
-    from ragg_runtime.workflow import derivation
+    from ragg_runtime.model_dir import publish
 
-    root = derivation.HOME if out is None else out
+    root = publish.HOME if out is None else out
     if check:
-        found = derivation.checked(root)
+        found = publish.checked(root)
         if found.difference:
             raise UserError(
                 "the committed code does not match the derivation",
@@ -54,7 +52,7 @@ def derive(out: Path | None, check: bool) -> None:
         if found.versions:
             click.echo(f"note: it was derived with SymPy {found.committed_with}, and is the same here")
         return
-    changed = derivation.rederived(root)
+    changed = publish.rederived(root)
     for name in changed:
         click.echo(one_line(f"written: {root / name}"))
     click.echo(f"{len(changed)} files changed." if changed else "Nothing changed: all files are as derived.")
@@ -116,64 +114,18 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
-@click.option("--list", "only_list", is_flag=True, help="Only say what would be executed.")
-@click.option("--forget", is_flag=True, help="Trust these files no longer.")
-def trust(model_dir: Path, only_list: bool, forget: bool) -> None:
-    """Let the Python files of the model's effects_folder be executed, exactly as they are now.
-
-    Without this none is: read them first. MODEL_DIR may be a model.toml as well.
-    """
-    from ragg_runtime.workflow import upkeep
-
-    found = upkeep.own_effects(model_dir)
-    for line in found.lines():
-        click.echo(line)
-    if forget:
-        was = upkeep.forget(found)
-        click.echo("No longer on the list of trusted files." if was else "They were not on the list.")
-    elif only_list:
-        click.echo(f"{'On' if upkeep.is_trusted(found) else 'Not on'} the list of trusted files.")
-    else:
-        place = one_line(str(upkeep.trust(found)))
-        click.echo(f"They will be executed as long as they stay as they are; written to {place}")
-
-
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
-@click.option("--look", is_flag=True, help="Change nothing.")
-def doctor(model_dir: Path, look: bool) -> None:
-    """What is damaged in a model directory; what can be mended without loss, is."""
-    from ragg_runtime.workflow.doctor import examined
-
-    found = examined(model_dir, mend=not look)
-    for f in found:
-        click.echo(printable(f"{f.what}\n  -> {f.way_back}" if f.way_back else f.what))
-    if any(f.open for f in found):
-        sys.exit(2)
-    click.echo(f"{one_line(str(model_dir))}: {'mended' if found else 'in order'}")
-
-
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY, required=False)
-def build(model_dir: Path | None) -> None:
-    """Compile the model's C beforehand (otherwise on first use); without MODEL_DIR, the paper's model."""
-    from ragg_runtime.workflow import upkeep
-
-    made = upkeep.compiled(None if model_dir is None else load(model_dir))
-    click.echo(f"{made.library}: {'compiled' if made.fresh else 'there already'}\n{made.command}")
-
-
-@click.command(cls=Command)
-@click.argument("model_dir", type=DIRECTORY)
 @json_option
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
+    from ragg_runtime.base.provenance import provenance
+    from ragg_runtime.model_dir.directory import load_model_dir
+    from ragg_runtime.model_dir.identity import identity
     from ragg_runtime.report import in_words
-    from ragg_runtime.workflow import upkeep
 
-    h = upkeep.history(model_dir, command_line())
-    say_notes(model_dir, h.notes)
-    emit({"steps": h.steps, "provenance": h.provenance}, json_file, in_words.history(h.steps))
+    d = load_model_dir(model_dir)  # not derived: a model that no longer can be is told its steps, too
+    steps = [s.as_json() for s in d.history]
+    origin = provenance(command_line(), identity(d))
+    emit({"steps": steps, "provenance": origin}, json_file, in_words.history(steps))
 
 
 @click.command(cls=Command)

@@ -24,7 +24,7 @@ STDOUT = ("-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 _KEY = f"{__name__}.outputs"
 _OF_A_MODEL = (
     ("model.toml", "history.json", "calibration.json", "mapping.toml"),
-    ("generated", ".ragg"),
+    ("generated",),
 )  # files, and folders with all in them
 
 
@@ -70,11 +70,6 @@ class Outputs:
             self._targets[name] = Target(Path("/dev/stdout"))
         self._targets[name].write(content.encode() if isinstance(content, str) else content)
         self._written.append(self._targets[name])
-
-    def protect(self, inputs: Iterable[Path]) -> None:
-        """UserError if a file to be written is, or is in, one of further ``inputs``."""
-        for t in self._targets.values():
-            _check(t.path, inputs)
 
     def place(self) -> None:
         for t in self._written:

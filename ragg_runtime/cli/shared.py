@@ -55,15 +55,9 @@ def load(model_dir: Path) -> Loaded:
     from ragg_runtime.workflow import loop
 
     m = loop.load(model_dir)
-    if m.instrument.effects_folder is not None:
-        asked().protect(m.instrument.effects_folder.glob("*.py"))
-    say_notes(model_dir, m.notes)
-    return m
-
-
-def say_notes(model_dir: Path, notes: Sequence[str]) -> None:
-    for note in notes:
+    for note in m.notes:
         click.echo(one_line(f"note: {model_dir}: {note}"), err=True)
+    return m
 
 
 def about(m: Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
@@ -84,10 +78,10 @@ def emit(result: dict[str, Any], json_file: str | None, text: str) -> None:
     import json
 
     if json_file is not None:
-        from ragg_runtime.base.provenance import provenance, versioned
+        from ragg_runtime.base.provenance import provenance
 
         made = {} if "provenance" in result else {"provenance": provenance(command_line())}
-        result = versioned(result | made)
+        result = result | made
     if json_file in STDOUT:
         click.echo(json.dumps(result, indent=1, allow_nan=False))
         return

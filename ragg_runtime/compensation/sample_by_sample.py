@@ -14,6 +14,7 @@ from ragg_runtime.compensation.compensate import seeing, without_gradients
 from ragg_runtime.compensation.frozen import information
 from ragg_runtime.compensation.recursive import Followed, Online, Tuning
 from ragg_runtime.compensation.saved import Saved
+from ragg_runtime.compensation.series import Quality
 from ragg_runtime.fit.columns import spelt
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.segments import ROWS
@@ -30,7 +31,7 @@ CHANNELS = ("inline", "cross", "inline_std", "cross_std")
 
 def followed(
     model: Model, instrument: Instrument, x: Flight, saved: Saved | None, asked: Tuning
-) -> tuple[dict[str, Array], list[dict[str, Any]]]:
+) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
     """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density.
 
     It begins from the calibration that was ``saved``, without one from the test sheet.
@@ -38,7 +39,7 @@ def followed(
     x = without_gradients(x)
     endings = column_endings(instrument.layout.output_names)
     root = None if saved is None else information(saved, model, instrument)
-    columns: dict[str, Array] = {}
+    columns: dict[str, NDArray[Any]] = {}
     told = []
     observed = observations_of([x], instrument)
     for o in (observed[k] for k in seeing(instrument, observed)):
@@ -57,8 +58,17 @@ def followed(
         end = endings[o.place]
         columns |= {f"inline{end}": got.inline, f"cross{end}": got.cross}
         columns |= {f"inline{end}_std": got.inline_std, f"cross{end}_std": got.cross_std}
+        columns[f"quality{end}"] = _quality(got.time, o)
         told.append({"flight": o.name, "samples": len(o.record.time), "parameters": _parameters(f)})
     return columns, told
+
+
+def _quality(time: Array, o: Observation) -> NDArray[np.int64]:
+    """Of every instant: bridged where one of the samples since the instant before is missing."""
+    step = 1.0 / o.record.rate
+    heard = np.searchsorted(o.record.time[o.record.valid], time, "right")
+    due = np.rint(np.diff(time, prepend=o.record.time[0] - step) / step)
+    return np.where(np.diff(heard, prepend=0) < due, int(Quality.BRIDGED), 0)
 
 
 def _fed(f: Online, o: Observation) -> Followed:

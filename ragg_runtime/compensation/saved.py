@@ -14,12 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.form_version import Form
 from ragg_runtime.fit.columns import Column
 
 Array = NDArray[np.float64]
-
-FORM = Form("the saved calibration")
 
 KEPT = 20
 """Calibrations that are kept, the latest: each takes some 30 kB, most of it their information."""
@@ -27,7 +24,7 @@ KEPT = 20
 LEAST = 1e-3
 """Least diagonal number of the square root of the information: the sheet alone, in its own units, says 1."""
 
-_FORM = '{"version": 1, "calibrations": [...]}, as `ragg calibrate --save` writes it'
+_FORM = '{"calibrations": [...]}, as `ragg calibrate --save` writes it'
 _REMEDY = "restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... --save (after removing it)"
 
 
@@ -117,15 +114,13 @@ def with_another(text: str | None, new: Saved, where: str) -> str:
     before = () if text is None else read(text, where)
     entries = [s.as_json() for s in (*before, new)[-KEPT:]]
     lines = ",\n".join(json.dumps(e, allow_nan=False, ensure_ascii=False) for e in entries)
-    stamp = json.dumps(FORM.stamp())[1:-1]
-    return f'{{{stamp}, "calibrations": [\n{lines}\n]}}\n'
+    return f'{{"calibrations": [\n{lines}\n]}}\n'
 
 
 def read(text: str, where: str) -> tuple[Saved, ...]:
     """The calibrations in the text of a calibration.json, oldest first; UserError if anything in it cannot be."""
     try:
         content = json.loads(text)
-        FORM.check(content, where)
         found = tuple(_entry(e) for e in content["calibrations"])
         if not found:
             raise ValueError("no calibration in it")

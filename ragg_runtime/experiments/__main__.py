@@ -35,7 +35,7 @@ def main(names: Sequence[str], json_file: str | None) -> None:
         click.echo(page(list(results.values())), nl=False)
         return
     made = provenance.provenance(provenance.command())
-    found = provenance.versioned({n: r.as_json() for n, r in results.items()} | {"provenance": made})
+    found = {n: r.as_json() for n, r in results.items()} | {"provenance": made}
     text = json.dumps(found, indent=1, allow_nan=False) + "\n"
     if json_file == "-":
         click.echo(text, nl=False)

@@ -39,7 +39,6 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.base.files import read_text
-from ragg_runtime.base.form_version import VERSION, WRITER, Form
 from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.flight.instants import WAYS
 from ragg_runtime.instrument.demodulation import Demodulation, read_demodulation
@@ -48,7 +47,6 @@ from ragg_runtime.instrument.units import units
 UNKNOWN = "?"
 """What ``ragg map`` writes where the answer is not in the file."""
 
-FORM = Form("the mapping")
 _TABLES = ("file", "time", "columns", "axes", "demodulator")
 _KEYS: Mapping[str, tuple[str, ...]] = {
     "file": ("line", "lines", "part"),
@@ -122,10 +120,7 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         raise UserError(
             "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
         ) from None
-    FORM.check(data, path)
     for key, value in data.items():
-        if key in (VERSION, WRITER):
-            continue
         if key not in _TABLES:
             raise _unknown(at(path), key, _TABLES)
         if not isinstance(value, dict):

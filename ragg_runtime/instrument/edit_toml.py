@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -81,13 +80,6 @@ def remove_effect(text: str, effect_id: str) -> str:
     return tomlkit.dumps(document)
 
 
-def set_effects_folder(text: str, folder: Path) -> str:
-    """``text``, whose ``effects_folder`` is given, with another folder there."""
-    document = _document(text)
-    document["effects_folder"] = str(folder)
-    return tomlkit.dumps(document)
-
-
 def model_text(instrument: Instrument) -> str:
     """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
     document = tomlkit.document()
@@ -105,8 +97,6 @@ def model_text(instrument: Instrument) -> str:
             entry.add("sigma", [_plain(v) for v in sigma])
         accelerometers.add(p.name, entry)
     document.add("effects", tomlkit.array())
-    if instrument.effects_folder is not None:
-        document.add("effects_folder", str(instrument.effects_folder))
     if not instrument.layout.of_paper:
         document.add("g0", f"{instrument.g0!r} m/s^2")
     if instrument.form != PAPER:

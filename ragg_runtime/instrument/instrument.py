@@ -76,7 +76,6 @@ class Instrument:
     accelerometers: Mapping[str, Vector]
     effects: tuple[EffectSetting, ...] = ()
     path: Path | None = None
-    effects_folder: Path | None = None
     sigmas: Mapping[str, Vector] = field(default_factory=lambda: MappingProxyType({}))
     form: Form = forms.PAPER
     layout: Layout = PAPER
@@ -96,7 +95,6 @@ class Instrument:
         accelerometers: Mapping[str, ArrayLike],
         effects: tuple[EffectSetting, ...] = (),
         path: Path | None = None,
-        effects_folder: Path | None = None,
         form: Form = forms.PAPER,
         layout: Layout | None = None,
         sigmas: Mapping[str, ArrayLike] | None = None,
@@ -123,7 +121,6 @@ class Instrument:
             accelerometers=MappingProxyType(vectors),
             effects=tuple(effects),
             path=path,
-            effects_folder=effects_folder,
             layout=layout,
             form=form,
             demodulation=demodulation,

@@ -12,7 +12,6 @@ import numpy as np
 
 from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.base.files import read_text
-from ragg_runtime.base.form_version import VERSION, WRITER, Form
 from ragg_runtime.base.names import read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
@@ -21,8 +20,6 @@ from ragg_runtime.instrument.layout import PAPER, Layout, paper
 from ragg_runtime.instrument.layout_toml import read_layout
 from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, Vector
 from ragg_runtime.instrument.units import RawQuantity, Units, read_quantity, units
-
-FORM = Form("model.toml")
 
 
 def read_instrument(path: Path | str) -> Instrument:
@@ -40,18 +37,15 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         raise UserError(
             "not a TOML file", where=path, found=str(error), expected="the form of model.toml"
         ) from None
-    FORM.check(table, path)
-    known = (
-        "disc",
-        "accelerometers",
-        "effects",
-        "effects_folder",
-        "model",
-        "g0",
-        "demodulator",
-        VERSION,
-        WRITER,
-    )
+    if "effects_folder" in table:
+        raise UserError(
+            "Python is never taken from a model directory",
+            where=at(path, "effects_folder"),
+            found=repr(table["effects_folder"])[:200],
+            remedy="read those files, put them into a folder of your own, name it in the environment variable "
+            "RAGG_EFFECTS, and take effects_folder out of model.toml",
+        )
+    known = ("disc", "accelerometers", "effects", "model", "g0", "demodulator")
     _check_names(table, known, None, path)
     layout, g0 = _discs(table, path)
     accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
@@ -63,7 +57,6 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
         sigmas=sigmas,
         effects=_effects(table.get("effects", []), g0, path, layout.size),
         path=path,
-        effects_folder=_folder(table.get("effects_folder"), path),
         layout=layout,
         form=read_form(table.get("model"), path),
         demodulation=read_demodulation(table.get("demodulator"), at(path, "[demodulator]")),
@@ -233,16 +226,3 @@ def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[s
     return MappingProxyType(
         {"stage": entry["stage"], "add": entry["add"], "params": MappingProxyType(params)}
     )
-
-
-def _folder(raw: object, path: Path | None) -> Path | None:
-    if raw is None:
-        return None
-    if not isinstance(raw, str) or not raw:
-        raise UserError("effects_folder must be a path", where=path, found=repr(raw), expected='"my_effects"')
-    folder = (path.parent if path else Path()) / raw
-    if path is not None and not folder.is_dir():
-        raise UserError(
-            "the folder of own effects does not exist", where=at(path, "effects_folder"), found=folder
-        )
-    return folder

@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean, one_line
+from ragg_runtime.base.errors import UserError, at, did_you_mean
 from ragg_runtime.instrument import stations
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
@@ -22,7 +22,8 @@ from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.model import Model, from_files, packaged
 from ragg_runtime.model_dir import derived_cache
-from ragg_runtime.model_dir.trust import trusted_sources
+from ragg_runtime.model_dir.directory import DIGEST, read_digest
+from ragg_runtime.model_dir.own_effects import own_effects, own_sources
 
 if TYPE_CHECKING:
     from derive.effect import Effect as SymbolicEffect
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Known:
-    """The effects that a model directory can use: the catalogue's, its own folder's, its one-line ones."""
+    """The effects that a model directory can use: the catalogue's, and ``own``: the user's in Python, its one-line ones."""
 
     effects: tuple[SymbolicEffect, ...]
     own: tuple[SymbolicEffect, ...] = ()
@@ -73,19 +74,11 @@ def _by_one(function: Callable[P, R]) -> Callable[P, R]:
 @_by_one
 def known(instrument: Instrument) -> Known:
     """Every effect that this instrument's model directory can use."""
-    from derive.effects import catalogue, from_sources
+    from derive.effects import catalogue
 
     found = list(catalogue())
     taken = {e.id for e in found}
-    own: list[SymbolicEffect] = []
-    if instrument.effects_folder is not None:
-        sources = trusted_sources(instrument.effects_folder, instrument.path)
-        try:
-            own += from_sources(sources)
-        except ValueError as error:
-            raise UserError(
-                "an effect of your own cannot be read", where=str(instrument.effects_folder), found=str(error)
-            ) from error
+    own = list(own_effects())
     own += [_expression(s, instrument.path) for s in instrument.effects if s.expression is not None]
     for e in own:
         if e.id in taken:
@@ -114,8 +107,7 @@ def _expression(s: EffectSetting, path: Path | None) -> SymbolicEffect:
 
 def model_of(instrument: Instrument) -> Model:
     """The model for an instrument's list of effects: the packaged one, or one derived for it."""
-    own = instrument.effects_folder is not None and bool(known(instrument).own)
-    if not (instrument.effects or own) and _is_packaged(instrument):
+    if not (instrument.effects or own_sources()) and _is_packaged(instrument):
         return packaged(instrument.form.kinematics)
     return _executed(tuple(_derived(instrument).items()), instrument.layout)
 
@@ -144,21 +136,14 @@ def _sized(layout: Layout) -> Layout:
 
 
 def departure(instrument: Instrument, generated: Path | None) -> str | None:
-    """How a model directory's ``generated/`` differs from what is derived for it, in a sentence; ``None``: not at all."""
+    """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
     if generated is None or not _has_files(instrument):
         return None
-    expected = files_of(instrument)
-    found = derived_cache.read(generated)
-    if found == expected:
+    if read_digest(generated) == derived_cache.request(instrument):
         return None
-    if found is None:
-        what = "it holds things that are no source files"
-    else:
-        names = sorted(n for n in {*expected, *found} if expected.get(n) != found.get(n))
-        what = ", ".join(map(one_line, names[:4])) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
     return (
-        f"generated/ is not what model.toml derives ({what}); it was not used, but what is derived; "
-        "adding or removing an effect writes it again"
+        "generated/ was not derived for this model.toml by this version; it is never used, but what is derived; "
+        "the next change of the model writes it again"
     )
 
 
@@ -254,8 +239,10 @@ def with_effects(
 
 def files_of(instrument: Instrument) -> Mapping[str, str]:
     """What ``generated/`` of a model directory must hold; empty where the packaged model serves."""
-    files = _derived(instrument) if _has_files(instrument) else {}
-    return {name: text for name, text in files.items() if not name.startswith("fits/")}
+    if not _has_files(instrument):
+        return {}
+    found = {n: text for n, text in _derived(instrument).items() if not n.startswith("fits/")}
+    return found | {DIGEST: derived_cache.request(instrument)}
 
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:

@@ -1,40 +1,35 @@
-"""A model directory: model.toml, generated/, history.json, calibration.json, mapping.toml, changed all together or not at all.
+"""A model directory: model.toml, history.json, calibration.json, mapping.toml and generated/.
 
-A change is a transaction (:mod:`ragg_runtime.base.transaction`): a process may be killed at any instant. Writers
-hold a lock; readers need none: they look again if a change came between. What a killed writer left unfinished
-is read in its new state and completed by the next writer, or by ``ragg doctor``: who reads moves nothing.
+model.toml is the truth. A change writes everything beside its place first and then, under a lock, replaces file after
+file, history.json before model.toml. The new entry of the history has digests of model.toml before and after: where
+the file is still the one before, the change was cut off, and its entry is dropped; where it is neither, somebody has
+edited it. generated/ is there to be read and never executed; ``generated/digest`` says for which model it was derived.
+So a process may be killed at any instant: the model is the old or the new one.
 """
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
 import os
+import secrets
 import shutil
-import stat
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ragg_runtime.base import transaction
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import clear_stale, read_text, sync, temporary_name
+from ragg_runtime.base.files import read_text, sync
 from ragg_runtime.base.lock import locked
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir.history import Step, history_text, read_history
+from ragg_runtime.model_dir.history import Step, digest, history_text, read_history
 
 __all__ = ["ModelDir", "Step", "create_model_dir", "load_model_dir", "replace_model_dir"]
 
 MODEL, GENERATED, HISTORY, CALIBRATION = "model.toml", "generated", "history.json", "calibration.json"
 MAPPING = "mapping.toml"
 """How the columns of the instrument's flight files are read (see ``flight.mapping``); only what the user gives replaces it."""
-Code = Mapping[str, str] | Path | None
-"""Derived files: path -> text, or a folder to copy; empty or ``None``: the packaged base model."""
-
-NAMES = (MODEL, GENERATED, HISTORY, CALIBRATION, MAPPING)
-"""All that a change of a model directory concerns."""
+DIGEST = "digest"
+"""The file in generated/ that says for which model its files were derived."""
 
 LONGEST = 1 << 26  # bytes of calibration.json
 _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
@@ -56,10 +51,6 @@ class ModelDir:
         The folder of code derived for its effects; ``None``: the packaged base model.
     history
         The steps so far, oldest first.
-    digest
-        SHA-256 over all of it, hexadecimal: equal states have equal digests.
-    unfinished
-        Whether this is the new state of a change that was cut off before all of it was in its place.
     calibration
         The text of calibration.json; ``None``: nothing was ever saved.
     mapping
@@ -71,27 +62,17 @@ class ModelDir:
     instrument: Instrument
     generated: Path | None
     history: tuple[Step, ...]
-    digest: str
-    unfinished: bool = False
     calibration: str | None = None
     mapping: Path | None = None
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What is odd about the directory, in sentences."""
-        if not self.unfinished:
-            return ()
-        return (
-            "a change of this model was cut off after it had been made; its new state is read here, and put in "
-            f"place by the next command that changes the model, or by: ragg doctor {self.path}",
-        )
+    def digest(self) -> str:
+        """SHA-256 over model, history and calibration, hexadecimal: equal states have equal digests."""
+        return digest("".join(map(digest, (self.text, history_text(self.history), self.calibration))))
 
 
 def load_model_dir(path: Path | str) -> ModelDir:
-    """The model in a directory; of a change that another process left unfinished, the new state.
-
-    Raises UserError if it is not a model directory or one of its files is damaged. Nothing is written.
-    """
+    """The model in a directory. UserError if it is none, or one of its files is damaged. Nothing is written."""
     path = Path(path)
     if not path.is_dir():
         raise UserError(
@@ -100,31 +81,30 @@ def load_model_dir(path: Path | str) -> ModelDir:
             found="a file" if path.exists() else "nothing",
             remedy=f"make one with: ragg new {path}",
         )
-    deadline = time.monotonic() + _PATIENCE
-    while time.monotonic() < deadline:
-        if transaction.is_committing(path):
-            unfinished = _unfinished(path)
-            if unfinished is not None:
-                return unfinished
-            continue
-        before = _stamp(path)
-        try:
-            state = _read(path, {name: path / name for name in NAMES})
-        except (UserError, FileNotFoundError):
-            # Read amidst a change, a file may be missing.
-            if _stamp(path) == before and not transaction.is_committing(path):
-                raise
-        else:
-            if _stamp(path) == before and not transaction.is_committing(path):
-                return state
-    raise UserError("the model directory keeps changing", where=path, remedy="wait for the other commands")
+    while True:
+        text, calibration = read = _read(path)
+        history = read_history(path / HISTORY)
+        if _read(path) == read:  # else a change came between
+            break
+    if history and history[-1].was_cut_off(text, calibration):
+        history = history[:-1]
+    generated, mapping = path / GENERATED, path / MAPPING
+    return ModelDir(
+        path=path,
+        text=text,
+        instrument=parse_instrument(text, path / MODEL),
+        generated=generated if generated.is_dir() else None,
+        history=history,
+        calibration=calibration,
+        mapping=mapping if mapping.exists() else None,
+    )
 
 
 def create_model_dir(
     path: Path | str,
     text: str,
     *,
-    generated: Code = None,
+    generated: Mapping[str, str],
     history: tuple[Step, ...] = (),
     mapping: str | None = None,
 ) -> ModelDir:
@@ -138,27 +118,20 @@ def create_model_dir(
         raise UserError(
             "the model directory exists already", where=path, remedy="choose another name or remove it first"
         )
-    parent = path.absolute().parent
+    fresh = path.absolute().with_name(f".{path.absolute().name[:60]}.{secrets.token_hex(4)}")
     try:
-        parent.mkdir(parents=True, exist_ok=True)
-        clear_stale(path.absolute())
-        staging = temporary_name(path.absolute())
-        staging.mkdir()
-    except OSError as error:
-        raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
-    try:
-        _stage(staging, text, generated, history, mapping=mapping)
-        for place in sorted(staging.rglob("*"), reverse=True):
-            sync(place)
-        staging.chmod(parent.stat().st_mode & 0o777)
+        fresh.parent.mkdir(parents=True, exist_ok=True)
+        fresh.mkdir()
+        _put(fresh, {MODEL: text, HISTORY: history_text(history), MAPPING: mapping}, generated)
         if path.exists():
+            fresh.chmod(path.stat().st_mode & 0o7777)
             path.rmdir()
-        staging.rename(path)
-        sync(parent)
+        fresh.rename(path)
+        sync(fresh.parent)
     except OSError as error:
         raise UserError("the model directory cannot be made", where=path, found=error.strerror) from None
     finally:
-        shutil.rmtree(staging, ignore_errors=True)
+        shutil.rmtree(fresh, ignore_errors=True)
     return load_model_dir(path)
 
 
@@ -166,173 +139,102 @@ def replace_model_dir(
     current: ModelDir,
     text: str,
     *,
-    generated: Code,
-    step: Step | None = None,
+    generated: Mapping[str, str],
+    step: Step,
     calibration: Callable[[str | None], str] | None = None,
     mapping: str | None = None,
 ) -> ModelDir:
     """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
 
-    ``step`` is added to the history, and ``calibration`` is given the text of calibration.json and makes the new one: of both
-    what is there now counts, so that a calibration saved meanwhile hinders nobody. What is not given stays.
+    ``generated`` are the files derived for ``text``: path -> text, none where the packaged base model serves. ``step`` is added to
+    the history, and ``calibration`` is given the text of calibration.json and makes the new one: of both what is there now
+    counts, so that a calibration saved meanwhile hinders nobody. What is not given stays.
 
     Raises UserError if model.toml was changed since ``current`` was read, or if the directory cannot be written.
     """
     path = current.path
     parse_instrument(text, path / MODEL)
-    with contextlib.ExitStack() as held:
-        try:
-            held.enter_context(locked(path, _PATIENCE))
-            transaction.finish(path, NAMES)
-        except TimeoutError:
-            raise UserError(
-                "another command is changing the model", where=path, remedy="wait for it to end and try again"
-            ) from None
-        except OSError as error:
-            raise UserError("the model cannot be written", where=path, found=error.strerror) from None
-        found = load_model_dir(path)
-        if found.text != current.text:
-            raise UserError(
-                "the model was changed by someone else meanwhile",
-                where=path,
-                remedy="look at it with: ragg history, load it again and repeat the change",
-            )
-        history = found.history if step is None else (*found.history, step)
-        kept = None if calibration is None else calibration(found.calibration)
-        try:
-            _stage(transaction.stage(path), text, generated, history, kept, mapping)
-            folders, removed = ((GENERATED,), ()) if generated else ((), (GENERATED,))
-            transaction.switch(path, folders, removed=removed)
-        except OSError as error:
-            raise UserError(
-                "the model cannot be written", where=path, found=error.strerror or error
-            ) from None
-        finally:
-            transaction.abandon(path)
+    try:
+        with locked(path, _PATIENCE):
+            found = load_model_dir(path)
+            if found.text != current.text:
+                raise UserError(
+                    "the model was changed by someone else meanwhile",
+                    where=path,
+                    remedy="look at it with: ragg history, load it again and repeat the change",
+                )
+            kept = None if calibration is None else calibration(found.calibration)
+            changed = (found.text, text) if kept is None else (found.calibration, kept)
+            history = (*found.history, replace(step, digests=tuple(map(digest, changed))))
+            files = {MAPPING: mapping, HISTORY: history_text(history), CALIBRATION: kept}
+            _put(path, files | {MODEL: None if text == found.text else text}, generated)
+    except TimeoutError:
+        raise UserError(
+            "another command is changing the model", where=path, remedy="wait for it to end and try again"
+        ) from None
+    except OSError as error:
+        raise UserError("the model cannot be written", where=path, found=error.strerror or error) from None
     return load_model_dir(path)
 
 
-def _stage(
-    folder: Path,
-    text: str,
-    generated: Code,
-    history: tuple[Step, ...],
-    calibration: str | None = None,
-    mapping: str | None = None,
-) -> None:
-    """Write a complete state into an empty folder."""
-    if mapping is not None:
-        (folder / MAPPING).write_bytes(mapping.encode())
-    if calibration is not None:
-        (folder / CALIBRATION).write_bytes(calibration.encode())
-    (folder / MODEL).write_bytes(text.encode())
-    (folder / HISTORY).write_text(history_text(history), "utf-8")
-    if isinstance(generated, Path):
-        shutil.copytree(generated, folder / GENERATED, ignore=shutil.ignore_patterns("__pycache__"))
-        return
-    for name, content in (generated or {}).items():
-        place = folder / GENERATED / name
-        place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_bytes(content.encode())
-
-
-def _unfinished(path: Path) -> ModelDir | None:
-    """The new state of a dead process's change; one that is alive gets a moment to finish its own (``None``)."""
-    try:
-        with locked(path, 0.0):
-            if not transaction.is_committing(path):
-                return None
-            return replace(_read(path, transaction.places(path, NAMES)), unfinished=True)
-    except TimeoutError:
-        time.sleep(0.002)
-        return None
-    except OSError as error:
-        raise UserError(
-            "a change of the model was interrupted, and what it made cannot be read",
-            where=error.filename or path,
-            found=error.strerror,
-            remedy=f"make the directory writable, then: ragg doctor {path}",
-        ) from None
-
-
-def _stamp(path: Path) -> tuple[tuple[int, int, int] | None, ...]:
-    """What changes whenever one of these things is replaced or edited."""
-    found: list[tuple[int, int, int] | None] = []
-    for name in NAMES:
-        try:
-            status = (path / name).lstat()
-        except FileNotFoundError:
-            found.append(None)
-        else:
-            found.append((status.st_ino, status.st_mtime_ns, status.st_size))
-    return tuple(found)
-
-
-def _read(path: Path, places: Mapping[str, Path | None]) -> ModelDir:
-    """The state whose parts stand at these ``places`` (:func:`ragg_runtime.base.transaction.places`)."""
-    model, generated, history, calibration, mapping = (places[name] for name in NAMES)
-    if model is None or not os.path.lexists(model):
+def _read(path: Path) -> tuple[str, str | None]:
+    """The texts of model.toml and calibration.json."""
+    if not (path / MODEL).exists():
         raise UserError(
             "not a model directory: model.toml is missing",
             where=path,
             found=", ".join(sorted(p.name for p in path.iterdir())[:8]) or "an empty directory",
             remedy="make a model with: ragg new",
         )
-    for place in (model, history, calibration, mapping):
-        if place is not None and place.is_symlink():
-            raise UserError(
-                "links in a model directory are not followed",
-                where=place,
-                found=f"a link to {os.readlink(place)}",
-                expected="the file itself",
-                remedy="put the file there in place of the link",
-            )
-    text = read_text(model)
-    return ModelDir(
-        path=path,
-        text=text,
-        instrument=parse_instrument(text, path / MODEL),
-        generated=generated if generated is not None and generated.is_dir() else None,
-        history=() if history is None else read_history(history),
-        digest=_digest(places),
-        calibration=(
-            read_text(calibration, LONGEST)
-            if calibration is not None and os.path.lexists(calibration)
-            else None
-        ),
-        mapping=mapping if mapping is not None and mapping.exists() else None,
-    )
+    kept = path / CALIBRATION
+    return read_text(path / MODEL), read_text(kept, LONGEST) if kept.exists() else None
 
 
-def _digest(places: Mapping[str, Path | None]) -> str:
-    """SHA-256 over all of it. Links and pipes in generated/ count by what they are, and are not followed."""
-    total = hashlib.sha256()
-    for name in (MODEL, HISTORY, CALIBRATION, GENERATED):
-        top = places[name]
-        for file in [] if top is None else _below(top) if name == GENERATED else [top]:
-            try:
-                status = file.lstat()
-                if stat.S_ISLNK(status.st_mode):
-                    content = b"link " + os.fsencode(os.readlink(file))
-                elif stat.S_ISREG(status.st_mode):
-                    content = file.read_bytes()
-                else:
-                    content = b"neither file nor folder"
-            except FileNotFoundError:
-                continue
-            shown = Path(name, file.relative_to(top)) if top is not None else file
-            total.update(f"{shown.as_posix()} {len(content)}\n".encode(errors="surrogateescape"))
-            total.update(content)
-    return total.hexdigest()
+def _put(path: Path, files: Mapping[str, str | None], generated: Mapping[str, str]) -> None:
+    """Write these files in this order and generated/ after them; all that may fail is done before the first is in place."""
+    new = {name: text for name, text in files.items() if text is not None}
+    code, fresh = path / GENERATED, path / f".{GENERATED}.new"
+    same = code.is_dir() and read_digest(code) == generated.get(DIGEST)
+    try:
+        for name, text in new.items():
+            _write(path / f".{name}.new", text, path / name)
+        _remove(fresh)
+        for name, text in {} if same else generated.items():
+            (fresh / name).parent.mkdir(parents=True, exist_ok=True)
+            (fresh / name).write_bytes(text.encode())
+        for name in new:
+            os.replace(path / f".{name}.new", path / name)
+        sync(path)
+        if not same:
+            _remove(code)
+            if generated:
+                fresh.rename(code)
+    finally:
+        for name in new:
+            (path / f".{name}.new").unlink(missing_ok=True)
+        _remove(fresh)
 
 
-def _below(folder: Path) -> list[Path]:
-    """Everything in a folder but byte code; links are not followed, the folder's own neither."""
-    if folder.is_symlink():
-        return [folder]
-    found = []
-    for place, folders, files in os.walk(folder):
-        folders[:] = [f for f in folders if f != "__pycache__"]
-        links = [f for f in folders if Path(place, f).is_symlink()]
-        found += [Path(place, name) for name in (*files, *links)]
-    return sorted(found)
+def _write(place: Path, text: str, target: Path) -> None:
+    """Write a file that is going to take the place of ``target``, with its rights."""
+    place.unlink(missing_ok=True)
+    with place.open("xb") as stream:
+        stream.write(text.encode())
+    if target.exists():
+        place.chmod(target.stat().st_mode & 0o777)
+    sync(place)
+
+
+def read_digest(generated: Path) -> str | None:
+    """For which model the files in generated/ were derived; ``None``: it does not say."""
+    try:
+        return (generated / DIGEST).read_text("utf-8")
+    except (OSError, UnicodeError):
+        return None
+
+
+def _remove(place: Path) -> None:
+    if place.is_symlink() or place.is_file():
+        place.unlink()
+    elif place.exists():
+        shutil.rmtree(place)

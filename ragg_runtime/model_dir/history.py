@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -11,11 +12,13 @@ from typing import Any
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.files import read_text
-from ragg_runtime.base.form_version import Form
 
 _LONGEST = 1 << 26  # bytes
 
-FORM = Form("the history")
+
+def digest(text: str | None) -> str:
+    """SHA-256 of a file's text, hexadecimal; of a file that is not there, that of nothing."""
+    return hashlib.sha256((text or "").encode()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,9 @@ class Step:
         The flights' names, with their SHA-256.
     text
         model.toml as it then was, so that one can go back to it; empty in histories of older versions.
+    digests
+        SHA-256 of the file that the step changes, before and after: calibration.json of ``calibrate``, else model.toml.
+        Empty for ``new`` and in histories of older versions.
     """
 
     action: str
@@ -45,6 +51,14 @@ class Step:
     after: Mapping[str, Any] | None = None
     flights: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     text: str = ""
+    digests: tuple[str, ...] = ()
+
+    def was_cut_off(self, model: str, calibration: str | None) -> bool:
+        """Whether the file that the step changes is still the one before: the history is written first."""
+        if len(self.digests) != 2:
+            return False
+        before, after = self.digests
+        return before != after and before == digest(calibration if self.action == "calibrate" else model)
 
     def as_json(self) -> dict[str, Any]:
         """The entry as it stands in the file."""
@@ -56,13 +70,13 @@ class Step:
             "after": None if self.after is None else dict(self.after),
             "flights": dict(self.flights),
             **({"model": self.text} if self.text else {}),
+            **({"digests": list(self.digests)} if self.digests else {}),
         }
 
 
-def history_text(steps: tuple[Step, ...]) -> str:
+def history_text(steps: Sequence[Step]) -> str:
     """The text of a history.json."""
-    content = {**FORM.stamp(), "steps": [step.as_json() for step in steps]}
-    return json.dumps(content, indent=2, allow_nan=False) + "\n"
+    return json.dumps({"steps": [step.as_json() for step in steps]}, indent=2, allow_nan=False) + "\n"
 
 
 def _error(found: Any) -> Mapping[str, Any] | None:
@@ -80,7 +94,6 @@ def read_history(path: Path) -> tuple[Step, ...]:
         return ()
     try:
         content = json.loads(read_text(path, _LONGEST))
-        FORM.check(content, path)
         return tuple(
             Step(
                 action=one_line(str(s["action"])),
@@ -90,6 +103,7 @@ def read_history(path: Path) -> tuple[Step, ...]:
                 after=_error(s.get("after")),
                 flights=MappingProxyType({str(n): str(d) for n, d in s.get("flights", {}).items()}),
                 text=str(s.get("model", "")),
+                digests=tuple(map(str, s.get("digests", ()))),
             )
             for s in content["steps"]
         )
@@ -99,5 +113,5 @@ def read_history(path: Path) -> tuple[Step, ...]:
             where=path,
             found=str(error),
             expected='{"steps": [{"action", "effect", "time", "before", "after", "flights"}, ...]}',
-            remedy=f"restore the file, or let `ragg doctor {path.parent}` put it aside",
+            remedy="restore the file, or remove it: a new history begins with the next step",
         ) from None

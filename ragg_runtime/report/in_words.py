@@ -249,7 +249,7 @@ def history(steps: Sequence[Mapping[str, Any]]) -> str:
 
 
 def watched(r: Mapping[str, Any], output: Path) -> str:
-    """The result of ``online`` (its JSON), written to a file."""
+    """The result of ``compensate --calibration online`` (its JSON), written to a file."""
     within = r["follows_within_s"]
     lines = [
         f"{output}: sample by sample from the {r['started']}, noise {r['noise_Eo_per_rtHz']:.3g} Eo/sqrt(Hz)",

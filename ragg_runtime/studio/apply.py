@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import scratch
 from ragg_runtime.flight import Flight
 from ragg_runtime.studio.pyramid import Pyramid, pyramid
 from ragg_runtime.wording import numbers
@@ -62,7 +62,7 @@ def curve(c: Compensation | None, what: str, flight: int) -> Pyramid:
 
 def file_of(c: Compensation, name: str) -> bytes:
     """The series as CSV or Parquet, by the ending of the name."""
-    with scratch() as folder:
+    with tempfile.TemporaryDirectory(prefix="ragg-") as folder:
         path = Path(folder, name)
         c.write(path)
         return path.read_bytes()

@@ -8,7 +8,6 @@ import zipfile
 from collections.abc import Callable, Mapping
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.provenance import versioned
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.compare_page import compare_html
 from ragg_runtime.report.diagnose_page import diagnose_html
@@ -43,7 +42,7 @@ def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
 
 
 def _json(result: dict[str, object]) -> bytes:
-    return (json.dumps(versioned(result), indent=1, allow_nan=False) + "\n").encode()
+    return (json.dumps(result, indent=1, allow_nan=False) + "\n").encode()
 
 
 def _command(s: State, name: str) -> str:

@@ -17,18 +17,16 @@ from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import file_digest
-from ragg_runtime.base.form_version import Form
 from ragg_runtime.survey.task import Job, Record, divided
 
 KIND = "ragg survey"
-FORM = Form("the results file")
 _LONGEST_HEAD = 1 << 16  # bytes
 
 
 def head(job: Job) -> Record:
     """The first line: figures under the same head may stand in one table."""
     text = hashlib.sha256(job.text.encode()).hexdigest()
-    found: Record = {"kind": KIND, **FORM.stamp(), "model": text, "program": dict(job.program)}
+    found: Record = {"kind": KIND, "model": text, "program": dict(job.program)}
     if job.mapping is not None:
         found["mapping"] = hashlib.sha256(job.mapping[0].encode()).hexdigest()
     return found
@@ -107,7 +105,6 @@ class Journal:
 
     def _compare(self, line: bytes, job: Job) -> None:
         found, asked = self._parsed(line, 1), head(job)
-        FORM.check(found, self.path)
         for key, what in (
             ("model", "model.toml"),
             ("program", "version of the program"),

@@ -62,7 +62,7 @@ class Job:
     Attributes
     ----------
     text, path
-        model.toml, and where it stands (its ``effects_folder`` is looked for from there).
+        model.toml, and where it stands.
     program
         :func:`fingerprint` of the program that asks: one that differs would give other figures.
     cluster

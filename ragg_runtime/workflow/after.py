@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,10 +40,11 @@ from ragg_runtime.flight.same_record import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive
-from ragg_runtime.model_dir.directory import CALIBRATION, ModelDir, replace_model_dir
+from ragg_runtime.model_dir.directory import CALIBRATION, replace_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loaded import Loaded, mapping_text, read_flights
+from ragg_runtime.workflow.online import online
 
 
 @dataclass(frozen=True)
@@ -87,19 +88,12 @@ def _saved(m: Loaded, c: Calibrated, flights: Sequence[Flight], mapping: str | N
     directory = replace_model_dir(
         d,
         d.text,
-        generated=_code(d),
+        generated=derive.files_of(d.instrument),
         step=step,
         calibration=lambda text: with_another(text, new, str(d.path / CALIBRATION)),
         mapping=mapping,
     )
     return Loaded(directory, m.model, m.notes)
-
-
-def _code(d: ModelDir) -> Any:
-    """The code of a model directory, unchanged if it is what is derived for it, else derived anew."""
-    if d.generated is not None and derive.departure(d.instrument, d.generated) is None:
-        return d.generated
-    return derive.files_of(d.instrument)
 
 
 def saved_calibration(m: Loaded) -> Saved:
@@ -130,8 +124,8 @@ class Compensation:
         flights = ", ".join(x["flight"] for x in self.result["flights"])
         return f"<compensation of {flights} by {self.name}, {self.result['calibration']}>"
 
-    def _repr_html_(self) -> str:
-        return notebook.compensation(self.as_json())
+    def _repr_html_(self) -> str | None:
+        return None if self.result["calibration"] == "online" else notebook.compensation(self.as_json())
 
     def as_json(self) -> dict[str, Any]:
         return dict(self.result)
@@ -151,9 +145,13 @@ QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in 
 def compensate(
     m: Loaded,
     flights: Sequence[Flight],
-    calibration: Kind = "self",
+    calibration: Kind | Literal["online"] = "self",
     demodulator: str = "fir",
     output: Path | None = None,
+    *,
+    noise: float | None = None,
+    walk: float | None = None,
+    forget: float = float("inf"),
 ) -> Compensation:
     """The gravity gradient as the instrument saw it: everything removed that the model explains, demodulated.
 
@@ -161,12 +159,23 @@ def compensate(
     ----------
     calibration
         ``self``: the parameters are fitted to these flights; ``crossed``: every block of time has those fitted to all
-        others; ``frozen``: as ``calibrate(..., save=True)`` kept them.
+        others; ``frozen``: as ``calibrate(..., save=True)`` kept them; ``online``: followed sample by sample by the recursive
+        filter, as a computer on board would, from the calibration that is kept, else from the sheet. It needs no demodulator.
     demodulator
         ``fir``, ``butterworth`` or ``causal``.
     output
         A file for the series; without one they are in the result.
+    noise
+        Of ``online``: density of the noise of the cross channel about twice the spin rate, Eo/sqrt(Hz); by default what the kept
+        calibration left.
+    walk
+        Of ``online``, of the cross channel, Eo/sqrt(s), twice that of the inline one; by default both are followed with the time
+        constant of the demodulators' low-pass, 1/(2 pi 0.2 Hz).
+    forget
+        Of ``online``: time constant, s, with which the parameters forget the flight.
     """
+    if calibration == "online":
+        return _online(m, flights, output, noise, walk, forget)
     saved = saved_calibration(m) if calibration == "frozen" else None
     if saved is None:
         distinct(flights)
@@ -207,6 +216,31 @@ def compensate(
         if not p.change.holds:
             result["notes"] = [_frozen.warning(saved.time, p.change)]
     return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
+
+
+def _online(
+    m: Loaded,
+    flights: Sequence[Flight],
+    output: Path | None,
+    noise: float | None,
+    walk: float | None,
+    forget: float,
+) -> Compensation:
+    saved = None if m.directory.calibration is None else saved_calibration(m)
+    result, series = online(m, flights, saved, noise, walk, forget)
+    units = {
+        n: "s" if n == "time" else "1" if n.startswith(("quality", "flight")) else "Eo" for n in series[0]
+    }
+    found = Compensation(
+        name=m.name,
+        result=result | {"quality": meaning()},
+        series=tuple(series),
+        units=MappingProxyType(units),
+    )
+    if output is None:
+        return found
+    found.write(output)
+    return replace(found, series=())
 
 
 def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:

@@ -14,7 +14,6 @@ from ragg_runtime.base.files import read_text, replacing
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight import read_flights as _read_flights
 from ragg_runtime.flight.mapping import Mapped, parse_mapping, read_mapping
-from ragg_runtime.instrument.edit_toml import set_effects_folder
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model.model import Model
@@ -66,8 +65,6 @@ def new(path: Path | str, source: Path | None = None, mapping: Path | None = Non
     else:
         text = read_text(Path(source))
     instrument = parse_instrument(text, Path(source) if source else None)
-    if instrument.effects_folder is not None:
-        text = set_effects_folder(text, instrument.effects_folder.resolve())
     history = (Step("new", now(), text=text),)
     made = create_model_dir(path, text, generated=derive.files_of(instrument), history=history, mapping=kept)
     m = loaded(made)
@@ -93,7 +90,7 @@ def loaded(directory: ModelDir) -> Loaded:
     model = derive.model_of(directory.instrument)
     check_settings(model, directory.instrument)
     note = derive.departure(directory.instrument, directory.generated)
-    return Loaded(directory, model, (*directory.notes, *(() if note is None else (note,))))
+    return Loaded(directory, model, () if note is None else (note,))
 
 
 def read_flights(

@@ -1,1 +1,1 @@
-"""Commands that are killed, run out of disc, or may not write: ``python -m tests.faults``."""
+"""Commands that are killed at a random moment: ``python -m tests.faults``."""

@@ -25,7 +25,6 @@ from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import ModelDir
 from ragg_runtime.workflow import after
 from ragg_runtime.workflow.loaded import Loaded
-from ragg_runtime.workflow.online import online
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument
@@ -130,8 +129,8 @@ def test_the_filter_is_that_of_the_output_that_sees_a_gradient(program: Path, tm
     assert np.max(np.abs(found[:, 2] - got.cross) / got.cross_std) < 1e-4
     assert found[:, 3] == pytest.approx(got.inline_std, rel=1e-6)
     m = Loaded(
-        ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=(), digest=""),
+        ModelDir(path=tmp_path, text="", instrument=c.instrument, generated=None, history=()),
         c.model,
     )
-    (series,) = online(m, [x], noise=2.0, walk=1.0).series
-    assert ",".join(series) == head
+    (series,) = after.compensate(m, [x], "online", noise=2.0, walk=1.0).series
+    assert ",".join(series) == f"{head},quality_A"

@@ -168,8 +168,7 @@ def _set(*path: Any, to: Any) -> Callable[[str], str]:
 HOSTILE: dict[str, Callable[[str], str]] = {
     "no JSON": lambda text: text[:1000],
     "a list": lambda text: "[]",
-    "nothing in it": lambda text: '{"version": 1, "calibrations": []}',
-    "another version": lambda text: text.replace('"version": 1', '"version": 99'),
+    "nothing in it": lambda text: '{"calibrations": []}',
     "deep": lambda text: "[" * 100000,
     "NaN": _set("values", "K1", to=[float("nan")] * 4),
     "huge": _set("values", "K1", to=[10**400] * 4),

@@ -113,15 +113,6 @@ def test_shared_parameters_have_one_value() -> None:
         setting.si("delta_t", "m", 9.8)
 
 
-def test_own_effects_lie_beside_the_file(tmp_path: Path) -> None:
-    path = tmp_path / "model.toml"
-    path.write_text('effects_folder = "my_effects"\n' + TEXT)
-    with pytest.raises(UserError, match="my_effects"):
-        read_instrument(path)
-    (tmp_path / "my_effects").mkdir()
-    assert read_instrument(path).effects_folder == tmp_path / "my_effects"
-
-
 @pytest.mark.parametrize(
     ("text", "facts"),
     [

@@ -1,37 +1,21 @@
-"""Nothing is left in the temporary folder, little becomes much there, and a compiler that hangs is not waited for."""
+"""A compiler that hangs is not waited for."""
 
 from __future__ import annotations
 
 import os
 import subprocess
 import sys
-import tempfile
 import time
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from ragg_runtime.base.files import clear_stale, scratch, temporary_name
 from ragg_runtime.model import native
 from ragg_runtime.model.native import compiler
 from ragg_runtime.workflow import loop
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="files without a name, scripts as compilers")
-
-
-def test_what_another_user_left_is_not_cleared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    target = tmp_path / "x.json"
-    dead = subprocess.Popen([sys.executable, "-c", ""])
-    dead.wait()
-    left = Path(str(temporary_name(target)).replace(f"-{os.getpid()}-", f"-{dead.pid}-"))
-    left.write_text("")
-    monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 1)
-    clear_stale(target)
-    assert left.exists()
-    monkeypatch.undo()
-    clear_stale(target)
-    assert not left.exists()
 
 
 @pytest.mark.parametrize("when", ["version", "compiling"])
@@ -96,20 +80,3 @@ def test_an_odd_compiler_is_one_message(cc: str, tmp_path: Path, monkeypatch: py
     monkeypatch.delenv("RAGG_NATIVE", raising=False)
     with pytest.raises(native.BuildError):
         native.build({"a.c": "int f(void) { return 1; }\n"}, tmp_path / "cache")
-
-
-def test_folders_of_killed_processes_are_cleared_from_the_temporary_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    script = (
-        "import os\nfrom ragg_runtime.base.files import scratch\n"
-        "with scratch() as folder:\n    (folder / 'x').write_text('x')\n    os._exit(9)"
-    )
-    environment = os.environ | {"TMPDIR": str(tmp_path), "PYTHONPATH": str(Path(loop.__file__).parents[2])}
-    subprocess.run([sys.executable, "-c", script], env=environment, check=False)
-    (left,) = tmp_path.iterdir()
-    with scratch() as folder:
-        assert [p for p in tmp_path.iterdir() if p != folder] == []
-    assert not left.exists()
-    assert list(tmp_path.iterdir()) == []

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
 import stat
 import subprocess
-import sys
 import threading
 from collections.abc import Mapping
 from dataclasses import replace
@@ -20,8 +18,6 @@ import pytest
 from derive.effects import catalogue
 from derive.pipeline import derive_model
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import temporary_name
-from ragg_runtime.cli.main import main
 from ragg_runtime.diagnosis import comparison
 from ragg_runtime.fit import observation
 from ragg_runtime.fit.linearise import Point, linearised
@@ -34,7 +30,6 @@ from ragg_runtime.model.native import (
     NativeWarning,
     backends,
     build,
-    compiler,
     evaluator,
 )
 from ragg_runtime.model.native.arguments import cut
@@ -325,35 +320,6 @@ def test_two_at_once_make_one_library(tmp_path: Path) -> None:
 
 
 @needs_compiler
-def test_the_cache_stays_below_its_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What was used least recently goes first, with what killed compilations left; nothing that was used just now."""
-
-    def made(n: int) -> Built:
-        return build({"n.c": f"int n(void) {{ return {n}; }}\n"}, tmp_path)
-
-    first = [made(n) for n in range(4)]
-    size = sum(p.stat().st_size for p in tmp_path.iterdir()) // 4
-    for n, built in enumerate(first):
-        for file in (built.library, built.library.with_suffix(".txt")):
-            os.utime(file, (n, n))
-    assert not made(0).fresh  # which is then the one used last
-    dead = subprocess.Popen([sys.executable, "-c", ""])
-    dead.wait()
-    left = Path(str(temporary_name(first[0].library)).replace(f"-{os.getpid()}-", f"-{dead.pid}-"))
-    left.mkdir()
-    running = temporary_name(first[0].library)
-    running.mkdir()
-    monkeypatch.setattr(compiler, "MOST_KEPT", 3 * size + size // 2)
-    assert made(4).fresh
-    assert [b.library.exists() for b in first] == [True, False, False, True]
-    assert sum(1 for p in tmp_path.iterdir() if p.is_file()) == 6
-    assert (left.exists(), running.exists()) == (False, True)
-    monkeypatch.setattr(compiler, "MOST_KEPT", 0)
-    assert made(5).fresh  # those used within a minute stay: another process may be about to open them
-    assert [made(n).fresh for n in (0, 4, 5)] == [False, False, False]
-
-
-@needs_compiler
 def test_a_library_that_is_cleared_away_before_it_is_opened_is_made_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -378,10 +344,6 @@ def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     assert made.library.parent != tmp_path
     assert stat.S_IMODE(made.library.parent.stat().st_mode) == 0o700
     assert list(tmp_path.iterdir()) == []
-    tmp_path.chmod(0o700)
-    made = build({"three.c": "int three(void) { return 3; }\n"}, tmp_path)
-    made.library.chmod(0o666)
-    assert build({"three.c": "int three(void) { return 3; }\n"}, tmp_path).fresh
 
 
 @needs_compiler
@@ -422,19 +384,3 @@ def test_numpy_in_blocks_is_numpy_at_once(extended: Model, case: tuple[Array, Ar
         for j in range(4)
     ]
     np.testing.assert_allclose(n.voltages(t, inputs, q, phi), np.stack(at_once), rtol=1e-14)
-
-
-@needs_compiler
-def test_build_command_says_what_it_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    model = tmp_path / "m"
-    for arguments in (["new", str(model)], ["build", str(model)], ["build"]):
-        main(arguments)
-        said = capsys.readouterr().out
-        assert arguments[0] == "new" or Path(said.split(": ")[0]).is_file()
-    environment = {**os.environ, "CC": "no-such-compiler"}
-    done = subprocess.run(
-        [sys.executable, "-m", "ragg_runtime", "build"],
-        capture_output=True, text=True, check=False, env=environment,
-    )  # fmt: skip
-    assert done.returncode == 2
-    assert "there is no C compiler (no-such-compiler)" in done.stderr

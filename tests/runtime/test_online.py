@@ -21,7 +21,6 @@ from ragg_runtime.flight.record import SI_UNITS
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from ragg_runtime.workflow import after, loop
-from ragg_runtime.workflow.online import online
 from tests.rate import RATE
 from tests.runtime.flown_twice import files, flights, new_model, run
 from tests.runtime.test_export import make_strictly
@@ -172,7 +171,15 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
     flight = flights()[1].part(slice(0, 3200))
     write_flight(flight, tmp_path / "two.parquet")
     told = run(
-        "online", model, tmp_path / "two.parquet", "-o", tmp_path / "o.csv", "--json", tmp_path / "o.json"
+        "compensate",
+        model,
+        tmp_path / "two.parquet",
+        "--calibration",
+        "online",
+        "-o",
+        tmp_path / "o.csv",
+        "--json",
+        tmp_path / "o.json",
     )
     assert "followed within 0.796 s" in told
     rows = np.genfromtxt(tmp_path / "o.csv", delimiter=",", names=True)
@@ -185,13 +192,20 @@ def test_the_command_follows_a_flight_within_its_uncertainty(
         assert 0.6 < np.mean(np.abs(z) < 1) < 0.9
         assert np.mean(np.abs(z) < 1.96) > 0.9
     d = json.loads((tmp_path / "o.json").read_text())
+    assert d["calibration"] == "online"
+    assert set(rows["quality_1"]) == {0}
     assert d["started"].startswith("calibration made")
     assert 1.0 < d["noise_Eo_per_rtHz"] < 3.0
     k1 = [q for q in d["flights"][0]["parameters"] if q["name"] == "K1"]
     assert [q["accelerometer"] for q in k1] == [1, 2, 3, 4]
     fresh = new_model(tmp_path)
     with pytest.raises(UserError, match="how large the noise is"):
-        online(loop.load(fresh), [flight])
-    w = online(loop.load(fresh), [flight.part(slice(0, 400))], noise=2.0, forget=100.0)
+        after.compensate(loop.load(fresh), [flight], "online")
+    G = np.array(flight.outputs["G_out"][:400])
+    G[200:240] = np.nan
+    gap = dataclasses.replace(flight.part(slice(0, 400)), outputs={"G_out": G})
+    w = after.compensate(loop.load(fresh), [gap], "online", noise=2.0, forget=100.0)
     assert (w.as_json()["started"], w.as_json()["forget_s"]) == ("sheet", 100.0)
-    assert set(w.series[0]) == {"time", "inline", "cross", "inline_std", "cross_std"}
+    assert list(w.units) == ["time", "inline", "cross", "inline_std", "cross_std", "quality"]
+    bridged = w.series[0]["time"][w.series[0]["quality"] > 0]
+    assert flight.time[199] < bridged.min() < bridged.max() < flight.time[240] + UPDATE

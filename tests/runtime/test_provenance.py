@@ -69,19 +69,6 @@ def test_a_result_names_what_made_it(
     assert json_of(arguments, place, monkeypatch)[1] == text
 
 
-def test_own_effects_are_named_by_their_digest(
-    place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    (tmp_path / "own").mkdir()
-    loop.new(tmp_path / "model")
-    toml = tmp_path / "model" / "model.toml"
-    toml.write_text('effects_folder = "../own"\n' + toml.read_text("utf-8"), "utf-8")
-    first = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
-    (tmp_path / "own" / "a.py").write_text("# nothing\n")
-    second = json_of(["history", "model"], tmp_path, monkeypatch)[0]["provenance"]
-    assert first["effects_folder_digest"] != second["effects_folder_digest"]
-
-
 def test_a_change_names_the_state_before_and_after(
     place: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -113,7 +100,7 @@ def test_every_command_that_gives_json_goes_through_one_door() -> None:
     for name in COMMANDS:
         command = cli.get_command(click.Context(cli), name)
         assert command is not None
-        if any(p.name == "json_file" for p in command.params) and name != "experiment":
+        if any(p.name == "json_file" for p in command.params):
             assert command.callback is not None
             code = command.callback.__code__
             inner = [

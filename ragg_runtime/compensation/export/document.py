@@ -5,10 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from ragg_runtime.base.form_version import Form
 from ragg_runtime.compensation.export.contents import Contents, unit_of
-
-FORM = Form("the exported model")
 
 
 def document(c: Contents) -> dict[str, Any]:
@@ -31,7 +28,6 @@ def document(c: Contents) -> dict[str, Any]:
         for o in c.outputs()
     ]
     return {
-        **FORM.stamp(),
         "model": c.name,
         "origin": c.origin,
         "derivation": c.model.digest,

@@ -1,9 +1,9 @@
 """The derived model as machine code: generated C, compiled on first use, called without copies.
 
 ``model.compiled()`` gives an :class:`Evaluator`. The C is compiled by the compiler that is there (``CC``, else
-cc, gcc or clang) into a cache of the user, once for each source, compiler and processor; ``ragg build`` does it
-beforehand. Where there is no compiler the generated NumPy code serves, which is said once. The environment
-variable ``RAGG_NATIVE`` may be ``off`` (always NumPy).
+cc, gcc or clang) into a cache of the user, once for each source, compiler and processor. Where
+there is no compiler the generated NumPy code serves, which is said once. The environment variable
+``RAGG_NATIVE`` may be ``off`` (always NumPy).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 What is compiled is text that this program has derived or that is packaged with it, never a file that was found
 in a model directory. The library's name is the digest of everything that it depends on: source, compiler,
-options, processor. The cache belongs to the user alone, or is not used.
+options, processor.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import shlex
 import shutil
 import signal
 import subprocess
+import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -24,10 +25,7 @@ from pathlib import Path
 import platformdirs
 
 from ragg_runtime.base import progress
-from ragg_runtime.base.files import clear_stale, scratch, temporary_name
-from ragg_runtime.base.kept import keep_below
 from ragg_runtime.base.lock import locked
-from ragg_runtime.base.ownership import belongs_to_user
 
 VARIABLE = "RAGG_NATIVE"
 """``off``: never compile."""
@@ -55,9 +53,6 @@ HANGING = 9.0
 
 PATIENT = 3.0
 """As often it is said what is waited for, s: nobody should wonder for more than five."""
-
-MOST_KEPT = 1 << 26
-"""Bytes of libraries that are kept, some forty thousand each; what was used least recently goes first."""
 
 _hung: dict[str, str] = {}
 """Compilers that were given up in this process, and why: they are not waited for again."""
@@ -114,7 +109,6 @@ def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool
                 command = _kept(library, record)
                 if command is None:
                     command = _compile([*compiler, effort], sources, library, record)
-                    keep_below(place, MOST_KEPT)
                     return Built(library, command, True)
         except TimeoutError:
             raise BuildError(f"another process keeps the cache {place} locked") from None
@@ -140,11 +134,11 @@ def find_compiler() -> Sequence[str]:
 
 
 def private_folder(folder: Path | None = None) -> Path:
-    """The cache, if it is the user's own and nobody else can write to it; else one for this process alone."""
+    """The cache, if it can be written, by its owner alone; else one for this process."""
     place = folder if folder is not None else platformdirs.user_cache_path("ragg") / "native"
     try:
         place.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if belongs_to_user(place.stat()) and os.access(place, os.W_OK):
+        if os.access(place, os.W_OK) and not place.stat().st_mode & 0o022:
             return place
     except OSError:
         pass
@@ -153,9 +147,9 @@ def private_folder(folder: Path | None = None) -> Path:
 
 @cache
 def _own_folder() -> Path:
-    stack = contextlib.ExitStack()
-    atexit.register(stack.close)
-    return stack.enter_context(scratch())
+    folder = tempfile.mkdtemp(prefix="ragg-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
 
 
 @cache
@@ -178,12 +172,7 @@ def _version(compiler: tuple[str, ...]) -> str:
 def _compile(compiler: Sequence[str], sources: Mapping[str, str], library: Path, record: Path) -> str:
     """Compile into a folder of its own, then put library and record into their places; the command."""
     errors = ""
-    clear_stale(library)
-    folder = temporary_name(library)
-    folder.mkdir(mode=0o700)
-    with contextlib.ExitStack() as stack:
-        stack.callback(shutil.rmtree, folder, ignore_errors=True)
-        work = str(folder)
+    with tempfile.TemporaryDirectory(prefix=".", dir=library.parent) as work:
         for name, text in sources.items():
             (Path(work) / name).write_text(text, "utf-8")
         units = [name for name in sorted(sources) if name.endswith(".c")]
@@ -247,12 +236,10 @@ def _answer(process: subprocess.Popen[str], name: str, patience: float) -> tuple
 
 
 def _kept(library: Path, record: Path) -> str | None:
-    """The command that made a library, if it is there as it was made, and is the user's."""
+    """The command that made a library, if it is there as it was made."""
     try:
-        with contextlib.suppress(PermissionError):
-            os.utime(library)  # used last: others go first
         digest, _, command = record.read_text("utf-8").partition("\n")
-        whole = belongs_to_user(library.stat()) and digest == _digest(library)
+        whole = digest == _digest(library)
     except (OSError, UnicodeDecodeError):
         return None
     return command.strip() if whole else None
