@@ -1,4 +1,4 @@
-"""Users may call parameters, channels and effects what they like: generated names are another name space."""
+"""Effects of every stage under ids that the derivation uses itself, and the slopes of steps."""
 
 from __future__ import annotations
 
@@ -10,38 +10,14 @@ from numpy.typing import NDArray
 
 from derive.effect import Effect
 from derive.effects import catalogue
-from derive.expression import _TAKEN, ExpressionError, from_expression
+from derive.expression import ExpressionError, from_expression
 from derive.pipeline import derive_model
 from ragg_runtime.model.model import Model, from_files
-from ragg_runtime.model.native.compiler import BuildError, find_compiler
 
 Array = NDArray[np.float64]
-# Of C, of NumPy and SymPy, of the templates, the tape and the emitters.
-WORDS = (
-    *("double", "int", "static", "main", "errno", "fma", "floor", "size_t", "BLOCK", "ROWS", "FMA", "NULL"),
-    *("np", "list", "print", "self", "S", "I", "E", "Q", "N", "C", "D", "V", "x0", "x12345"),
-    *("at", "cosine", "sine", "rows", "in_a_x", "out_V", "bar_V", "rate_x", "cos_psi", "cos_j", "spin_angle"),
-    *(
-        "i",
-        "n",
-        "p",
-        "t",
-        "q",
-        "j",
-        "K1",
-        "radius",
-        "delta_phi",
-        "i_mine",
-        "inputs",
-        "parameters",
-        "values_of",
-    ),
-)
-WORDS = tuple(w for w in WORDS if w not in _TAKEN)
 SAMPLES = 7
 # One or more of every stage.
 CHOSEN = ("arm-sag", "time-offset", "thermal-bias", "second-order-misalignment", "spin-phase-offset")
-BASE = 2 + 4 * 15
 
 
 def model(*effects: Effect) -> Model:
@@ -68,50 +44,6 @@ def evaluated(m: Model, inputs: dict[str, Array], p: Array, t: Array) -> Array:
     ])  # fmt: skip
 
 
-def added(m: Model, inputs: dict[str, Array], p: Array, t: Array) -> Array:
-    """What the effects add to I_j/K_j1, (4, N): V_j less that of the paper's model, over k_VI K1."""
-    plain = model()
-    sizes = dict(m.chain.PARAMETERS)
-    k = dict(zip(sizes, np.cumsum([0, *sizes.values()]), strict=False))
-    scale = p[k["k_VI"] : k["k_VI"] + 4] * p[k["K1"] : k["K1"] + 4]
-    return (evaluated(m, inputs, p, t) - evaluated(plain, *drawn(plain))) / scale[:, None]
-
-
-def groups(size: int = 12) -> list[tuple[str, ...]]:
-    return [WORDS[k : k + size] for k in range(0, len(WORDS), size)]
-
-
-def test_words_as_channels() -> None:
-    """The sum of many channels, each with a factor of its own, is what the effects add, whatever they are called."""
-    effects, factors = [], {w: round(1.0 + 0.01 * n, 2) for n, w in enumerate(WORDS)}
-    for n, group in enumerate(groups()):
-        text = " + ".join(f"{factors[w]}*{w}" for w in group)
-        effects.append(
-            from_expression(f"mine-{n}", "transducer", f"K_own*({text})", {"K_own": {"unit": "ug"}})
-        )
-    m = model(*effects)
-    inputs, p, t = drawn(m)
-    assert {*WORDS} <= {*m.chain.INPUTS} and len({*m.chain.INPUTS}) == len(m.chain.INPUTS)
-    expected = np.zeros((4, SAMPLES))
-    for n, group in enumerate(groups()):
-        own = p[BASE + 4 * n : BASE + 4 * n + 4, None]
-        expected += own * sum(factors[w] * inputs[w] for w in group)
-    np.testing.assert_allclose(added(m, inputs, p, t), expected, rtol=1e-9)
-
-
-def test_words_as_parameters_and_as_ids() -> None:
-    effects = []
-    for n, w in enumerate(WORDS):
-        identifier = w.lower().replace("_", "-")
-        identifier = f"{identifier}-{n}" if identifier in {e.id for e in effects} else identifier
-        own = {w: {"unit": "ug", "shared": True}}
-        effects.append(from_expression(identifier.replace("--", "-"), "transducer", f"{w}*ch{n}", own))
-    m = model(*effects)
-    inputs, p, t = drawn(m)
-    expected = sum(p[BASE + n] * inputs[f"ch{n}"] for n in range(len(WORDS)))
-    np.testing.assert_allclose(added(m, inputs, p, t), np.broadcast_to(expected, (4, SAMPLES)), rtol=1e-9)
-
-
 @cache
 def under(identifier: str) -> Model:
     """The model with effects of all stages under two ids."""
@@ -126,22 +58,6 @@ def test_every_stage_under_ids_that_the_derivation_uses_itself(identifier: str) 
     inputs, p, t = drawn(other)
     assert one.chain.INPUTS == other.chain.INPUTS
     np.testing.assert_allclose(evaluated(one, inputs, p, t), evaluated(other, inputs, p, t), rtol=1e-12)
-
-
-def test_machine_code_of_such_names() -> None:
-    try:
-        find_compiler()
-    except BuildError:
-        pytest.skip("no C compiler")
-    m = model(
-        *(
-            from_expression(f"mine-{n}", "transducer", f"K_own*({' + '.join(g)})", {"K_own": {"unit": "ug"}})
-            for n, g in enumerate(groups())
-        )
-    )
-    inputs, p, t = drawn(m)
-    made = m.compiled("c").voltages(t, [inputs[n] for n in m.chain.INPUTS], p)
-    np.testing.assert_allclose(made, evaluated(m, inputs, p, t), rtol=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from ragg_runtime.base.errors import UserError, printable
+from ragg_runtime.base.errors import printable
 from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
 from ragg_runtime.workflow import loop
@@ -55,47 +53,3 @@ def test_an_error_about_such_a_name(
     said = capsys.readouterr().err
     assert "\x1b" not in said
     assert "\u202e" not in said
-
-
-@pytest.mark.parametrize("identifier", ["../../etc", "a/b", "..", "", "lag\x00", "C:\\x", "-x", "a" * 300])
-def test_ids_with_path_parts_are_unknown(tmp_path: Path, identifier: str) -> None:
-    m = loop.new(tmp_path / "model")
-    before = sorted(tmp_path.rglob("*"))
-    for attempt in (loop.add, loop.remove):
-        with pytest.raises(UserError):
-            attempt(m, identifier)
-    line = f'effects = [{{ id = {json.dumps(identifier)}, stage = "transducer", add = "K*f_i", K = {{ unit = "ug" }} }}]'
-    toml = (tmp_path / "model" / "model.toml").read_text("utf-8").replace("effects = []", line)
-    (tmp_path / "evil.toml").write_text(toml, "utf-8")
-    with pytest.raises(UserError):
-        loop.new(tmp_path / "second", tmp_path / "evil.toml")
-    (tmp_path / "evil.toml").unlink()
-    assert sorted(tmp_path.rglob("*")) == before
-
-
-@pytest.mark.parametrize(("parameter", "channel"), [("K1", "i_mine"), ("delta_phi", "x0"), ("V", "double")])
-def test_names_of_generated_code_are_the_users_own(tmp_path: Path, parameter: str, channel: str) -> None:
-    """An effect whose parameter and channel are called like locals of generated code is found at its true size."""
-    toml = loop.new(tmp_path / "model").directory.path / "model.toml"
-    line = (
-        f'{{ id = "mine", stage = "transducer", add = "{parameter} * {channel}", {parameter} = '
-        '{ unit = "ug/K", plausible = 1000 } }'
-    )
-    m = loop.load(tmp_path / "model")
-    flight = simulated(m.instrument, [], seed=1, duration=240.0, rate=16.0)
-    x = np.cos(2 * np.pi * 0.37 * flight.time)
-    k, signs = m.instrument.accelerometers, np.array([1.0, 1.0, -1.0, -1.0])
-    truth = 1e-3  # m/s^2 / K: about 100 ug/K
-    weights = signs * k["k_VI"] * k["K1"]
-    change = weights[0] * truth * x
-    flight = dataclasses.replace(
-        flight,
-        channels={**flight.channels, channel: x},
-        outputs={**flight.outputs, "G_out": flight.outputs["G_out"] + change},
-        units={**flight.units, channel: "K"},
-    )
-    toml.write_text(toml.read_text("utf-8").replace("effects = []", f"effects = [{line}]"), "utf-8")
-    added = loop.add(loop.load(tmp_path / "model"), "mine", [flight])
-    assert {q.name for q in added.parameters} == {parameter}
-    found = float(np.sum(weights * [q.value for q in added.parameters])) * 1e-6 * m.instrument.g0
-    assert abs(found / weights[0] - truth) < 0.02 * truth
