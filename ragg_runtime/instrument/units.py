@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.unit_spelling import spellings
-from ragg_runtime.instrument.usual_units import BASE, FACTORS, FACTORS_OF_G, G0
 
 if TYPE_CHECKING:
     import pint
@@ -27,9 +26,6 @@ Value = TypeVar("Value", float, NDArray[np.float64])
 
 EOTVOS = 1e-9
 """1 Eo in s^-2."""
-
-ANY_WORLD = 1e6
-"""Factor between a g0 and the usual one beyond which powers of it are left to pint, which says what is out of all proportion."""
 
 DIMENSIONLESS = ("1", "", "-", "dimensionless")
 
@@ -42,7 +38,6 @@ _ANGLES = frozenset(
 )
 _CYCLES = frozenset(("hertz", "counts_per_second"))
 
-_OF_G = {unit: n == 1 for n, table in enumerate((FACTORS, FACTORS_OF_G)) for unit, _ in table}
 # pint evaluates powers of numbers in a unit ("9**9**9" never returns) and drops signs that it does not
 # know ("m;s"): only products and quotients of names with small exponents reach it.
 _TOKEN = re.compile(
@@ -69,16 +64,12 @@ class Units:
         if not (math.isfinite(g0) and g0 > 0):
             raise UserError("g0 must be a positive acceleration", found=g0, expected="such as 9.8 m/s^2")
         self.g0 = float(g0)
-        ratio = self.g0 / G0
-        of_g = FACTORS_OF_G if 1.0 / ANY_WORLD < ratio < ANY_WORLD else {}
-        self._usual = {**FACTORS, **{pair: x * ratio**power for pair, (x, power) in of_g.items()}}
-        self._of_g = dict(_OF_G)
         self._parsed: dict[str, Any] = {}
         self._stems: dict[str, str | None] = {}
 
     @cached_property
     def _registry(self) -> pint.UnitRegistry[Any]:
-        import pint  # slow to import, and only units that are not usual need it
+        import pint  # slow to import, and and messages do without it
 
         registry: pint.UnitRegistry[Any] = pint.UnitRegistry(on_redefinition="ignore")
         registry.define(f"standard_g = {self.g0!r} * meter / second ** 2 = g")
@@ -118,10 +109,6 @@ class Units:
         Turns and angles are told apart where they would be confused: a frequency in rpm or rad/s becomes
         turns a second, and an angular rate in Hz is refused.
         """
-        usual = self._usual.get((unit, si_unit))
-        if usual is not None:
-            with np.errstate(over="ignore"):
-                return value if usual == 1.0 else value * usual
         source, target = self.parse(unit, where), self.parse(si_unit)
         self._same_dimension(source, unit, target, si_unit, where)
         factor = 1.0
@@ -144,8 +131,6 @@ class Units:
 
     def from_si(self, value: Value, si_unit: str, unit: str, where: str | None = None) -> Value:
         """``value`` in ``si_unit``, converted to ``unit``; the inverse of :meth:`to_si`."""
-        if unit == si_unit and (unit, si_unit) in self._usual:
-            return value
         source, target = self.parse(si_unit), self.parse(unit, where)
         self._same_dimension(target, unit, source, si_unit, where)
         if self._counts(source, _CYCLES) and self._counts(target, _ANGLES):
@@ -155,16 +140,12 @@ class Units:
 
     def base_unit(self, unit: str, where: str | None = None) -> str:
         """The SI base unit for ``unit``, as text that :meth:`parse` reads (``K``, ``m/s**2``)."""
-        if unit in BASE:
-            return BASE[unit]
         base = self._registry.get_base_units(self.parse(unit, where))[1]
         return f"{base:~C}" or "1"
 
     def uses_g(self, unit: str, where: str | None = None) -> bool:
         """Whether ``unit`` is made with g."""
-        if unit not in self._of_g:
-            self._of_g[unit] = self._counts(self.parse(unit, where), frozenset(("standard_g",)))
-        return self._of_g[unit]
+        return self._counts(self.parse(unit, where), frozenset(("standard_g",)))
 
     def fits(self, unit: str, si_unit: str) -> bool:
         """Whether ``unit`` is a unit and has the dimension of ``si_unit``."""
@@ -180,8 +161,7 @@ class Units:
         conversion. Raises UserError for anything else, NaN and infinity included.
         """
         quantity = read_quantity(raw, where, count=count)
-        if quantity.unit not in BASE:
-            self.parse(quantity.unit, where)
+        self.parse(quantity.unit, where)
         return quantity
 
     def _same_dimension(self, source: Any, unit: str, target: Any, si_unit: str, where: str | None) -> None:

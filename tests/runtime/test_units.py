@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-from importlib.metadata import version
 
 import numpy as np
 import pytest
@@ -13,7 +12,6 @@ from hypothesis import strategies as st
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.instrument.units import RawQuantity, Units, units
-from ragg_runtime.instrument.usual_units import BASE, FACTORS, FACTORS_OF_G
 
 G0 = st.floats(0.1, 100.0)
 FINITE = st.floats(-1e12, 1e12, allow_nan=False)
@@ -213,32 +211,3 @@ def test_message_holds_every_fact_and_travels_between_processes() -> None:
     error = UserError("wrong", where="here", found=3, expected="four", remedy="add one")
     assert str(error) == "here: wrong\n  found: 3\n  expected: four\n  remedy: add one"
     assert str(pickle.loads(pickle.dumps(error))) == str(error)
-
-
-def test_usual_units_are_what_pint_makes_of_them() -> None:
-    quick, pint_alone = Units(9.8), Units(9.8)
-    pint_alone._usual, pint_alone._of_g = {}, {}
-    values = np.random.default_rng(3).normal(size=50) * 1e3
-    roundings = 4 if version("pint").startswith("0.24.") else 0  # that one multiplies in another order
-    for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
-        for x in (values, 0.3):
-            found, expected = (u.to_si(x, unit, si_unit) for u in (quick, pint_alone))
-            np.testing.assert_array_max_ulp(found, expected, maxulp=roundings)
-        assert quick.uses_g(unit) == pint_alone.uses_g(unit) == ((unit, si_unit) in FACTORS_OF_G), unit
-        if unit == si_unit:
-            assert quick.from_si(values, si_unit, unit) is pint_alone.from_si(values, si_unit, unit) is values
-    assert "_registry" not in vars(quick)
-    for unit, base in BASE.items():
-        found = pint_alone._registry.get_base_units(pint_alone.parse(unit))[1]
-        assert (f"{found:~C}" or "1") == base, unit
-
-
-@pytest.mark.parametrize("g0", [9.80665, 9.7803, 1.62])
-def test_units_of_g_go_with_the_g_of_the_sheet(g0: float) -> None:
-    quick, pint_alone = Units(g0), Units(g0)
-    pint_alone._usual, pint_alone._of_g = {}, {}
-    for unit, si_unit in {**FACTORS, **FACTORS_OF_G}:
-        assert quick.to_si(1.0, unit, si_unit) == pytest.approx(
-            pint_alone.to_si(1.0, unit, si_unit), rel=1e-15
-        )
-    assert "_registry" not in vars(quick)
