@@ -8,10 +8,44 @@
 >>> ragg.add(m, d.found[0], flights)
 
 Results have ``as_json()``, a short ``repr`` and a rich display in notebooks. Bad input raises :class:`UserError`.
-This package holds no code of its own: its stub says which names of ``ragg_runtime`` it hands on; they load when they
-are first used.
+This package holds no code of its own: the names of ``ragg_runtime`` that it hands on load when they are first used.
 """
 
-from ragg_runtime.base.late import hand_on
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-hand_on(__name__)
+if TYPE_CHECKING:
+    from ragg_runtime.base.errors import UserError as UserError
+    from ragg_runtime.workflow.after import calibrate as calibrate
+    from ragg_runtime.workflow.after import compensate as compensate
+    from ragg_runtime.workflow.after import export as export
+    from ragg_runtime.workflow.catalogue import effects as effects
+    from ragg_runtime.workflow.loop import add as add
+    from ragg_runtime.workflow.loop import compare as compare
+    from ragg_runtime.workflow.loop import diagnose as diagnose
+    from ragg_runtime.workflow.loop import load as load
+    from ragg_runtime.workflow.loop import new as new
+    from ragg_runtime.workflow.loop import read_flights as read_flights
+    from ragg_runtime.workflow.loop import remove as remove
+    from ragg_runtime.workflow.loop import survey as survey
+    from ragg_runtime.workflow.simulate import simulate as simulate
+
+_MODULES = {
+    "base.errors": ("UserError",),
+    "workflow.after": ("calibrate", "compensate", "export"),
+    "workflow.catalogue": ("effects",),
+    "workflow.loop": ("add", "compare", "diagnose", "load", "new", "read_flights", "remove", "survey"),
+    "workflow.simulate": ("simulate",),
+}
+__all__ = sorted(name for names in _MODULES.values() for name in names)
+
+
+def __getattr__(name: str) -> Any:
+    for module, names in _MODULES.items():
+        if name in names:
+            return getattr(import_module(f"ragg_runtime.{module}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__
