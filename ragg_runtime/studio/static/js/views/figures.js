@@ -100,11 +100,10 @@ export function figures(box) {
     const began = performance.now();
     const [m, p] = await Promise.all([series({ ...common, what: "measured" }), modelled ? series({ ...common, what: "modelled" }) : null]);
     document.documentElement.dataset.series = (performance.now() - began).toFixed(1);
-    const line = flight().line;
-    note("measured", modelled ? "" : line ? "As the file has it." : "As the file has it, not yet examined.");
+    note("measured", modelled ? "" : "As the file has it, not yet examined.");
     plots.measured.show([m, p]);
     loaded = { from: common.from, to: common.to, width: b - a };
-    legend("measured", [[`${line && flight().outputs.includes(view.unit) ? view.unit : line ? flight().outputs[0] : "measured"}, ${modelled ? unitName() : line ? "Eo" : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
+    legend("measured", [[`measured, ${modelled ? unitName() : "V"}`, "before"], modelled && ["model, calibrated", "residual"]]);
   });
   const drawResidual = () => latest("residual", async () => {
     if (!ready()) return;
@@ -195,8 +194,7 @@ export function figures(box) {
     const { state } = server;
     if (state && view.flight >= state.flights.length && state.flights.length) look({ flight: 0 });
     if (flight() && view.output >= Math.max(1, (flight().parts || []).length) && ready()) look({ output: 0 });
-    if (flight() && flight().line && flight().outputs.includes("inline") && !flight().outputs.includes(view.unit)) look({ unit: "inline" });
-    else if (ready() && !spin() && !["V", "Eo"].includes(view.unit)) look({ unit: "Eo" });
+    if (ready() && !spin() && !["V", "Eo"].includes(view.unit)) look({ unit: "Eo" });
     const b = state && state.banner;
     const key = JSON.stringify([state && state.model && state.model.path, state && state.flights.map((f) => f.cuts), b && b.errors, state && state.effects.length, state && state.flights.map((f) => f.path), state && state.beside && state.beside.step]);
     heading();
@@ -204,7 +202,6 @@ export function figures(box) {
     shown = key;
     box.classList.toggle("empty", !flight());
     box.classList.toggle("waiting", !ready());
-    box.classList.toggle("line", Boolean(flight() && flight().line));
     all();
   };
 

@@ -37,7 +37,7 @@ const part = () => ((flight() && flight().parts) || [])[view.output];
 /** How fast the disc turns that the output stands on, Hz; 0: it stands still. */
 export const spin = () => (part() ? part().spin_Hz : server.state && server.state.model ? Math.abs(server.state.model.spin_Hz) : 0);
 /** Whether a unit can be shown: of a disc that stands still nothing is demodulated. */
-const shows = (unit) => (flight() && flight().line ? flight().outputs.includes(unit) || (unit === "Eo" && !flight().outputs.includes("inline")) : unit === "V" || unit === "Eo" || spin() > 0);
+const shows = (unit) => unit === "V" || unit === "Eo" || spin() > 0;
 export const ready = () => Boolean(server.state && server.state.banner && flight());
 export const unitName = () => (view.unit === "V" ? "V" : "Eo");
 /** One standard deviation of the noise in the unit of the figures; 0 where it is not known. */
