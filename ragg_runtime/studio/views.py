@@ -7,6 +7,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ragg_runtime.base.errors import one_line
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight.record import left_out
@@ -311,7 +312,7 @@ def _done(s: State, model: str, flights: str) -> list[str]:
             found.append(f"# done: {told}{f' {on}' if step.flights else ''}")
         elif step.action != "new":
             found.append(f"# done: {step.action} {numbers.clean(step.effect)}")
-    return found
+    return [one_line(x) for x in found]  # a name of several lines would go on as a command
 
 
 def commands(s: State) -> list[str]:
@@ -330,5 +331,9 @@ def commands(s: State) -> list[str]:
         how = s.compensated.result
         options = f"--calibration {how['calibration']} --demodulator {how['demodulator']['name']}"
         found.append(f"ragg compensate {model} {files} -o compensated.csv {options}")
-    cut = [f"# {x.name}: {left_out(*c)}" for x, cuts in zip(s.flights, s.cuts, strict=True) for c in cuts]
+    cut = [
+        one_line(f"# {x.name}: {left_out(*c)}")
+        for x, cuts in zip(s.flights, s.cuts, strict=True)
+        for c in cuts
+    ]
     return [*_done(s, model, files), *cut, *found]

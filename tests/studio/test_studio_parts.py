@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import struct
+import subprocess
 import time
 import tomllib
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow.csv
@@ -224,3 +226,24 @@ def test_every_equation_of_the_catalogue_is_typeset() -> None:
             assert mathml(text).startswith("<math"), (e.id, text)
     assert mathml("K_x*f_i**2") == "<code>K_x*f_i**2</code>"
     assert "<script" not in mathml("\\text{<script>alert(1)</script>}")
+
+
+def test_names_of_several_lines_stay_in_the_comments_of_a_shell(tmp_path: Path) -> None:
+    """commands.sh is run by hand: names of strangers' files, lines and folders stand in its comments, too."""
+    evil = "x\ntouch PWNED\n#"
+    new(tmp_path / evil)
+    m = loop.load(tmp_path / evil)
+    steps = (Step(action="add", time="", effect="lag", flights={evil: ""}), Step(action=evil, time=""))
+    shown = SimpleNamespace(
+        loaded=m,
+        model=SimpleNamespace(directory=SimpleNamespace(path=m.directory.path, history=(*m.directory.history, *steps))),
+        paths=[tmp_path / evil / "flight.csv"],
+        flights=[SimpleNamespace(name=evil)],
+        cuts=[[(1.0, 2.0)]],
+        diagnosed=None,
+        compensated=None,
+    )  # fmt: skip
+    script = "ragg() { :; }\n" + "\n".join(views.commands(shown))  # type: ignore[arg-type]
+    assert script.count("# done: ") == 2
+    subprocess.run(["sh", "-c", script], cwd=tmp_path, check=True)
+    assert not (tmp_path / "PWNED").exists()
