@@ -15,7 +15,6 @@ import time
 from collections.abc import Iterator
 from io import BufferedReader
 from pathlib import Path
-from typing import IO
 
 from ragg_runtime.base.errors import UserError
 
@@ -43,17 +42,9 @@ def require_room(path: Path, size: int) -> None:
     """
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
-    with tempfile.TemporaryFile(dir=path.parent) as trial:
-        take_room(trial, size)
-
-
-def take_room(file: IO[bytes], size: int) -> None:
-    """Let an open file have so many bytes of the disc; OSError where it cannot, as where a quota ends.
-
-    Nothing happens on systems that cannot do this beforehand.
-    """
     if hasattr(os, "posix_fallocate"):
-        os.posix_fallocate(file.fileno(), 0, max(size, 1))
+        with tempfile.TemporaryFile(dir=path.parent) as trial:
+            os.posix_fallocate(trial.fileno(), 0, max(size, 1))
 
 
 class Target:

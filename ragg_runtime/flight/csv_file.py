@@ -21,7 +21,17 @@ from ragg_runtime.base.errors import UserError, at
 from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.instants import is_instant
 from ragg_runtime.flight.one_table import joined
-from ragg_runtime.flight.source import Heading, Look, Rows, Table, Written, distinct, heading, units_below
+from ragg_runtime.flight.source import (
+    Heading,
+    Look,
+    Rows,
+    Table,
+    Written,
+    distinct,
+    heading,
+    is_line,
+    units_below,
+)
 
 NAME = "csv"
 ENDINGS = (".csv", ".csv.gz")
@@ -143,7 +153,9 @@ def _header(lines: Iterator[str], path: Path) -> tuple[int, str]:
 
 
 def _text(name: str, column: int, rows: Sequence[Sequence[str]]) -> bool:
-    """Whether a column holds text: its first value is no number (for ``time``: is an instant)."""
+    """Whether a column holds text: names of lines, or its first value is no number (for ``time``: is an instant)."""
+    if is_line(name):
+        return True
     value = next((r[column] for r in rows if len(r) > column and r[column] not in _MISSING), "0")
     try:
         float(value)

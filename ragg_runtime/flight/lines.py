@@ -23,11 +23,9 @@ def split(table: Table, column: str) -> list[Table]:
 
     headings = tuple(h for h in table.headings if h.name != column)
     whole = dict(table.rows())
-    labels = whole.pop(column)
-    if labels.dtype == object:
-        labels = np.array([str(t).strip() for t in labels], dtype=object)
-    which, values = pd.factorize(labels)  # numbered as they appear; -1 where nothing stands
-    names = [line_name(v) for v in values]
+    rows, labels = pd.factorize(whole.pop(column))  # numbered as they appear; -1 where nothing stands
+    ordinals, names = pd.factorize(np.array([_name(x) for x in labels], dtype=object))
+    which = np.where(rows < 0, -1, np.append(ordinals, -1)[rows])
     if len(names) > MOST_LINES:
         raise UserError(
             "the column does not name lines: its values differ from row to row",
@@ -41,11 +39,20 @@ def split(table: Table, column: str) -> list[Table]:
     order = np.argsort(which, kind="stable")
     edges = np.searchsorted(which[order], np.arange(len(names) + 1))
 
-    def rows(n: int) -> Rows:
+    def part(n: int) -> Rows:
         return {h.name: whole[h.name][order[edges[n] : edges[n + 1]]] for h in headings}
 
     return [
-        Table(table.path, headings, lambda n=n: rows(n), name)  # type: ignore[misc]
+        Table(table.path, headings, lambda n=n: part(n), name)  # type: ignore[misc]
         for n, name in enumerate(names)
         if name
     ]
+
+
+def _name(label: object) -> str:
+    """The name of a line: 1010 of 1010.0, in numbers or in text."""
+    try:
+        value = float(str(label))
+    except ValueError:
+        return line_name(label)
+    return line_name(value) if np.isfinite(value) else ""

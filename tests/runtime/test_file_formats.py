@@ -61,7 +61,7 @@ def expected(tables: list[Written]) -> dict:
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
-@pytest.mark.parametrize("lines", [(), ("10", "20.5", "1030"), ("L1", "T20", "north 3")])
+@pytest.mark.parametrize("lines", [(), ("10", "20.5", "1030"), ("1010", "T20", "north 3")])
 def test_round_trip(tmp_path: Path, ending: str, lines: tuple[str, ...]) -> None:
     if lines and ending == ".mat":
         lines = ("10", "20", "30")  # names of structures
