@@ -15,12 +15,13 @@ import derive  # noqa: F401  (tells SymPy how much to remember, which must be be
 settings.register_profile("project", deadline=None, derandomize=True)
 settings.load_profile("project")
 
-# Nothing of the user's own (list of trusted files, what was derived and compiled) is read or written by tests. What one
+# Nothing of the user's own (effects in Python, what was derived and compiled) is read or written by tests. What one
 # worker has derived and compiled the others find.
 _home = tempfile.mkdtemp(prefix="ragg-tests-")
 atexit.register(shutil.rmtree, _home, ignore_errors=True)
 _cache = os.environ.setdefault("RAGG_TESTS_CACHE", f"{_home}/cache")
-os.environ |= {"XDG_CONFIG_HOME": f"{_home}/config", "XDG_CACHE_HOME": _cache}
+os.environ["XDG_CACHE_HOME"] = _cache
+os.environ.pop("RAGG_EFFECTS", None)
 
 
 DEAREST = (

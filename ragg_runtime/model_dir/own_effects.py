@@ -12,7 +12,7 @@ from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
@@ -34,16 +34,29 @@ def own_sources() -> Mapping[str, str]:
 
 def own_effects() -> tuple[Effect, ...]:
     """The effects themselves, by id; UserError if one cannot be read."""
+    sources = own_sources()
+    if not sources:  # to import what derives takes a while
+        return ()
     from derive.effects import of_module, of_text
 
     found = []
-    for name, text in own_sources().items():
+    for name, text in sources.items():
         try:
             module = _installed().get(name)
             found.append(of_text(Path(name), text) if module is None else of_module(module, text))
         except ValueError as error:
             raise _unread(name, error) from error
     return tuple(sorted(found, key=lambda e: e.id))
+
+
+def own_entries() -> tuple[Mapping[str, Any], ...]:
+    """What a catalogue says of them."""
+    found = own_effects()
+    if not found:
+        return ()
+    from derive.ir import manifest_of_effect
+
+    return tuple(manifest_of_effect(e) for e in found)
 
 
 @cache

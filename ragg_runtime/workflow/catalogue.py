@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ragg_runtime.base.errors import UserError, did_you_mean
+from ragg_runtime.model_dir.own_effects import own_entries
 
 
 @dataclass(frozen=True, repr=False)
@@ -48,11 +49,11 @@ class Catalogue:
 
 
 def effects() -> Catalogue:
-    """The packaged catalogue (``ragg effects``)."""
+    """The packaged catalogue, and the user's own effects in Python (``ragg effects``)."""
     found = find_spec("generated")  # `resources` would import the models, and NumPy for them
     assert found is not None and found.origin is not None
     text = Path(found.origin).with_name("manifest.json").read_text("utf-8")
-    return Catalogue(entries=tuple(json.loads(text)["catalogue"]))
+    return Catalogue(entries=(*json.loads(text)["catalogue"], *own_entries()))
 
 
 def in_words(e: Mapping[str, Any]) -> str:

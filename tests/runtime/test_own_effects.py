@@ -11,6 +11,7 @@ import derive.effects as derive_effects
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.model_dir import derive, derived_cache, own_effects
 from ragg_runtime.workflow import loop
+from ragg_runtime.workflow.catalogue import effects
 
 CUBIC = (Path(derive_effects.__file__).parent / "cubic_input.py").read_text("utf-8")
 
@@ -48,6 +49,7 @@ def test_effects_of_the_folder_that_the_user_names(tmp_path: Path, monkeypatch: 
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path / "own"))
     m = loop.load(tmp_path / "model")
     assert "mine" in {e.id for e in m.model.candidates}
+    assert effects()["mine"]["title"] == effects()["cubic-input"]["title"]
     m = loop.add(m, "mine").loaded
     assert [e.id for e in loop.load(tmp_path / "model").model.effects] == ["mine"]
     monkeypatch.delenv("RAGG_EFFECTS")
