@@ -61,7 +61,7 @@ class _Commands(click.Group):
 )
 @click.version_option(package_name="ragg", prog_name="ragg")
 def cli() -> None:
-    """Instrument models of a rotating-accelerometer gravity gradiometer, derived, not typed.
+    """Instrument models of a rotating-accelerometer gravity gradiometer, derived symbolically.
 
     Compare the model with recorded flights, learn which physical effect it lacks, add it, watch the error
     fall: ragg new, compare, diagnose, add.

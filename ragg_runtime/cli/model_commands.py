@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 )
 @click.option("--check", is_flag=True, help="Only say whether the committed code matches the derivation.")
 def derive(out: Path | None, check: bool) -> None:
-    """Derive all models and generate their code and pages."""
+    """Derive all models and generate their code."""
     from ragg_runtime.model_dir import publish
 
     root = publish.HOME if out is None else out

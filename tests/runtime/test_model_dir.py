@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 import random
@@ -15,7 +14,6 @@ from pathlib import Path
 
 import pytest
 
-from ragg_runtime.base import lock
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.lock import locked
 from ragg_runtime.model_dir import directory as md
@@ -254,19 +252,6 @@ def test_the_lock_ends_with_its_process(tmp_path: Path) -> None:
         holder.kill()
     with locked(tmp_path, 0.0):
         assert entries(tmp_path) == []
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="flock")
-def test_without_locks_it_is_said_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def flock(*_: object) -> None:
-        raise OSError(errno.ENOSYS, "Function not implemented")
-
-    monkeypatch.setattr("fcntl.flock", flock)
-    lock._say_once.cache_clear()
-    assert state_number(change(change(make(tmp_path, 1), 2), 3)) == 3
-    assert capsys.readouterr().err.count("knows no locks") == 1
 
 
 def test_messages(tmp_path: Path) -> None:

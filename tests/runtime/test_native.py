@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 import shutil
 import stat
-import subprocess
-import threading
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -30,11 +26,9 @@ from ragg_runtime.model.native import (
     NativeWarning,
     backends,
     build,
-    evaluator,
 )
-from ragg_runtime.model.native.arguments import cut
 from ragg_runtime.model.native.changes import changes
-from ragg_runtime.model.native.compiler import COMMON, Built, find_compiler, private_folder
+from ragg_runtime.model.native.compiler import COMMON, find_compiler, private_folder
 from ragg_runtime.reference.scenario import scenario
 from tests.generated import draws
 from tests.generated.draws import Array
@@ -194,43 +188,6 @@ def test_any_number_of_threads_gives_the_same_bytes(
             assert c.derivatives(1, t, inputs, q, threads=threads).tobytes() == slopes.tobytes()
 
 
-def test_parts_for_threads_cover_everything_once() -> None:
-    for n in (0, 1, 4096, 4097, 100_000):
-        for threads in (1, 2, 3, 7, 1000):
-            parts = cut(n, threads)
-            assert [i for a, b in parts for i in (a, b)] == sorted(i for a, b in parts for i in (a, b))
-            assert sum(b - a for a, b in parts) == n
-            assert len(parts) <= threads
-            assert all(a % 512 == 0 for a, _ in parts)  # the block of the generated C
-
-
-@needs_compiler
-def test_series_are_used_where_they_lie_or_converted(case: tuple[Array, Array, Array]) -> None:
-    t, inputs, p = case
-    c = packaged().compiled("c")
-    G = c.output(t, inputs, p)
-    kept = [x.copy() for x in inputs]
-    np.testing.assert_array_equal(c.output(t, np.asfortranarray(inputs), p), G)  # not contiguous
-    np.testing.assert_array_equal(c.output(t, np.repeat(inputs, 2, axis=1)[:, ::2], p), G)
-    np.testing.assert_array_equal(c.output(t[::-1], inputs[:, ::-1], p), G[::-1])  # no negative strides in C
-    np.testing.assert_array_equal(c.output(list(t), [list(x) for x in inputs], list(p)), G)
-    narrow = inputs.astype(np.float32)
-    np.testing.assert_array_equal(c.output(t, narrow, p), c.output(t, narrow.astype(np.float64), p))
-    swapped = inputs.astype(inputs.dtype.newbyteorder())
-    np.testing.assert_array_equal(c.output(t, swapped, p), G)
-    np.testing.assert_array_equal(inputs, kept)  # nothing is written to
-    missing = [None if n.startswith("Gamma") else x for n, x in zip(c.inputs, inputs, strict=True)]
-    zero = np.where(np.array([n.startswith("Gamma") for n in c.inputs])[:, None], 0.0, inputs)
-    np.testing.assert_array_equal(c.output(t, missing, p), c.output(t, zero, p))
-    out = np.empty(len(t))
-    assert c.output(t, inputs, p, out=out) is out
-    np.testing.assert_array_equal(out, G)
-    assert len(c.output(t[:0], inputs[:, :0], p)) == 0
-    bad = inputs.copy()
-    bad[4, 1000] = np.nan
-    assert np.flatnonzero(np.isnan(c.output(t, bad, p))).tolist() == [1000]
-
-
 @pytest.mark.parametrize("backend", ["c", "numpy"])
 def test_wrong_arguments_are_said(backend: str, case: tuple[Array, Array, Array]) -> None:
     if backend == "c" and not shutil.which("cc"):
@@ -306,38 +263,6 @@ def test_library_is_made_once_and_anew_when_anything_changes(
 
 
 @needs_compiler
-def test_two_at_once_make_one_library(tmp_path: Path) -> None:
-    source = {"two.c": "int two(void) { return 2; }\n"}
-    made: list[Built] = []
-    threads = [threading.Thread(target=lambda: made.append(build(source, tmp_path))) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert [m.fresh for m in made].count(True) == 1
-    assert len({m.library for m in made}) == 1
-    assert sorted(p.suffix for p in tmp_path.iterdir()) == [".so", ".txt"]
-
-
-@needs_compiler
-def test_a_library_that_is_cleared_away_before_it_is_opened_is_made_again(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[bool] = []
-
-    def cleared(sources: Mapping[str, str], *, quick: bool = False) -> Built:
-        built = build(sources, tmp_path)
-        asked.append(built.fresh)
-        if len(asked) == 1:
-            built.library.unlink()
-        return built
-
-    monkeypatch.setattr(backends, "build", cleared)
-    assert evaluator(packaged().chain, {"a.c": "int a(void) { return 1; }\n"}, None, "c").backend == "c"
-    assert asked == [True, True]
-
-
-@needs_compiler
 def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     tmp_path.chmod(0o777)
     made = build({"three.c": "int three(void) { return 3; }\n"}, tmp_path)
@@ -346,41 +271,8 @@ def test_a_cache_that_others_can_write_to_is_not_used(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@needs_compiler
-@pytest.mark.skipif(shutil.which("objdump") is None, reason="objdump is not installed")
-def test_loops_are_vectors_and_call_no_sine(extended: Model) -> None:
-    """Of base and extended model: nothing of libm is called, and the arithmetic is on whole registers."""
-    for model in (packaged(), extended):
-        listing = subprocess.run(
-            ["objdump", "-d", "--no-show-raw-insn", str(build(model.sources).library)],
-            capture_output=True, text=True, check=True,
-        ).stdout  # fmt: skip
-        assert not re.search(r"call.*<(sin|cos|sincos|fma|rint|nearbyint|floor)", listing)
-        processor = Path("/proc/cpuinfo").read_text()
-        if "fma " in processor:
-            # a loop of whole registers each, and for what is left over one of half of them and one of single numbers
-            whole, half = "zy" if "avx512f" in processor else "yx"
-            packed = re.findall(rf"\bvfn?m(?:add|sub)\w*pd\b.*%([{whole}{half}])mm", listing)
-            single = re.findall(r"\bvfn?m(?:add|sub)\w*sd\b", listing)
-            assert len(packed) > 200
-            assert len(packed) >= 0.9 * len(single)
-            assert 2 * packed.count(whole) >= len(packed)
-
-
 def test_sources_of_models_are_what_was_derived() -> None:
     files = derive_model([e for e in catalogue() if e.id == "lag"], ())
     assert from_files(files).sources == {"chain.c": files["c/chain.c"], "chain.h": files["c/chain.h"]}
     assert sorted(packaged().sources) == ["chain.c", "chain.h", "folded.c", "folded.h"]
     assert replace(packaged(), sources={}) == packaged()  # how it is evaluated is no part of what it is
-
-
-def test_numpy_in_blocks_is_numpy_at_once(extended: Model, case: tuple[Array, Array, Array]) -> None:
-    t, motion, p = case
-    q, inputs = parameters(extended, p), np.vstack([motion, np.cos(t)])
-    n = evaluator(extended.chain, {}, None, "numpy")
-    phi = np.mod(t, 6.0)
-    at_once = [
-        extended.chain.accelerometer(j, t, np.cos(phi), np.sin(phi), inputs, extended.chain.values_of(j, q))
-        for j in range(4)
-    ]
-    np.testing.assert_allclose(n.voltages(t, inputs, q, phi), np.stack(at_once), rtol=1e-14)

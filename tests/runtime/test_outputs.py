@@ -12,7 +12,6 @@ from pathlib import Path
 import commands
 import pytest
 
-from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import write_flight
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -101,21 +100,6 @@ def test_nothing_is_written_over_what_is_read(option: str, over: str, given: tup
     assert state(model, flight) == before
 
 
-def test_a_result_replaces_no_record_that_the_command_does_not_read(
-    given: tuple[Path, Path], tmp_path: Path
-) -> None:
-    model, _ = given
-    record = tmp_path / "south.parquet"
-    record.write_bytes(b"PAR1")
-    for command in (("history", model, "--json"), ("diagnose", model, given[1], "--report")):
-        status, said = ragg(*command, record)
-        assert status == 2
-        assert "over a record" in said
-    assert record.read_bytes() == b"PAR1"
-    record.write_bytes(b"")
-    assert ragg("history", model, "--json", record)[0] == 0
-
-
 def test_a_result_replaces_no_file_of_another_model(given: tuple[Path, Path], tmp_path: Path) -> None:
     """Of commands that know no model, too."""
     model, _ = given
@@ -171,57 +155,3 @@ def test_devices_and_pipes_are_written_to(given: tuple[Path, Path], tmp_path: Pa
     assert out.read_text().count('"steps"') == 2
     status, said = ragg("history", model, "--json", pipe)
     assert (status, "nobody reads from it" in said) == (2, True)
-
-
-def test_a_dash_is_stdout_for_what_is_text(
-    given: tuple[Path, Path], capfd: pytest.CaptureFixture[str]
-) -> None:
-    assert commands.ragg("map", given[1], "-o", "-").returncode == 0
-    assert "[time]" in capfd.readouterr().out
-
-
-def test_a_link_is_written_through(given: tuple[Path, Path], tmp_path: Path) -> None:
-    link, target = tmp_path / "latest.json", tmp_path / "of-today.json"
-    link.symlink_to(target.name)
-    for _ in range(2):
-        assert ragg("history", given[0], "--json", link)[0] == 0
-        assert link.is_symlink()
-        assert json.loads(target.read_text())["steps"]
-    assert len(list(tmp_path.iterdir())) == 2
-
-
-def test_closed_stderr_and_a_deleted_working_folder(given: tuple[Path, Path], tmp_path: Path) -> None:
-    model, flight = given
-    assert ragg("compare", model, flight, redirect="2>&-")[0] == 0
-    status, _ = ragg("compare", model, tmp_path / "no.csv", redirect="2>&-")
-    assert status == 2
-    found = subprocess.run(
-        ["sh", "-c", f'rmdir "$PWD"; exec {sys.executable} -P -m ragg_runtime compare {model} flight.csv'],
-        cwd=_made(tmp_path / "gone"),
-        capture_output=True,
-        text=True,
-    )
-    assert found.returncode == 2
-    assert found.stderr.count("ragg: ") == 1
-    assert "Traceback" not in found.stderr
-
-
-def _made(folder: Path) -> Path:
-    folder.mkdir()
-    return folder
-
-
-def test_what_is_no_results_file_of_a_survey_is_not_touched(given: tuple[Path, Path], tmp_path: Path) -> None:
-    model, flight = given
-    torn = b'{"kind": "another"}\nand a line that has no end'
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    m = loop.load(model)
-    for k, content in enumerate((flight.read_bytes(), torn, b"ragg survey", b"\n\n", b"{")):
-        kept = tmp_path / f"kept-{k}"
-        kept.write_bytes(content)
-        with pytest.raises(UserError, match="not a results file"):
-            loop.survey(m, [flight], jobs=1, resume=kept)
-        assert kept.read_bytes() == content
-    with pytest.raises(UserError, match="not a regular file"):
-        loop.survey(m, [flight], jobs=1, resume=pipe)

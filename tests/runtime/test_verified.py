@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -105,16 +104,6 @@ def test_what_is_damaged_is_derived_anew(model: Path, monkeypatch: pytest.Monkey
     assert count == [1]
 
 
-def test_only_so_many_are_kept(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "MOST_KEPT", 3)
-    for file in (model.parent / "cache" / "derived").iterdir():
-        file.unlink()
-    for n in range(5):
-        derived_cache.keep(f"{n}", {"manifest.json": "{}"})
-        os.utime(model.parent / "cache" / "derived" / f"{n}.json", (n, n))
-    assert [derived_cache.kept(f"{n}") is not None for n in range(5)] == [False, False, True, True, True]
-
-
 def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = (ROOT / "ragg_runtime" / "example.toml").read_text("utf-8")
     line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { unit = "ug/g^2" } }'
@@ -147,10 +136,3 @@ def test_values_are_no_part_of_the_request() -> None:
         for v in ("", "value = 3,", "value = [1, 2, 3, 4],")
     }
     assert len(found) == 1
-
-
-def test_a_list_that_cannot_be_written_only_costs_time(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "_folder", lambda: Path("/proc/nowhere/derived"))
-    count = derives(monkeypatch)
-    assert [e.id for e in loop.load(model).model.effects] == ["gain-drift"]
-    assert count == [1]

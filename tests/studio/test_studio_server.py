@@ -284,16 +284,6 @@ def test_a_long_or_broken_body_is_refused(client: httpx.Client) -> None:
     assert client.post("/api/do/unheard-of", json={}).status_code == 400
 
 
-def test_figures_of_strange_questions_are_refused_in_words(client: httpx.Client) -> None:
-    settled(client)
-    for question in ("series?flight=99", "series?what=nothing", "series?from=nan", "series?unit=ft", "heat?flight=-1",
-                     "spectrum?from=5&to=5", "series?what=channel:nothing", "series?what=term:cos%201:nothing",
-                     "take/nothing", "spectrogram?from=1&to=2"):  # fmt: skip
-        answer = client.get(f"/api/{question}")
-        assert answer.status_code == 400, question
-        assert answer.json()["error"]["what"]
-
-
 def test_what_is_drawn_is_what_the_commands_compute(client: httpx.Client) -> None:
     state = settled(client)
     assert state["banner"]["verdict"] == "missing-effect"
