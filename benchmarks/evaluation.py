@@ -68,7 +68,7 @@ def contenders(p: Any) -> tuple[dict[str, Callable[[Any, Any, Any], object]], di
 
     compiled, blocks = packaged().compiled("c"), packaged().compiled("numpy")
     ours = {
-        OURS: lambda t, x, out: compiled.output(t, x, p, threads=1, out=out),
+        OURS: lambda t, x, out: compiled.output(t, x, p, out=out),
         OURS_NUMPY: lambda t, x, out: blocks.output(t, x, p, out=out),
     }
     others, missing = rivals.available(p)
@@ -175,26 +175,7 @@ def run() -> list[Row]:
         rows += bound_rows(times[OURS], floor, n, label)
     rows += limits.rows(1e9 * times[OURS].median / IN_CACHE)
     rows += instruments.rows(t, x, p)
-    if len(cores) > 1:
-        os.sched_setaffinity(0, cores)
-        rows += threads(t, x, p, len(cores))
     for name, reason in missing.items():
         print(f"missing: {name}: {reason}", file=sys.stderr)
         rows.append(Row(f"{name}: missing", float("nan"), "ns", reason))
     return rows
-
-
-def threads(t: Any, x: Any, p: Any, cores: int) -> list[Row]:
-    """One thread against as many as there are cores, streaming."""
-    import numpy as np
-
-    from ragg_runtime.model.model import packaged
-
-    c, out = packaged().compiled("c"), np.empty(len(t))
-    times = interleaved(
-        {str(k): lambda k=k: c.output(t, x, p, threads=k, out=out) for k in (1, cores)},
-        15,  # type: ignore[misc]
-    )
-    r = ratio(times["1"], times[str(cores)])
-    name = f"one thread / {cores} threads, streaming"
-    return [Row(name, r.value, RATIO, "wall clock; same bits", low=r.low, high=r.high)]

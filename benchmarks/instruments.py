@@ -31,7 +31,7 @@ def rows(t: Any, x: Any, p: Any) -> list[Row]:
     for label, n, rounds, inner in (("streaming", STREAMING, 15, 1), ("in cache", IN_CACHE, 15, 20)):
         s, y, out = aligned(t[:n]), aligned(wide[:, :n]), aligned(np.zeros(n))
         calls: Mapping[str, Callable[[], object]] = {
-            name: partial(e.output, s, y[: len(e.inputs)], q, threads=1, out=out) for name, e, q, _ in models
+            name: partial(e.output, s, y[: len(e.inputs)], q, out=out) for name, e, q, _ in models
         }
         times = interleaved(calls, rounds, inner, clock=time.process_time, prime=inner > 1)
         for name, _, _, limit in models[1:]:

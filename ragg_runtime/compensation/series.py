@@ -188,7 +188,7 @@ class Segment:
         """G_out (n,), V, of some samples by parameters p (size,), SI."""
         r, place = self.record, self.s.observation.place
         q = p - self.late
-        return self.s.evaluator.output(r.time[some], self.inputs(some), q, r.phi[some], 1, which=place)
+        return self.s.evaluator.output(r.time[some], self.inputs(some), q, r.phi[some], which=place)
 
     def inputs(self, some: slice) -> list[Array | None]:
         """The model's inputs of some samples; ``None``: zero."""

@@ -179,8 +179,8 @@ class _Module:
         V = self.evaluator.voltages(*self._case(o, some), members=o.output.members)
         found[:, some] = V if o.recorded.separate else np.array(o.output.signs, dtype=np.float64) @ V
 
-    def _case(self, o: Observation, some: slice) -> tuple[Array, Array, Array, Array, int]:
-        return o.record.time[some], self.inputs[:, some], self.p, o.record.phi[some], 1
+    def _case(self, o: Observation, some: slice) -> tuple[Array, Array, Array, Array]:
+        return o.record.time[some], self.inputs[:, some], self.p, o.record.phi[some]
 
 
 def linearised(at: Point, o: Observation) -> Array:
@@ -189,7 +189,7 @@ def linearised(at: Point, o: Observation) -> Array:
     evaluators, (r, p) = at.model.evaluators, about(at.model, o.record, at.p)
 
     def module(name: str, chain: Chain, p: Array, rows: _Rows) -> _Module:
-        return _Module(evaluator=evaluators[name], inputs=r.inputs(chain), p=p, rows=rows)
+        return _Module(evaluator=evaluators(name), inputs=r.inputs(chain), p=p, rows=rows)
 
     chain = module("chain", at.model.chain, p, at.rows[0])
     modules = [chain]
@@ -249,7 +249,7 @@ def _known(at: Point, thin: Thin) -> dict[tuple[int, int], Array]:
 def left(at: Point, o: Observation) -> Array:
     """Residual (m, N), V, at a point; between its neighbours where a sample is not valid."""
     r, p = about(at.model, o.record, at.p)
-    evaluator, inputs = at.model.evaluators["chain"], r.inputs(at.model.chain)
+    evaluator, inputs = at.model.evaluators("chain"), r.inputs(at.model.chain)
     chain = _Module(evaluator=evaluator, inputs=inputs, p=p, rows=at.rows[0])
     found = np.empty((len(o.series), len(r.time)))
     for some in stretches(len(r.time), CACHED):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import json
 import sys
-from collections.abc import Container, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from importlib import resources
@@ -161,7 +161,7 @@ class Model:
         return {i: every[i] for i in sorted(e.id for e in self.candidates if e.kind == "output")}
 
     @cached_property
-    def evaluators(self) -> Mapping[str, Evaluator]:
+    def evaluators(self) -> Callable[[str], Evaluator]:
         """``chain`` and ``signatures``, as fits evaluate them."""
         from ragg_runtime.model.native import for_fits
 

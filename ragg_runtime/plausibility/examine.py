@@ -169,9 +169,9 @@ def _left_over(model: Model, evaluator: Evaluator, p: Picker, fitted: Array, row
         some = p.pick(np.arange(start, stop))
         x = some.inputs(model.chain)
         if p.recorded.separate:
-            says = evaluator.voltages(some.time, x, fitted, some.phi, 1, p.output.members)
+            says = evaluator.voltages(some.time, x, fitted, some.phi, p.output.members)
         else:
-            says = evaluator.output(some.time, x, fitted, some.phi, 1, which=p.place)[None]
+            says = evaluator.output(some.time, x, fitted, some.phi, which=p.place)[None]
         np.subtract(some.data, says, out=left[:, start - rows.start : stop - rows.start])
     left /= scale_factor(model, fitted, p.place)
     return left

@@ -9,11 +9,10 @@ there is no compiler the generated NumPy code serves, which is said once. The en
 from __future__ import annotations
 
 from ragg_runtime.model.native.backends import Compiled, Evaluator, Interpreted, evaluator, for_fits
-from ragg_runtime.model.native.compiler import BuildError, Built, NativeWarning, build
+from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 
 __all__ = [
     "BuildError",
-    "Built",
     "Compiled",
     "Evaluator",
     "Interpreted",

@@ -1,12 +1,9 @@
-"""Arguments of an evaluation: checked, cut into parts, worked on in threads."""
+"""Arguments of an evaluation, checked."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TypeGuard
 
 import numpy as np
@@ -20,12 +17,6 @@ Array = NDArray[np.float64]
 Series = Sequence[ArrayLike | None] | NDArray[np.floating]
 """Inputs, one series of N samples each, in the order of the model; ``None``: not recorded, zero (the rate of the disc
 angle: 2 pi spin_frequency)."""
-
-BLOCK = 4096
-"""Samples that threads and NumPy blocks are cut at: a multiple of the block of the generated C."""
-
-WORTH_A_THREAD = 1 << 16
-"""Fewer samples than these are not worth a thread."""
 
 
 def address(x: Array) -> int:
@@ -55,12 +46,10 @@ class Case:
             return [first + step * k for k in range(len(self.inputs))]
         return [address(x) for x in self.inputs]
 
-    def part(self, first: int, last: int) -> Case:
-        cut = slice(first, last)
-        angle = None if self.angle is None else self.angle[cut]
-        if isinstance(self.inputs, np.ndarray):
-            return Case(self.t[cut], self.inputs[:, cut], self.p, angle)
-        return Case(self.t[cut], tuple(x[cut] for x in self.inputs), self.p, angle)
+    def part(self, some: slice) -> Case:
+        """Some of the samples."""
+        angle = None if self.angle is None else self.angle[some]
+        return Case(self.t[some], self.matrix[:, some], self.p, angle)
 
 
 @dataclass(frozen=True)
@@ -154,26 +143,3 @@ def into(out: Array | None, length: int) -> Array:
             expected=f"contiguous float64, shape ({length},)",
         )
     return out
-
-
-def cut(n: int, threads: int | None) -> list[tuple[int, int]]:
-    """Parts of n samples for threads (``None``: as many as are worth it), at multiples of BLOCK."""
-    if threads is None:
-        available = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        threads = min(available, n // WORTH_A_THREAD)
-    blocks = -(-n // BLOCK)
-    threads = max(1, min(threads, blocks))
-    edges = [min(n, BLOCK * (blocks * k // threads)) for k in range(threads + 1)]
-    return [(a, b) for a, b in pairwise(edges) if a < b]
-
-
-def in_parts(c: Case, threads: int | None, work: Callable[[Case, int, int], None]) -> None:
-    """Call ``work`` on every part of a case, in threads if there are several."""
-    parts = cut(len(c.t), threads)
-    if len(parts) <= 1:
-        for first, last in parts:
-            work(c, first, last)
-        return
-    with ThreadPoolExecutor(len(parts)) as pool:
-        for running in [pool.submit(work, c.part(a, b), a, b) for a, b in parts]:
-            running.result()

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from types import ModuleType
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.threads import stretches
 from ragg_runtime.instrument.layout import PAPER, Layout
 from ragg_runtime.model.chain import Chain
-from ragg_runtime.model.native.arguments import Base, Case, Series, cut, in_parts, into
+from ragg_runtime.model.native.arguments import Base, Case, Series, into
 from ragg_runtime.model.native.compiler import BuildError, NativeWarning, build
 from ragg_runtime.model.native.library import Library
 
@@ -22,63 +24,17 @@ Array = NDArray[np.float64]
 Backend = Literal["auto", "c", "numpy"]
 
 
-class Evaluator(Protocol):
-    """A model to be evaluated. Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS.
-
-    Of a layout with several discs an angle is that of the disc whose accelerometers are asked for.
-    ``angle`` is the disc angle, rad, (N,); by default 2 pi spin_frequency t, reduced exactly. Series that are
-    contiguous float64 are used where they lie; others are converted. The figures do not depend on the number
-    of threads.
-    """
-
-    @property
-    def backend(self) -> str:
-        """``c`` or ``numpy``."""
-
-    @property
-    def inputs(self) -> tuple[str, ...]:
-        """The names of the series, in order."""
-
-    def output(
-        self,
-        t: ArrayLike,
-        inputs: Series,
-        p: ArrayLike,
-        angle: ArrayLike | None = None,
-        threads: int | None = None,
-        out: Array | None = None,
-        which: int = 0,
-    ) -> Array:
-        """G_out, or another of the layout's outputs, (N,), V; into ``out``, contiguous float64, where that is given."""
-
-    def voltages(
-        self,
-        t: ArrayLike,
-        inputs: Series,
-        p: ArrayLike,
-        angle: ArrayLike | None = None,
-        threads: int | None = None,
-        members: Sequence[int] | None = None,
-    ) -> Array:
-        """V_1 ... V_4, or those of some accelerometers (counted from 0), (members, N), V."""
-
-    def derivatives(
-        self,
-        j: int,
-        t: ArrayLike,
-        inputs: Series,
-        p: ArrayLike,
-        angle: ArrayLike | None = None,
-        threads: int | None = None,
-    ) -> Array:
-        """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
+BLOCK = 4096
+"""Samples that NumPy evaluates at a time, in cache."""
 
 
 @dataclass(frozen=True)
 class Compiled(Base):
-    """A model in machine code; ``folded``: the library also holds the folded form, for outputs.
+    """A model in machine code. Times t in s, (N,); parameters p in SI, in the order of the model's PARAMETERS.
 
-    ``name`` is the generated module's.
+    ``angle`` is the disc angle, rad, (N,), of several discs that of the one whose accelerometers are asked for; by default
+    2 pi spin_frequency t, reduced exactly. Series that are contiguous float64 are used where they lie; others are converted.
+    ``folded``: the library also holds the folded form, for outputs. ``name`` is the generated module's.
     """
 
     library: Library
@@ -92,19 +48,14 @@ class Compiled(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
         out: Array | None = None,
         which: int = 0,
     ) -> Array:
+        """G_out, or another of the layout's outputs, (N,), V; into ``out``, contiguous float64, where that is given."""
         case = self.case(t, inputs, p, angle)
         G = into(out, len(case.t))
         name = "folded" if self.folded else self.name
-        leading = (which,) if self.several else ()
-
-        def work(c: Case, first: int, last: int) -> None:
-            self.library.series(name, "output", c, G[first:last], leading)
-
-        in_parts(case, threads, work)
+        self.library.series(name, "output", case, G, (which,) if self.several else ())
         return G
 
     def voltages(
@@ -113,15 +64,15 @@ class Compiled(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
         members: Sequence[int] | None = None,
     ) -> Array:
+        """V_1 ... V_4, or those of some accelerometers (counted from 0), (members, N), V."""
         case = self.case(t, inputs, p, angle)
         if not self.several:
-            V = self._rows("voltages", 4, case, threads)
+            V = self._rows("voltages", 4, case)
             return V if members is None or tuple(members) == (0, 1, 2, 3) else V[list(members)]
         wanted = range(self.size) if members is None else members
-        return np.concatenate([self._rows("voltage", 1, case, threads, (j,)) for j in wanted])
+        return np.concatenate([self._rows("voltage", 1, case, (j,)) for j in wanted])
 
     def derivatives(
         self,
@@ -130,30 +81,20 @@ class Compiled(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
     ) -> Array:
+        """Derivatives of V_j, j counted from 0, (rows, N), in the order of the chain's ROWS."""
         c = self.case(t, inputs, p, angle)
-        return self._rows("derivatives", len(self.chain.ROWS), c, threads, (_accelerometer(j, self.size),))
+        return self._rows("derivatives", len(self.chain.ROWS), c, (_accelerometer(j, self.size),))
 
-    def _rows(
-        self, function: str, rows: int, case: Case, threads: int | None, leading: Sequence[int] = ()
-    ) -> Array:
+    def _rows(self, function: str, rows: int, case: Case, leading: Sequence[int] = ()) -> Array:
         found = np.empty((rows, len(case.t)))
-
-        def work(c: Case, first: int, last: int) -> None:
-            whole = last - first == found.shape[1]
-            part = found if whole else np.empty((rows, last - first))
-            self.library.series(self.name, function, c, part, leading)
-            if not whole:
-                found[:, first:last] = part
-
-        in_parts(case, threads, work)
+        self.library.series(self.name, function, case, found, leading)
         return found
 
 
 @dataclass(frozen=True)
 class Interpreted(Base):
-    """A model in NumPy, in blocks that stay in cache; ``folded``: its folded form, if it has one."""
+    """The same in NumPy, in blocks that stay in cache; ``folded``: its folded form, if it has one."""
 
     folded: ModuleType | None
     backend: str = "numpy"
@@ -164,22 +105,21 @@ class Interpreted(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
         out: Array | None = None,
         which: int = 0,
     ) -> Array:
         if self.folded is None:
             o = self.layout.outputs[which]
-            v = self.voltages(t, inputs, p, angle, threads, o.members)
+            v = self.voltages(t, inputs, p, angle, o.members)
             G = into(out, v.shape[1])
             G[:] = o.combined(v)
             return G
         c = self.case(t, inputs, p, angle)
         G = into(out, len(c.t))
         of_several = {"which": which} if self.several else {}
-        for first, last in cut(len(G), len(G)):
-            b = c.part(first, last)
-            G[first:last] = self.folded.output(b.t, b.matrix, b.p, b.angle, **of_several)
+        for some in stretches(len(G), BLOCK):
+            b = c.part(some)
+            G[some] = self.folded.output(b.t, b.matrix, b.p, b.angle, **of_several)
         return G
 
     def voltages(
@@ -188,7 +128,6 @@ class Interpreted(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
         members: Sequence[int] | None = None,
     ) -> Array:
         c = self.case(t, inputs, p, angle)
@@ -205,7 +144,6 @@ class Interpreted(Base):
         inputs: Series,
         p: ArrayLike,
         angle: ArrayLike | None = None,
-        threads: int | None = None,
     ) -> Array:
         c = self.case(t, inputs, p, angle)
         D = np.empty((len(self.chain.ROWS), len(c.t)))
@@ -217,10 +155,13 @@ class Interpreted(Base):
 
         q = self.chain.values_of(j, c.p)
         spin = float(q[1])
-        for first, last in cut(len(c.t), len(c.t)):
-            b = c.part(first, last)
+        for some in stretches(len(c.t), BLOCK):
+            b = c.part(some)
             phi = disc_angle(b.t, spin) if b.angle is None else b.angle
-            found[..., first:last] = function(j, b.t, np.cos(phi), np.sin(phi), b.matrix, q)
+            found[..., some] = function(j, b.t, np.cos(phi), np.sin(phi), b.matrix, q)
+
+
+Evaluator = Compiled | Interpreted
 
 
 def _accelerometer(j: int, count: int) -> int:
@@ -228,17 +169,6 @@ def _accelerometer(j: int, count: int) -> int:
         expected = "0, 1, 2 or 3" if count == 4 else f"0 ... {count - 1}"
         raise UserError("there is no such accelerometer", found=j, expected=expected)
     return j
-
-
-def _loaded(sources: Mapping[str, str], *, quick: bool = False) -> Library:
-    """The library of these sources; made anew where another process has cleared it away before it was opened."""
-    built = build(sources, quick=quick)
-    try:
-        return Library(built.library)
-    except BuildError:
-        if built.library.exists():
-            raise
-        return Library(build(sources, quick=quick).library)
 
 
 _said: list[str] = []
@@ -261,7 +191,7 @@ def evaluator(
     if backend == "numpy":
         return Interpreted(chain, layout, folded)
     try:
-        return Compiled(chain, layout, _loaded(sources), "folded.c" in sources)
+        return Compiled(chain, layout, Library(build(sources)), "folded.c" in sources)
     except BuildError as error:
         if backend == "c":
             raise UserError("the model cannot be compiled", found=str(error)) from None
@@ -281,41 +211,21 @@ def for_fits(
     layout: Layout = PAPER,
     *,
     quick: bool = False,
-) -> Mapping[str, Evaluator]:
-    """Evaluators of generated modules (name -> module) for their derivatives, each made when it is asked for.
+) -> Callable[[str], Evaluator]:
+    """Evaluators of generated modules (name -> module) for their derivatives, each made when it is asked for by name.
 
     In machine code where ``sources`` holds a module's C and it can be compiled (``quick``: in a third of the time, to code
     that is as fast where memory is what it waits for); else in NumPy, without a note: a fit is a little slower then, and
     the same but for rounding.
     """
-    return _ForFits(modules, sources, layout, quick)
 
+    def made(name: str) -> Evaluator:
+        own = {n: text for n, text in sources.items() if n.partition(".")[0] == name}
+        try:
+            if own:
+                return Compiled(modules[name], layout, Library(build(own, quick=quick)), False, name=name)
+        except BuildError:
+            pass
+        return Interpreted(modules[name], layout, None)
 
-class _ForFits(Mapping[str, Evaluator]):
-    def __init__(
-        self, modules: Mapping[str, Chain], sources: Mapping[str, str], layout: Layout, quick: bool
-    ) -> None:
-        self._modules, self._sources, self._layout, self._quick = modules, sources, layout, quick
-        self._made: dict[str, Evaluator] = {}
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._modules)
-
-    def __len__(self) -> int:
-        return len(self._modules)
-
-    def __getitem__(self, name: str) -> Evaluator:
-        if name not in self._made:
-            self._made[name] = self._evaluator(name)
-        return self._made[name]
-
-    def _evaluator(self, name: str) -> Evaluator:
-        module = self._modules[name]
-        own = {n: text for n, text in self._sources.items() if n.partition(".")[0] == name}
-        if own:
-            try:
-                library = _loaded(own, quick=self._quick)
-                return Compiled(module, self._layout, library, False, name=name)
-            except BuildError:
-                pass
-        return Interpreted(module, self._layout, None)
+    return cache(made)

@@ -51,15 +51,13 @@ def changes(
             some = slice(first, first + TOGETHER)
             e.library.changes("folded", e.case(t, x, p, angle), p + steps[some], few, weights, found[some])
         return found
-    reference = e.output(t, x, p, angle, 1, which=which)
+    reference = e.output(t, x, p, angle, which=which)
     by_group = weights[:, : count * few].reshape(2, count, few) / few
     return np.array(
         [
             np.einsum(
                 "nf,wnf->wn",
-                (e.output(t, x, p + step, angle, 1, which=which) - reference)[: count * few].reshape(
-                    count, few
-                ),
+                (e.output(t, x, p + step, angle, which=which) - reference)[: count * few].reshape(count, few),
                 by_group,
             )
             for step in steps

@@ -22,6 +22,7 @@ class Library:
         try:
             self._library = ctypes.CDLL(str(file))
         except OSError as error:
+            file.unlink(missing_ok=True)  # damaged: it is made anew the next time
             raise BuildError(f"the compiled model cannot be loaded: {error}") from None
         self._functions: dict[tuple[str, str], ctypes._NamedFuncPointer] = {}
 
