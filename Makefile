@@ -57,7 +57,7 @@ $(RIVALS): requirements.lock pyproject.toml
 	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(PINS) > .venv-bench/pins
-	@for name in casadi heyoka jax numba symforce statsmodels; do \
+	@for name in casadi heyoka jax numba symforce; do \
 	  .venv-bench/bin/python -m pip install --quiet --disable-pip-version-check -c .venv-bench/pins $$name \
 	    || echo "$$name cannot be installed here"; done
 	@touch $@
