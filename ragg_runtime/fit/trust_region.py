@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import optimize
 
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
+
 Array = NDArray[np.float64]
 
 SETTLED = 0.01
@@ -212,7 +214,8 @@ def minimise(
             if creeps or (fallen < SETTLED and at.decrement < VALLEY):
                 return ended(True, "nothing worth having is left to gain")
         elif radius < _smallest(x):
-            if at.decrement < VALLEY:  # of a record without noise what is promised may be rounding
+            # where samples come and go with the parameters, or all is rounding, what is promised is not there
+            if at.decrement < INDISTINGUISHABLE:
                 return ended(True, "nothing worth having is left to gain")
             return ended(False, "no step, however small, lowers the misfit")
     return ended(settled(at), f"it was stopped after {most} trials")

@@ -116,7 +116,7 @@ def test_a_model_that_does_not_follow_its_slope_has_not_converged() -> None:
     assert not settled(found.at)
 
 
-@pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.0, False)])
+@pytest.mark.parametrize(("promise", "converged"), [(0.8, True), (2.5, True), (12.0, False)])
 def test_a_small_promise_that_drowns_in_rounding_is_none(promise: float, converged: bool) -> None:
     """Of a record without noise the sum of squares scatters by some tenths from one point to the next."""
 
