@@ -24,25 +24,19 @@ from ragg_runtime.model_dir.directory import load_model_dir
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 
+SURVEY = ["survey", "model", "flight.parquet", "--jobs", "1", "--resume", "r.jsonl", "--json", "s.json"]
+OLD = ([], ["new"], False)
 COMMANDS = {
-    "add": ["add", "model", "cubic-input", "flight.parquet"],
-    "calibrate": ["calibrate", "model", "flight.parquet", "--save"],
-    "survey": [
-        "survey",
-        "model",
-        "flight.parquet",
-        "--jobs",
-        "1",
-        "--resume",
-        "results.jsonl",
-        "--json",
-        "s.json",
-    ],
-    "compensate": ["compensate", "model", "flight.parquet", "-o", "out.csv"],
+    "add": (["add", "model", "lag", "flight.parquet"], (["lag"], ["new", "add"], False)),
+    "calibrate": (["calibrate", "model", "flight.parquet", "--save"], ([], ["new", "calibrate"], True)),
+    "survey": (SURVEY, OLD),
+    "compensate": (["compensate", "model", "flight.parquet", "-o", "out.csv"], OLD),
 }
-ROOT = Path(__file__).resolve().parents[2]
-RAGG = [sys.executable, "-m", "ragg_runtime"]
-ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+"""Name -> the command, and the state (effects, steps, calibrated) in which it leaves the model."""
+ENVIRONMENT = os.environ | {
+    "PYTHONPATH": str(Path(__file__).resolve().parents[2]),
+    "OPENBLAS_NUM_THREADS": "1",
+}
 
 
 def prepared(base: Path) -> Path:
@@ -54,16 +48,16 @@ def prepared(base: Path) -> Path:
 
 def run(arguments: Sequence[str], base: Path, seconds: float | None = None) -> tuple[int, str]:
     """Exit status and stderr of a command that is killed, with all its processes, after so many seconds."""
-    process = subprocess.Popen(
-        [*RAGG, *arguments], cwd=base, env=ENVIRONMENT, text=True, start_new_session=True,
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-    )  # fmt: skip
-    try:
-        said = process.communicate(timeout=seconds)[1]
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        said = process.communicate()[1]
-    return process.returncode, said
+    with subprocess.Popen(
+        [sys.executable, "-m", "ragg_runtime", *arguments], cwd=base, env=ENVIRONMENT, text=True,
+        start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        try:
+            said = process.communicate(timeout=seconds)[1]
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            said = process.communicate()[1]
+    return process.returncode, said[-1000:]
 
 
 def state(base: Path) -> tuple[list[str], list[str], bool]:
@@ -72,35 +66,22 @@ def state(base: Path) -> tuple[list[str], list[str], bool]:
     return [e.id for e in d.instrument.effects], [s.action for s in d.history], d.calibration is not None
 
 
-NEW = {
-    "add": (["cubic-input"], ["new", "add"], False),
-    "calibrate": ([], ["new", "calibrate"], True),
-    "survey": ([], ["new"], False),
-    "compensate": ([], ["new"], False),
-}
-OLD = ([], ["new"], False)
-
-
-def trial(command: str, start: Path, base: Path, seconds: float) -> tuple[str, str]:
+def trial(command: str, base: Path, seconds: float) -> tuple[str, str]:
     """What became of a killed command (``old``, ``new``), and what was wrong, if anything."""
-    shutil.copytree(start, base)
-    status, said = run(COMMANDS[command], base, seconds)
+    arguments, new = COMMANDS[command]
+    status, said = run(arguments, base, seconds)
     found = state(base)
-    if found not in (OLD, NEW[command]) or status not in (0, -signal.SIGKILL):
-        return "broken", f"{status}, {found}: {said[-1000:]}"
-    if status == 0 and found != NEW[command]:
-        return "broken", "it said that it was done, and it was not"
-    undo = command == "add" and found == NEW["add"]
-    status, said = run(["remove", "model", "cubic-input"] if undo else COMMANDS[command], base)
+    if found not in (OLD, new) or (status == 0 and found != new) or status not in (0, -signal.SIGKILL):
+        return "broken", f"{status}, {found}: {said}"
+    undone = command == "add" and found == new
+    status, said = run(["remove", "model", "lag"] if undone else arguments, base)
     effects = state(base)[0]
-    wrong = ""
-    if status != 0 or (effects != [] if undo else effects != NEW[command][0]):
-        wrong = f"the next command: {status}, {effects}: {said[-1000:]}"
+    if status != 0 or effects != ([] if undone else new[0]):
+        return "broken", f"the next command: {status}, {effects}: {said}"
     if command == "survey":
-        json.loads((base / "s.json").read_text("utf-8"))
+        assert len(json.loads((base / "s.json").read_text("utf-8"))["flights"]) == 1
     left = [p.name for p in (base / "model").iterdir() if p.name.startswith(".")]
-    shutil.rmtree(base)
-    return "new" if found == NEW[command] != OLD else "old", wrong or ", ".join(left)
+    return "new" if found == new != OLD else "old", ", ".join(left)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -115,20 +96,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         for n in range(a.trials):
             command = list(COMMANDS)[n % len(COMMANDS)]
             if command not in spent:
+                base = Path(shutil.copytree(start, Path(folder, command)))
                 began = time.monotonic()
-                shutil.copytree(start, Path(folder, command))
-                assert run(COMMANDS[command], Path(folder, command))[0] == 0
+                assert run(COMMANDS[command][0], base)[0] == 0
                 spent[command] = time.monotonic() - began
-            found, wrong = trial(
-                command, start, Path(folder, str(n)), chance.uniform(0.3, 1.05) * spent[command]
-            )
+            base = Path(shutil.copytree(start, Path(folder, str(n))))
+            found, wrong = trial(command, base, chance.uniform(0.3, 1.05) * spent[command])
+            shutil.rmtree(base)
             counts[command, found] += 1
             failed += bool(wrong)
             if wrong:
                 print(f"trial {n}: {command}: {wrong}", flush=True)
     for (command, found), count in sorted(counts.items()):
         print(f"{command:10} {found:6} {count:4}")
-    print(f"{a.trials} trials, {failed} failures (seed {a.seed})")
+    print(f"{a.trials} trials, {failed} failures (seed {a.seed})", flush=True)
     return int(failed > 0)
 
 
