@@ -15,8 +15,9 @@ import json
 import multiprocessing
 import subprocess
 import sys
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -85,25 +86,32 @@ class Cache:
 Task = Callable[[], dict[str, Any]]
 
 
-def run(tasks: dict[str, Task], cache: Cache, jobs: int) -> None:
+def run(tasks: dict[str, Task], cache: Cache, pool: Executor | None = None) -> None:
     """Do what is not done yet; an interruption loses only what is in the air."""
     missing = {k: t for k, t in tasks.items() if k not in cache.lines}
-    print(f"{len(tasks) - len(missing)} of {len(tasks)} are done already", file=sys.stderr)
     at = {"commit": commit()}
+    flying = {} if pool is None else {pool.submit(t): k for k, t in missing.items()}
+    results = ((k, t()) for k, t in missing.items())
+    if flying:
+        results = ((flying[future], future.result()) for future in as_completed(flying))
+    try:
+        for n, (key, result) in enumerate(results):
+            cache.add(key, at | result)
+            print(f"\r{n + 1} of {len(missing)} of {len(tasks)}: {key}\033[K", end="", file=sys.stderr)
+    except BaseException:
+        for future in flying:
+            future.cancel()
+        raise
+
+
+@contextmanager
+def pool_of(jobs: int) -> Iterator[Executor | None]:
+    """So many processes; none for one."""
     if jobs == 1:
-        for n, (key, task) in enumerate(missing.items()):
-            cache.add(key, at | task())
-            print(f"\r{n + 1} of {len(missing)}: {key}\033[K", end="", file=sys.stderr)
+        yield None
         return
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        flying = {pool.submit(t): k for k, t in missing.items()}
-        try:
-            for n, future in enumerate(as_completed(flying)):
-                cache.add(flying[future], at | future.result())
-                print(f"\r{n + 1} of {len(missing)}: {flying[future]}\033[K", end="", file=sys.stderr)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+        yield pool
 
 
 def flown(spec: Spec) -> dict[str, Any]:
@@ -125,44 +133,40 @@ def write_rows(rows: Iterable[Row], path: Path) -> None:
     print(f"written: {path}", file=sys.stderr)
 
 
-def _ablate(options: argparse.Namespace, source: str) -> None:
+def _ablate(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-ablation"), source)
-    rules = [r for r in ablation.RULES if r.there and (not options.rule or r.id in options.rule)]
-    for r in rules:
+    there = [r for r in ablation.RULES if r.there and (not options.rule or r.id in options.rule)]
+    rows = []
+    for r in there:
         flights = ablation.flights(r)
-        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, options.jobs)
+        run({f"/{s.id}": partial(ablation.watched, s) for s in flights}, cache, pool)
         acting = [s for s in flights if ablation.acts(r, cache.lines[f"/{s.id}"])]
-        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, options.jobs)
-        row = ablation.row(r, flights, cache.lines)
-        print("\n" + json.dumps(row), flush=True)
-    done = [r for r in ablation.RULES if ablation.complete(r, cache.lines)]
-    rows = [ablation.row(r, ablation.flights(r), cache.lines) for r in done]
+        run({f"{r.id}/{s.id}": partial(ablation.without, r.id, s) for s in acting}, cache, pool)
+        rows.append(ablation.row(r, flights, cache.lines))
+        print("\n" + "\n".join(table.ablation(rows[-1:])), flush=True)
     print("\n".join(table.ablation(rows)))
-    if options.save is not None:
-        write_rows(rows, options.save)
+    return rows
 
 
-def _fly(options: argparse.Namespace, source: str) -> None:
+def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache, source)
     specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n)]
     specs = [s for s in specs if not options.only or s.kind in options.only]
-    run({s.id: partial(flown, s) for s in specs}, cache, options.jobs)
+    run({s.id: partial(flown, s) for s in specs}, cache, pool)
     rows = [score.row(cache.lines[s.id]) for s in specs]
     print("\n" + "\n".join(table.flights(rows)))
     if options.against is not None:
         print("\n".join(table.against(rows, read_rows(options.against))))
-    if options.save is not None:
-        write_rows(rows, options.save)
+    return rows
 
 
-def _array(options: argparse.Namespace, source: str) -> None:
+def _array(options: argparse.Namespace, source: str, pool: Executor | None) -> list[Row]:
     cache = Cache(options.cache.with_stem(f"{options.cache.stem}-array"), source)
     tasks = {f"{r}/{c}": partial(array.asked, path, c) for r, path, c in array.cases(options.real)}
-    run(tasks, cache, options.jobs)
+    run(tasks, cache, pool)
     rows = [row for key in tasks for row in array.rows(key, cache.lines[key])]
     print("\n" + "\n".join(table.array(rows)))
-    if options.save is not None:
-        write_rows(rows, options.save)
+    return rows
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -199,8 +203,12 @@ def main(arguments: Sequence[str]) -> int:
         PAGE.write_text(table.page({n: read_rows(p) for n, p in RESULTS.items() if p.exists()}), "utf-8")
         return 0
     source = source_digest()
+    what = _ablate if options.ablate else _array if options.array else _fly
     try:
-        (_ablate if options.ablate else _array if options.array else _fly)(options, source)
+        with pool_of(options.jobs) as pool:
+            rows = what(options, source, pool)
+        if options.save is not None:
+            write_rows(rows, options.save)
     except KeyboardInterrupt:
         print("interrupted: run it again to go on", file=sys.stderr)
         return 130

@@ -637,12 +637,6 @@ def acts(rule: Rule, line: Mapping[str, Any]) -> bool:
     return rule.id in line["acted"]
 
 
-def complete(rule: Rule, lines: Mapping[str, Any]) -> bool:
-    """Whether all flights of a rule are there."""
-    on = [(s, lines.get(f"/{s.id}")) for s in flights(rule)]
-    return all(x is not None and (not acts(rule, x) or f"{rule.id}/{s.id}" in lines) for s, x in on)
-
-
 def row(rule: Rule, specs: Sequence[Spec], lines: Mapping[str, Any]) -> Row:
     """What changes without a rule."""
     pairs = []

@@ -9,6 +9,7 @@ import traceback
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -86,6 +87,7 @@ def _limited(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, old)
 
 
+@lru_cache(maxsize=128)
 def prepared(spec: Spec) -> Prepared:
     """The file of a flight."""
     w, kind = plan.world(spec), records.KINDS[spec.record]
