@@ -114,11 +114,6 @@ def pool_of(jobs: int) -> Iterator[Executor | None]:
         yield pool
 
 
-def flown(spec: Spec) -> dict[str, Any]:
-    """The line of a flight, with what it is."""
-    return {"id": spec.id, "kind": spec.kind, "record": spec.record} | fly(spec)
-
-
 def read_rows(path: Path) -> list[Row]:
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(file))
@@ -152,7 +147,7 @@ def _fly(options: argparse.Namespace, source: str, pool: Executor | None) -> lis
     cache = Cache(options.cache, source)
     specs = [s for n in options.seed or plan.REFERENCE for s in plan.specs(n)]
     specs = [s for s in specs if not options.only or s.kind in options.only]
-    run({s.id: partial(flown, s) for s in specs}, cache, pool)
+    run({s.id: partial(fly, s) for s in specs}, cache, pool)
     rows = [score.row(cache.lines[s.id]) for s in specs]
     print("\n" + "\n".join(table.flights(rows)))
     if options.against is not None:
@@ -196,7 +191,7 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(arguments)
     for name in options.flight:
         sample, kind, record, index = name.split("/")
-        print(json.dumps(flown(Spec(kind, record, int(index), int(sample))), indent=1))
+        print(json.dumps(fly(Spec(kind, record, int(index), int(sample))), indent=1))
     if options.flight:
         return 0
     if options.page:

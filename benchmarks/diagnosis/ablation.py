@@ -619,18 +619,14 @@ def watched(spec: Spec) -> dict[str, Any]:
     """The line of a flight with all rules on, and which of them did anything."""
     acted: set[str] = set()
     with watching(acted):
-        found = _line(spec)
+        found = fly(spec)
     return found | {"acted": sorted(acted)}
 
 
 def without(rule: str, spec: Spec) -> dict[str, Any]:
     """The line of a flight with a rule switched off."""
     with off(next(r for r in RULES if r.id == rule)):
-        return _line(spec)
-
-
-def _line(spec: Spec) -> dict[str, Any]:
-    return {"id": spec.id, "kind": spec.kind, "record": spec.record} | fly(spec)
+        return fly(spec)
 
 
 def acts(rule: Rule, line: Mapping[str, Any]) -> bool:

@@ -54,7 +54,7 @@ class Prepared:
 def fly(spec: Spec) -> dict[str, Any]:
     """The line of one flight; a crash is a result too."""
     begin, cpu = time.perf_counter(), time.process_time()
-    found: dict[str, Any] = {}
+    found: dict[str, Any] = {"id": spec.id, "kind": spec.kind, "record": spec.record}
     try:
         with _limited(LONGEST):
             p = prepared(spec)

@@ -99,7 +99,7 @@ def test_a_run_resumes_where_it_was_cut_off(tmp_path: Path, monkeypatch: pytest.
 
     def fake(spec: Spec) -> dict[str, Any]:
         asked.append(spec.id)
-        return {"crash": "no"}
+        return {"id": spec.id, "kind": spec.kind, "record": spec.record, "crash": "no"}
 
     monkeypatch.setattr(command, "fly", fake)
     arguments = ["--cache", str(tmp_path / "c.jsonl"), "--seed", "5", "--only", "pair"]
