@@ -24,7 +24,7 @@ def convert(source: Path, target: Path, mapping: Path | None) -> None:
 
     Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes CSV, Parquet and NetCDF.
     """
-    from ragg_runtime.flight.convert import convert as _convert
+    from ragg_runtime.flight.files import convert as _convert
     from ragg_runtime.flight.mapping import read_mapping
 
     if mapping is not None and mapping.resolve() == target.resolve():

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.flight import slow
 from ragg_runtime.flight.angular_acceleration import HEAD, Derivative, planned
-from ragg_runtime.flight.even_grid import differentiated, evenly
 from ragg_runtime.flight.record import (
     ANGULAR_ACCELERATION,
     ANGULAR_RATE,
@@ -92,7 +92,7 @@ class Layout:
             written={c.name: c.unit for c in self.columns},
         )
 
-    def _slower(self, time: Array, si: dict[str, Array], notes: list[str]) -> dict[str, slow.Slow]:
+    def _slower(self, time: Array, si: dict[str, Array], notes: list[str]) -> dict[str, Slow]:
         """Auxiliary channels of a lower rate; those that cannot be interpolated are taken out of ``si``."""
         whole = float(time[-1] - time[0])
         # One value in two seconds: more often than that, blanks are bridged where they stand.
@@ -101,21 +101,21 @@ class Layout:
         for name in [n for n in si if n not in SI_UNITS or n in AUXILIARY]:
             there = np.isfinite(si[name])
             count = int(np.sum(there))
-            if not 0 < count < min((1 - slow.SPARSE) * len(there), most + 1):
+            if not 0 < count < min((1 - SPARSE) * len(there), most + 1):
                 continue
             values = si[name][there]
-            judged = slow.judged(time[there], np.unwrap(values) if self.si_units[name] == "rad" else values)
-            if isinstance(judged, slow.Slow) and judged.covered < (1 - MOST_UNUSED) * whole:
-                judged = f"its values cover {judged.covered:.4g} s of {whole:.4g} s"
+            channel = judged(time[there], np.unwrap(values) if self.si_units[name] == "rad" else values)
+            if isinstance(channel, Slow) and channel.covered < (1 - MOST_UNUSED) * whole:
+                channel = f"its values cover {channel.covered:.4g} s of {whole:.4g} s"
             lacking = len(there) - count
-            if isinstance(judged, slow.Slow):
-                found[name] = judged
+            if isinstance(channel, Slow):
+                found[name] = channel
                 notes.append(
-                    f"{name}: recorded every {judged.step:.4g} s; interpolated (at {lacking} samples)"
+                    f"{name}: recorded every {channel.step:.4g} s; interpolated (at {lacking} samples)"
                 )
             else:
                 del si[name]
-                notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {judged}")
+                notes.append(f"{name}: without a value at {samples_of(lacking)}; left out: {channel}")
         return found
 
     def _derivative(self, time: Array, si: Mapping[str, Array]) -> Derivative:
@@ -344,3 +344,101 @@ def _check_gradient(channels: dict[str, Array], notes: list[str]) -> None:
             notes.append(
                 f"Gamma_xx + Gamma_yy + Gamma_zz reaches {trace / 1e-9:.3g} Eo; outside matter it is 0"
             )
+
+
+DEGREE = 5
+"""Of the splines: their derivative is as good as the finite differences'."""
+
+FEWEST = DEGREE + 3
+"""Samples from which one is drawn."""
+
+
+def differentiated(x: Array, grid: Grid, derivative: Derivative) -> tuple[Array, Mask]:
+    """Time derivative at the samples' own instants, and where it is good; where they jitter, by way of the even grid."""
+    resampled = evenly(x, grid)
+    slope, sure = derivative.of(resampled, 1 / grid.step)
+    there = np.isfinite(slope)
+    if resampled is x or np.sum(there) < FEWEST:
+        return slope, sure
+    even = _even(grid)
+    return np.where(there, make_interp_spline(even[there], slope[there], DEGREE)(grid.time), np.nan), sure
+
+
+def evenly(x: Array, grid: Grid) -> Array:
+    """Samples at evenly spaced instants; themselves where they do not jitter."""
+    there = np.isfinite(x)
+    if not grid.jitters or np.sum(there) < FEWEST:
+        return x
+    return np.where(there, make_interp_spline(grid.time[there], x[there], DEGREE)(_even(grid)), np.nan)
+
+
+def _even(grid: Grid) -> Array:
+    n = len(grid.time)
+    return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
+
+
+Array = NDArray[np.float64]
+
+SPARSE = 0.5
+"""Share of rows without a value from which a channel is one of a lower rate (rather than one with blanks)."""
+
+FEWEST_VALUES = 8
+"""Values that are needed to judge a channel."""
+
+REGULAR = 0.8
+"""Share of the channel's steps that must be within a half of the median step."""
+
+BRIDGED_STEPS = 3.0
+"""Longest gap, in steps of the channel, that is interpolated."""
+
+SLOW = 0.3
+"""Largest error, over the channel's standard deviation, of a value that is interpolated between its neighbours. Of a
+sinusoid that is one of eight values in a period; between the values, where half the step is bridged, the error is a
+fourth of it at most, rms a twentieth."""
+
+
+@dataclass(frozen=True)
+class Slow:
+    """The values of a channel at its own instants, and its step, s."""
+
+    time: Array
+    values: Array
+    step: float
+
+    @property
+    def covered(self) -> float:
+        """Time, s, in which there is a value."""
+        steps = np.diff(self.time)
+        return float(np.sum(steps[steps <= BRIDGED_STEPS * self.step]))
+
+    def at(self, time: Array) -> Array:
+        """(N,): interpolated; NaN before the first value, after the last and in gaps of more than ``BRIDGED_STEPS`` steps."""
+        found = np.interp(time, self.time, self.values)
+        after = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
+        wide = self.time[after] - self.time[after - 1] > BRIDGED_STEPS * self.step
+        inside = (time > self.time[after - 1]) & (time < self.time[after])
+        outside = (time < self.time[0]) | (time > self.time[-1])
+        found[(wide & inside) | outside] = np.nan
+        return np.asarray(found)
+
+
+def judged(time: Array, values: Array) -> Slow | str:
+    """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated, in words.
+
+    It is, linearly, if it was sampled regularly and is slow: left out one at a time, its values must follow from their
+    neighbours.
+    """
+    if len(values) < FEWEST_VALUES:
+        return f"it has {len(values)} value{'s' * (len(values) != 1)}"
+    steps = np.diff(time)
+    step = float(np.median(steps))
+    if np.mean(np.abs(steps - step) <= 0.5 * step) < REGULAR:
+        return "it is not recorded at regular intervals"
+    spread = float(np.std(values))
+    a, b = steps[:-1], steps[1:]
+    between = (values[:-2] * b + values[2:] * a) / (a + b)
+    near = np.maximum(a, b) <= BRIDGED_STEPS * step
+    error = float(np.sqrt(np.mean((values[1:-1] - between)[near] ** 2))) if near.any() else np.inf
+    if error > SLOW * spread:
+        return f"it changes too fast for one value in {step:.3g} s"
+    return Slow(time, values, step)

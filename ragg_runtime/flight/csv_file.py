@@ -18,9 +18,8 @@ import pyarrow as pa
 import pyarrow.csv
 
 from ragg_runtime.base.errors import UserError, at
-from ragg_runtime.flight.arrow import floats, texts
 from ragg_runtime.flight.instants import is_instant
-from ragg_runtime.flight.one_table import joined
+from ragg_runtime.flight.one_table import floats, joined, texts
 from ragg_runtime.flight.source import (
     Heading,
     Look,

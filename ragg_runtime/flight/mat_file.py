@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import hdf5_file
-from ragg_runtime.flight.shapes import Place, places
+from ragg_runtime.flight.hdf5_file import Place, places
 from ragg_runtime.flight.source import Heading, Look, Rows, Table, chosen, distinct, heading
 
 if TYPE_CHECKING:

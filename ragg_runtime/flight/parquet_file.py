@@ -11,8 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.arrow import floats, texts
-from ragg_runtime.flight.one_table import joined
+from ragg_runtime.flight.one_table import floats, joined, texts
 from ragg_runtime.flight.source import Heading, Look, Rows, Table, Written, distinct, heading, not_numbers
 
 NAME = "parquet"

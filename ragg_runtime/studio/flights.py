@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ragg_runtime.flight import timeline
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.flight.record import WIDEST_SPIKE
+from ragg_runtime.signals.derivative import runs
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 
@@ -33,8 +37,23 @@ def shown(s: State) -> list[Json]:
                 {"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency) * o.record.turning}
                 for o in seen
             ],
-            "missing": timeline.missing(seen[0].record.valid if seen else x.valid, x.rate),
+            "missing": missing(seen[0].record.valid if seen else x.valid, x.rate),
         }
         for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=True))
         for seen in [[o for o in observed if o.flight == n]]
     ]
+
+
+MOST = 300
+"""Marks of either kind on a timeline, the longest and the first: it has no more pixels for them."""
+
+
+def missing(valid: NDArray[np.bool_], rate: float) -> dict[str, Any]:
+    """Stretches (from, to, s since the first sample) without usable samples, and instants of those too short for a gap."""
+    lacking = runs(~valid)
+    gaps = [x for x in lacking if x.stop - x.start > WIDEST_SPIKE]
+    longest = sorted(gaps, key=lambda x: x.start - x.stop)[:MOST]
+    return {
+        "gaps": [[x.start / rate, x.stop / rate] for x in sorted(longest, key=lambda x: x.start)],
+        "alone": [x.start / rate for x in lacking if x.stop - x.start <= WIDEST_SPIKE][:MOST],
+    }

@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.same_record import same_record
+from ragg_runtime.flight.record import same_record
 from ragg_runtime.survey import cluster, local
 from ragg_runtime.survey.journal import Journal, journal
 from ragg_runtime.survey.result import Survey

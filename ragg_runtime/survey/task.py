@@ -33,7 +33,7 @@ from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.flight import Flight, read_flight
 from ragg_runtime.flight.mapping import Mapped, parse_mapping
-from ragg_runtime.flight.same_record import content
+from ragg_runtime.flight.record import content
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument

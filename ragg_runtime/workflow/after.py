@@ -36,7 +36,7 @@ from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.same_record import distinct
+from ragg_runtime.flight.record import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model_dir import derive

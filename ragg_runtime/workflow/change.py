@@ -12,7 +12,7 @@ from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import ParameterValue, calibrated
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.same_record import distinct
+from ragg_runtime.flight.record import distinct
 from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
 from ragg_runtime.instrument.instrument import EffectSetting
 from ragg_runtime.instrument.layout import PAPER

@@ -28,7 +28,7 @@ from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
-from ragg_runtime.flight.same_record import distinct
+from ragg_runtime.flight.record import distinct
 from ragg_runtime.instrument.units import read_quantity
 from ragg_runtime.model_dir import derive
 from ragg_runtime.workflow.change import Added as Added

@@ -13,8 +13,7 @@ import openpyxl
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.flight.convert import convert
-from ragg_runtime.flight.files import write_tables
+from ragg_runtime.flight.files import convert, write_tables
 from ragg_runtime.flight.formats import ALL, open_file
 from ragg_runtime.flight.netcdf_file import room
 from ragg_runtime.flight.source import Column, Look, Written

@@ -10,7 +10,7 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, write_flight
-from ragg_runtime.flight.same_record import distinct
+from ragg_runtime.flight.record import distinct
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
 from ragg_runtime.workflow.simulate import simulated

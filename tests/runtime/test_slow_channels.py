@@ -10,7 +10,7 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight, read_flight, write_flight
-from ragg_runtime.flight.slow import BRIDGED_STEPS, Slow, judged
+from ragg_runtime.flight.assemble import BRIDGED_STEPS, Slow, judged
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
 

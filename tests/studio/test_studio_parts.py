@@ -22,10 +22,10 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import write_flight
-from ragg_runtime.flight.timeline import missing
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session, views
+from ragg_runtime.studio.flights import missing
 from ragg_runtime.studio.maths import mathml
 from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.pyramid import HEAD, pyramid
