@@ -13,16 +13,27 @@ from numpy.typing import NDArray
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.threads import one_thread
-from ragg_runtime.compensation import contributions, frozen, schedule, spectrum
+from ragg_runtime.compensation import frozen
 from ragg_runtime.compensation.calibrated import information, inverse
 from ragg_runtime.compensation.saved import Saved
-from ragg_runtime.compensation.schedule import Stretch
-from ragg_runtime.compensation.series import MEANING, Quality, Series, Setting, basis, series
+from ragg_runtime.compensation.series import (
+    MEANING,
+    Quality,
+    Series,
+    Setting,
+    Stretch,
+    basis,
+    contributions,
+    crossed,
+    series,
+    whole,
+)
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import Observation, observations_of
 from ragg_runtime.fit.score import finite
 from ragg_runtime.fit.segments import ROWS, Segment, spread
+from ragg_runtime.fit.unknown_gradient import spin_frequency
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import sees
@@ -31,8 +42,62 @@ from ragg_runtime.model.evaluate import scale_factor
 from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
+from ragg_runtime.signals.derivative import runs
+from ragg_runtime.signals.noise_spectrum import Noise
+from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
+
+BAND = (0.02, 0.15)
+"""Frequencies, Hz, over which a density is averaged: below, the survey's own signal is larger; above, low-passes differ."""
+
+WINDOW = 128.0
+"""Length of the windows of a measured density, s."""
+
+GRID = 4001
+"""Frequencies at which the noise is integrated."""
+
+
+def of_noise(o: Observation, noise: Noise, d: Demodulator, k_ggi: float) -> tuple[float, float]:
+    """Standard deviations of inline and cross, Eo, that stationary noise of G_out causes; ``k_ggi`` in V/Eo."""
+    f = np.linspace(-0.5, 0.5, GRID)
+    carrier = 2 * spin_frequency(o)
+    passed = np.abs(d.response(f)) ** 2 * noise.psd(np.abs(carrier + f), o.signs)
+    cross = float(np.sqrt(np.sum(passed) * (f[1] - f[0]))) / k_ggi
+    return 2 * cross, cross
+
+
+class Density:
+    """Mean density of a series over :data:`BAND`, from segment after segment."""
+
+    def __init__(self, rate: float) -> None:
+        self.rate = rate
+        self.total, self.windows = np.zeros(2), 0.0
+
+    def add(self, g: NDArray[np.complex128]) -> None:
+        """Count in inline + i cross; NaN: none."""
+        n = int(WINDOW * self.rate)
+        for run in runs(np.isfinite(g.real)):
+            x = g[run]
+            if len(x) < n:
+                continue
+            count = len(x) // n
+            parts = np.stack([x.real, x.imag])[:, : count * n].reshape(2 * count, n)
+            slope = np.linspace(-1.0, 1.0, n)
+            even = parts - np.outer((parts @ slope) / (slope @ slope), slope)  # what is left of a drift
+            f, density = periodogram(even, self.rate)
+            p = np.mean(density.reshape(2, count, -1), axis=1)
+            inside = (f >= BAND[0]) & (f <= BAND[1])
+            self.total += count * np.mean(p[:, inside], axis=1)
+            self.windows += count
+
+    def as_json(self) -> dict[str, float | None]:
+        if not self.windows:
+            return {"inline_Eo_per_rtHz": None, "cross_Eo_per_rtHz": None}
+        inline, cross = np.sqrt(self.total / self.windows)
+        return {"inline_Eo_per_rtHz": float(inline), "cross_Eo_per_rtHz": float(cross)}
+
+
 Kind = Literal["frozen", "self", "crossed"]
 KINDS: tuple[Kind, ...] = ("self", "crossed", "frozen")
 
@@ -92,7 +157,7 @@ def prepared(
             raise UserError("a frozen compensation needs a saved calibration")
         c = frozen.calibration(saved, model, instrument, observations)
         root = frozen.root(saved, model, instrument)
-        stretches = [schedule.whole(c, root, len(o.record.time)) for o in observations]
+        stretches = [whole(c, root, len(o.record.time)) for o in observations]
         settled, validity = saved.converged, dict(saved.validity)
         change = frozen.looked(model, instrument, observations, saved, c)
     else:
@@ -100,9 +165,7 @@ def prepared(
         c, settled = f.calibration, f.calibration.converged
         root = inverse(information(f))
         stretches = (
-            schedule.crossed(f)
-            if kind == "crossed"
-            else [schedule.whole(c, root, len(o.record.time)) for o in observations]
+            crossed(f) if kind == "crossed" else [whole(c, root, len(o.record.time)) for o in observations]
         )
     return Prepared(
         kind=kind,
@@ -151,7 +214,7 @@ class Compensated:
         self.demodulator = demodulator(name, rate)
         _long_enough(self.flight, self.demodulator)
         k_ggi = scale_factor(p.model, p.calibration.p, o.place)
-        noise = spectrum.of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
+        noise = of_noise(o, p.calibration.noise[k], self.demodulator, k_ggi)
         self.model, self.instrument = p.model, p.instrument
         many = len(self.flight.time) >= MANY
         s = Setting(
@@ -168,7 +231,7 @@ class Compensated:
         U, rest = basis(s, [x.rows for x in spread(sought, SEARCHED)], NEGLECTED)
         self.setting = replace(s, stretches=tuple(x.along(U) for x in s.stretches), rest=rest)
         thin = rate / s.every
-        self.before, self.after = spectrum.Density(thin), spectrum.Density(thin)
+        self.before, self.after = Density(thin), Density(thin)
         self.count = 0
         self.bits = dict.fromkeys(Quality, 0)
         self.squares, self.good = np.zeros(2), 0
@@ -215,7 +278,7 @@ class Compensated:
             "good": self.good,
             "quality": {q.name: n for q, n in self.bits.items()},
             "density": {
-                "band_Hz": list(spectrum.BAND),
+                "band_Hz": list(BAND),
                 "before": self.before.as_json(),
                 "after": self.after.as_json(),
                 "noise": dict(zip(("inline_Eo_per_rtHz", "cross_Eo_per_rtHz"), expected, strict=True)),
@@ -225,7 +288,7 @@ class Compensated:
                 "parameters": dict(zip(("inline_Eo", "cross_Eo"), map(finite, rms), strict=True)),
                 "directions": len(self.setting.stretches[0].directions),
             },
-            "contributions": contributions.of(
+            "contributions": contributions(
                 self.setting,
                 [x.rows for x in spread(self._parts(self._rows()), 2)],
                 self.model,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import gzip
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import IO, Any
@@ -17,7 +18,98 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import replacing, require_room
+from ragg_runtime.compensation.compensate import Compensated
+from ragg_runtime.compensation.series import Series
 from ragg_runtime.flight.netcdf_file import room
+from ragg_runtime.flight.record import DEMODULATED
+from ragg_runtime.instrument.layout import column_endings
+from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Table:
+    """The columns of one flight, by its outputs that see a gradient.
+
+    Of an instrument with one output they are ``inline``, ``cross``, their standard uncertainties and ``quality``; with
+    several each has the output's own ending (``inline_A`` of ``G_out_A``). Three discs add the tensor and ``closure``.
+
+    Attributes
+    ----------
+    endings
+        Of every output; empty of an only one.
+    tensor
+        (6 + checks, 2 outputs): the tensor's components and the closure, by the channels; ``None``: not determined.
+    several
+        Whether there are several flights: then ``flight`` counts them from 1.
+    """
+
+    endings: tuple[str, ...]
+    tensor: Array | None
+    several: bool
+
+    @staticmethod
+    def of(outputs: Sequence[Compensated], *, several: bool) -> Table:
+        layout = outputs[0].instrument.layout
+        known = dict(zip(layout.output_names, column_endings(layout.output_names), strict=True))
+        endings = tuple(known[x.setting.observation.output.name] for x in outputs)
+        return Table(endings=endings, tensor=_by_channels(outputs), several=several)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Columns and their units, in order."""
+        found = {"time": "s"}
+        for end in self.endings:
+            found |= {f"{c}{end}": "Eo" for c in DEMODULATED}
+            found |= {f"{c}{end}_std": "Eo" for c in DEMODULATED}
+            found[f"quality{end}"] = "1"
+        if self.tensor is not None:
+            found |= {f"Gamma_{c}": "Eo" for c in COMPONENTS} | {f"Gamma_{c}_std": "Eo" for c in COMPONENTS}
+            found |= dict.fromkeys(self._checks, "1")
+        return found | ({"flight": "1"} if self.several else {})
+
+    @property
+    def _checks(self) -> list[str]:
+        count = 0 if self.tensor is None else len(self.tensor) - len(COMPONENTS)
+        return ["closure"] if count == 1 else [f"closure_{k + 1}" for k in range(count)]
+
+    def rows(self, time: Array, parts: Sequence[Series], number: int) -> dict[str, NDArray[np.generic]]:
+        """The columns of one segment: ``time`` (n,) s, a series of each output, and the number of the flight."""
+        found: dict[str, NDArray[np.generic]] = {"time": time}
+        for end, x in zip(self.endings, parts, strict=True):
+            found |= {f"inline{end}": x.gradient.real, f"cross{end}": x.gradient.imag}
+            found |= {f"inline{end}_std": x.std[0], f"cross{end}_std": x.std[1], f"quality{end}": x.quality}
+        if self.tensor is not None:
+            seen = np.concatenate([[x.gradient.real, x.gradient.imag] for x in parts])
+            std = np.concatenate([x.std for x in parts])
+            values = self.tensor @ seen
+            spread = np.sqrt(self.tensor[: len(COMPONENTS)] ** 2 @ std**2)
+            for k, c in enumerate(COMPONENTS):
+                found |= {f"Gamma_{c}": values[k], f"Gamma_{c}_std": spread[k]}
+            found |= dict(zip(self._checks, values[len(COMPONENTS) :], strict=True))
+        return found | {"flight": np.full(len(time), number, dtype=np.int64)}
+
+
+def _by_channels(outputs: Sequence[Compensated]) -> Array | None:
+    """The tensor and its closure by the channels; ``None`` where the outputs do not determine it."""
+    layout = outputs[0].instrument.layout
+    observed = [x.setting.observation for x in outputs]
+    axes = [layout.discs[o.output.disc].across for o in observed]
+    std = np.array([s for x in outputs for s in x.setting.noise])
+    try:
+        found: Tensor = tensor(axes, np.eye(2 * len(outputs)), std)
+    except UserError:
+        return None
+    return np.concatenate([found.gamma, found.closure])
+
+
+def joined(
+    parts: Sequence[Mapping[str, NDArray[np.generic]]], names: Sequence[str]
+) -> dict[str, NDArray[np.generic]]:
+    """The columns of all segments."""
+    return {n: np.concatenate([r[n] for r in parts]) for n in names}
+
 
 ENDINGS: Mapping[str, str] = MappingProxyType(
     {

@@ -12,16 +12,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import IntFlag
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.compensation.schedule import Stretch, within
+from ragg_runtime.compensation.calibrated import base, inverse, with_sheet
+from ragg_runtime.fit.calibrate import Calibration
+from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.observation import Observation, as_output
+from ragg_runtime.fit.segments import BLOCKS, block_edges
+from ragg_runtime.fit.square_root import join
+from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import X_AXIS, Y_AXIS
-from ragg_runtime.instrument.units import EOTVOS
+from ragg_runtime.instrument.parameters import PARAMETERS
+from ragg_runtime.instrument.units import EOTVOS, units
 from ragg_runtime.model import lateness
-from ragg_runtime.model.evaluate import scale_factor
+from ragg_runtime.model.evaluate import scale_factor, unit_factor
 from ragg_runtime.model.model import Model
 from ragg_runtime.model.native import Evaluator
 from ragg_runtime.model.native.changes import changes
@@ -30,6 +37,77 @@ from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.means import between
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Samples ``first`` to ``last`` of a flight with one parameter vector.
+
+    ``p`` (size,) in SI; ``directions`` (k, size): steps of one standard deviation, independent of one another, from
+    ``about``, where the fit was linearised: what it sees nothing of there it would seem to see elsewhere.
+    """
+
+    first: int
+    last: int
+    p: Array
+    about: Array
+    directions: Array
+
+    def along(self, basis: Array) -> Stretch:
+        """The same with fewer directions: ``basis`` (k, r), orthonormal columns."""
+        return replace(self, directions=basis.T @ self.directions)
+
+
+def _stretch(c: Calibration, first: int, last: int, p: Array, root: Array) -> Stretch:
+    scale = np.array([q.scale for q in c.columns])
+    directions = np.zeros((root.shape[1], len(p)))
+    directions[:, c.index] = root.T * scale
+    return Stretch(first=first, last=last, p=p, about=c.p, directions=directions)
+
+
+def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
+    """One calibration for all samples; ``root`` (n, k) of its covariance, in scales."""
+    return (_stretch(c, 0, samples, c.p, root),)
+
+
+def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
+    """Of every observation: each block of time with the calibration on everything else.
+
+    Of that block none of the outputs of the observation's flight counts.
+    """
+    c = f.calibration
+    scale = np.array([q.scale for q in c.columns])
+    all_of = [base(x, f.n_base) for x in f.triangles]
+    found = []
+    for o in f.observations:
+        edges = block_edges(len(o.record.time))
+        stretches = []
+        for b in range(BLOCKS):
+            block = (o.flight, b)
+            others = [
+                t
+                for x, ts in zip(f.observations, all_of, strict=True)
+                for y, t in enumerate(ts)
+                if (x.flight, y) != block
+            ]
+            normal = with_sheet(join(others), f.to_nominal)
+            p = c.p.copy()
+            p[c.index] += normal.step * scale
+            stretches.append(_stretch(c, int(edges[b]), int(edges[b + 1]), p, inverse(normal.R)))
+        found.append(tuple(stretches))
+    return found
+
+
+def within(stretches: Sequence[Stretch], first: int, last: int) -> list[tuple[slice, Stretch]]:
+    """The stretches of samples first ... last, with their places counted from ``first``."""
+    found = []
+    for s in stretches:
+        a, b = max(s.first, first), min(s.last, last)
+        if a < b:
+            found.append((slice(a - first, b - first), s))
+    return found
+
+
 Complex = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
@@ -385,3 +463,53 @@ def basis(s: Setting, samples: Sequence[slice], neglected: float) -> tuple[Array
     of_inline, of_cross = np.split(left[kept], 2)  # as many instants of both
     rest = np.mean(of_inline) * s.noise[0] ** 2, np.mean(of_cross) * s.noise[1] ** 2
     return U[:, : kept + 1], (float(rest[0]), float(rest[1]))
+
+
+def neutral(model: Model, instrument: Instrument, p: Array) -> list[tuple[str, str | None, Array]]:
+    """(name, effect, p with it at its neutral value) of everything that a model removes."""
+    places, start = {}, 0
+    for name, size in model.chain.PARAMETERS:
+        places[name] = slice(start, start + size)
+        start += size
+    found: list[tuple[str, str | None, Array]] = []
+    known = units(instrument.g0)
+    for e in model.effects:
+        changed = p.copy()
+        for q in e.parameters:
+            if q.fitted:
+                changed[places[q.symbol]] = (q.neutral or 0.0) * unit_factor(q.unit, known)
+        found.append((e.id, e.id, changed))
+    for q0 in PARAMETERS:
+        changed = p.copy()
+        own = changed[places[q0.name]]
+        # of a gain the mean carries the gradient itself: what disturbs is that the four differ
+        changed[places[q0.name]] = np.mean(own) if q0.required else 0.0
+        name = f"imbalance of {q0.name}" if q0.required else q0.name
+        if not np.array_equal(changed, p):
+            found.append((name, None, changed))
+    return found
+
+
+def contributions(
+    s: Setting, samples: Sequence[slice], model: Model, instrument: Instrument
+) -> list[dict[str, Any]]:
+    """Root mean squares of inline and cross, Eo, on some stretches of a flight, largest first."""
+    totals: dict[tuple[str, str | None], Array] = {}
+    count = 0
+    for rows in samples:
+        p = s.stretches[0].p
+        one = replace(s.stretches[0], first=0, last=len(s.observation.record.time))
+        segment = Segment(replace(s, stretches=(one,)), rows, holes=False)
+        good = (segment.quality()[segment.own] & NO_VALUE) == 0
+        count += int(np.sum(good))
+        for name, effect, changed in [("everything", None, np.zeros_like(p)), *neutral(model, instrument, p)]:
+            e = segment.bare if name == "everything" else segment.bare - segment.by(changed)
+            g = segment.demodulated(e)[segment.own][good]
+            part = np.array([np.sum(g.real**2), np.sum(g.imag**2)])
+            totals[name, effect] = totals.get((name, effect), np.zeros(2)) + part
+    rows_ = []
+    for (name, effect), squares in totals.items():
+        inline, cross = np.sqrt(squares / count) if count else (np.nan, np.nan)
+        if inline or cross:
+            rows_.append({"of": name, "effect": effect, "inline_Eo": float(inline), "cross_Eo": float(cross)})
+    return sorted(rows_, key=lambda r: -float(r["inline_Eo"] ** 2 + r["cross_Eo"] ** 2)) if count else []

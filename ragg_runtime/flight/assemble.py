@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
@@ -376,8 +375,6 @@ def _even(grid: Grid) -> Array:
     n = len(grid.time)
     return np.asarray(np.polyval(np.polyfit(np.arange(n), grid.time, 1), np.arange(n)))
 
-
-Array = NDArray[np.float64]
 
 SPARSE = 0.5
 """Share of rows without a value from which a channel is one of a lower rate (rather than one with blanks)."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument.unit_spelling import spellings
 
 if TYPE_CHECKING:
     import pint
+
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
@@ -297,3 +297,42 @@ def _complaint(text: str) -> str | None:
 
 def _dimension(unit: Any) -> str:
     return "dimension one" if unit.dimensionless else str(unit.dimensionality)
+
+
+_NAMED = {
+    spelling: unit
+    for unit, spellings in {
+        # EU would be an exa-enzyme-unit, gal a gallon and E nothing at all.
+        "Eo": ("E", "EU", "EO", "Eö", "EOTVOS", "Eötvös", "eötvös", "Eoetvoes", "eotvoes", "eotvos"),
+        "mEo": ("mE",),
+        "uEo": ("uE", "µE", "μE"),
+        "Gal": ("gal", "gals", "GAL"),
+        "mGal": ("mgal", "mgals", "MGAL", "milligal", "milliGal"),
+        "uGal": ("ugal", "µgal", "μgal", "microgal"),
+        "deg/s": ("dps", "DPS", "°/s", "deg/sec"),
+        "deg/h": ("dph", "°/h", "°/hr"),
+        "degC": ("deg C", "° C", "deg.C", "Celsius", "CELSIUS", "DEGC"),
+        "deg": ("DEG", "degs", "DEGREES", "Degrees"),
+        "rad": ("RAD", "rads"),
+        "s": ("SEC", "Seconds", "SECONDS"),
+        "m": ("METRES", "METERS"),
+        "V": ("VOLT", "VOLTS", "Volts"),
+        "1": ("unitless",),
+    }.items()
+    for spelling in spellings
+}
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
+
+def spellings(text: str) -> Iterator[str]:
+    """What ``text`` may stand for, in the order in which it is to be tried.
+
+    A spelling of the field comes before what the same letters mean elsewhere; exponents without a sign of
+    power (``m/s2``, ``m s-2``, ``m/s²``) are tried last, since the names of some units hold digits.
+    """
+    yield _NAMED.get(text, text)
+    plain = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS), text)
+    plain = re.sub(r"(?<=[^\W\d_])(-?\d+)(?![\w.])", r"^\1", plain)
+    plain = re.sub(r"(?<=[^\W_])\.(?=[^\W\d_])", "*", plain)  # m.s-2
+    if plain != text:
+        yield plain

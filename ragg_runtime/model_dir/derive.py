@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
 
 from ragg_runtime.base.errors import UserError, at, did_you_mean
-from ragg_runtime.instrument import stations
+from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
@@ -219,12 +219,12 @@ def _placed(layout: Layout) -> SymbolicLayout:
     if layout.like_paper:
         return QUARTERS
     outputs = tuple(Output(o.name, o.members, o.signs) for o in layout.outputs)
-    constants = stations.constants(layout)
+    constants = layouts.constants(layout)
     return SymbolicLayout(
         names=layout.names,
         constants=constants,
         outputs=outputs,
-        rest=rest_of_angles(stations.degrees(layout), constants["cos_j"], constants["sin_j"]),
+        rest=rest_of_angles(layouts.degrees(layout), constants["cos_j"], constants["sin_j"]),
         own=True,
     )
 

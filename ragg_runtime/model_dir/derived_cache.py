@@ -20,7 +20,7 @@ import platformdirs
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import write_text
-from ragg_runtime.instrument import stations
+from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model_dir.own_effects import own_sources
 
@@ -44,7 +44,7 @@ def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candida
         layout = instrument.layout
         asked += [
             layout.names,
-            dict(stations.constants(layout)),
+            dict(layouts.constants(layout)),
             [[o.name, o.members, o.signs] for o in layout.outputs],
         ]
     return _sha256(json.dumps(asked, sort_keys=True))

@@ -26,15 +26,12 @@ from ragg_runtime.compensation.compensate import (
     prepared,
 )
 from ragg_runtime.compensation.export.contents import Contents
-from ragg_runtime.compensation.export.document import json_files
-from ragg_runtime.compensation.export.folder import write_folder
-from ragg_runtime.compensation.export.numpy_folder import numpy_files
+from ragg_runtime.compensation.export.numpy_folder import json_files, numpy_files, write_folder
 from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.output import format_for, writing
+from ragg_runtime.compensation.output import Table, format_for, joined, writing
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import MEANING
-from ragg_runtime.compensation.table import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import distinct
 from ragg_runtime.model.evaluate import vector
@@ -111,7 +108,7 @@ def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
 class Compensation:
     """The result of ``compensate``.
 
-    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.table.Table`) of every flight,
+    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.output.Table`) of every flight,
     unless they went to a file; ``units`` are theirs, in order.
     """
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.recursive import Tuning, following
-from ragg_runtime.compensation.sample_by_sample import followed
+from ragg_runtime.compensation.recursive import Tuning, followed, following
 from ragg_runtime.compensation.saved import Saved
 from ragg_runtime.flight import Flight
 from ragg_runtime.workflow.loaded import Loaded

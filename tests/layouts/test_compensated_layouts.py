@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation.compensate import Compensated, Kind, Prepared, prepared
-from ragg_runtime.compensation.table import Table, joined
+from ragg_runtime.compensation.output import Table, joined
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument

@@ -14,8 +14,7 @@ import pytest
 
 from ragg_runtime.compensation.export.contents import Contents, unit_of
 from ragg_runtime.compensation.export.numpy_folder import numpy_files
-from ragg_runtime.compensation.export.online import table
-from ragg_runtime.compensation.export.program import c_program
+from ragg_runtime.compensation.export.program import c_program, table
 from ragg_runtime.compensation.recursive import Online, Tuning
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight import Flight, read_flight, write_flight

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from derive.symbols import MOTION
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.instrument import stations
+from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.chain import Chain
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -67,7 +67,7 @@ BALANCED = ("two", "complements", "umbrella", "vertical")
 
 def true_outputs(i: Instrument, chain: Chain, p: Array, phi: Array, x: Array) -> NDArray[np.object_]:
     """(outputs, N) at 50 digits: the channels as they are, the places as the sheet writes them."""
-    turns = stations.constants(i.layout)
+    turns = layouts.constants(i.layout)
     exact = i.form.preset == "exact"
     found = np.empty((len(i.layout.outputs), len(phi)), dtype=object)
     for k, o in enumerate(i.layout.outputs):

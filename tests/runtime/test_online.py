@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.compensation.export.online import table
+from ragg_runtime.compensation.export.program import table
 from ragg_runtime.compensation.recursive import UNKNOWN_EO, UPDATE, Online, Tuning
 from ragg_runtime.fit.observation import Observation, observe
 from ragg_runtime.flight import write_flight
