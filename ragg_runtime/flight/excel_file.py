@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import date, datetime, time
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -25,16 +26,6 @@ Cells = NDArray[Any]
 """(rows, columns) of a sheet as openpyxl gives them, "" for nothing."""
 
 
-@dataclass(frozen=True)
-class _Sheet:
-    place: str
-    columns: tuple[Heading, ...]
-    cells: Cells
-
-    def headings(self) -> tuple[Heading, ...]:
-        return self.columns
-
-
 def open_tables(path: Path, look: Look) -> Sequence[Table]:
     """The sheets of a workbook that hold tables; several that are alike are lines."""
     import pandas as pd  # slow to import, and only this format needs it
@@ -53,14 +44,10 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
             remedy="save it again, or as CSV",
         ) from None
     sheets = [_sheet(str(name), x.to_numpy(dtype=object), path, look) for name, x in frames.items()]
-    found = chosen(path, [s for s in sheets if s is not None], look)
-    return [
-        Table(path, s.columns, lambda s=s: _rows(s, path), s.place if len(found) > 1 else None)  # type: ignore[misc]
-        for s in found
-    ]
+    return chosen(path, [s for s in sheets if s is not None], look)
 
 
-def _sheet(name: str, cells: Cells, path: Path, look: Look) -> _Sheet | None:
+def _sheet(name: str, cells: Cells, path: Path, look: Look) -> Table | None:
     """What a sheet holds; ``None`` if there is no table in it."""
     cells = cells[np.any(cells != "", axis=1)] if cells.size else cells
     first = next((n for n, row in enumerate(cells[:_SNIFFED]) if _is_header(row)), None)
@@ -88,7 +75,8 @@ def _sheet(name: str, cells: Cells, path: Path, look: Look) -> _Sheet | None:
             found="text",
             expected="numbers",
         )
-    return _Sheet(place=name, columns=tuple(headings[n] for n in kept), cells=cells[:, kept])
+    columns = tuple(headings[n] for n in kept)
+    return Table(path, columns, partial(_rows, path, name, columns, cells[:, kept]), name, name)
 
 
 def _is_header(row: Cells) -> bool:
@@ -103,9 +91,9 @@ def _is_text(cells: Cells) -> bool:
     return not isinstance(value, int | float)
 
 
-def _rows(sheet: _Sheet, path: Path) -> Rows:
+def _rows(path: Path, sheet: str, columns: Sequence[Heading], whole: Cells) -> Rows:
     found: dict[str, NDArray[Any]] = {}
-    for h, cells in zip(sheet.columns, sheet.cells.T, strict=True):
+    for h, cells in zip(columns, whole.T, strict=True):
         if h.text:
             found[h.name] = np.array([_written(c) for c in cells], dtype=object)
             continue
@@ -113,9 +101,7 @@ def _rows(sheet: _Sheet, path: Path) -> Rows:
             if not isinstance(c, int | float) and str(c).strip():
                 raise UserError(
                     "not a number",
-                    where=at(
-                        path, f"sheet {sheet.place!r}", f"row {n} below the header", f"column {h.name!r}"
-                    ),
+                    where=at(path, f"sheet {sheet!r}", f"row {n} below the header", f"column {h.name!r}"),
                     found=repr(c)[:60],
                     expected="a number, or nothing where it is missing",
                 )

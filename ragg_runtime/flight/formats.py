@@ -1,10 +1,14 @@
-"""The file formats: one module each, one line here."""
+"""The file formats: one module each, one line here.
+
+A module has a ``NAME`` for messages, ``ENDINGS`` of file names, ``MAGIC`` (what files begin with; none for text) and
+``open_tables(path, look)``; one that is written has ``write_tables(path, tables)``, which keeps every bit.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, ModuleType
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import (
@@ -15,9 +19,9 @@ from ragg_runtime.flight import (
     netcdf_file,
     parquet_file,
 )
-from ragg_runtime.flight.source import Format, Look, Table, Writable
+from ragg_runtime.flight.source import Look, Table
 
-ALL: Sequence[Format] = (
+ALL: Sequence[ModuleType] = (
     csv_file,
     parquet_file,
     netcdf_file,
@@ -26,14 +30,14 @@ ALL: Sequence[Format] = (
     excel_file,
 )
 
-ENDINGS: Mapping[str, Format] = MappingProxyType({e: f for f in ALL for e in f.ENDINGS})
+ENDINGS: Mapping[str, ModuleType] = MappingProxyType({e: f for f in ALL for e in f.ENDINGS})
 """File name endings and the format that they stand for."""
 
 _FOREIGN = ((b"CDF", "classic NetCDF"), (b"\xd0\xcf\x11\xe0", "old Excel (.xls)"))
 _SNIFFED = 8
 
 
-def format_of(path: Path) -> Format:
+def format_of(path: Path) -> ModuleType:
     """The format by the ending of the name; UserError for any other."""
     ending = ending_of(path.name)
     if ending is not None:
@@ -47,15 +51,15 @@ def format_of(path: Path) -> Format:
     )
 
 
-def writable(path: Path) -> Writable:
+def writable(path: Path) -> ModuleType:
     """The same for a file to be written; UserError for formats that are read alone."""
     kind = format_of(path)
-    if isinstance(kind, Writable):
+    if hasattr(kind, "write_tables"):
         return kind
     raise UserError(
         f"{kind.NAME} files are read, not written",
         where=path,
-        expected=", ".join(e for f in ALL if isinstance(f, Writable) for e in f.ENDINGS),
+        expected=", ".join(e for f in ALL if hasattr(f, "write_tables") for e in f.ENDINGS),
         remedy="choose one of these formats",
     )
 
@@ -69,10 +73,11 @@ def open_file(path: Path, look: Look) -> Sequence[Table]:
     """The tables of a file, by the ending of its name and its content."""
     kind = format_of(path)
     check_content(path, kind)
-    return kind.open_tables(path, look)
+    tables: Sequence[Table] = kind.open_tables(path, look)
+    return tables
 
 
-def check_content(path: Path, expected: Format) -> None:
+def check_content(path: Path, expected: ModuleType) -> None:
     """Compare the first bytes of an existing file with its format."""
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise UserError(

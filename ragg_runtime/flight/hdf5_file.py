@@ -9,6 +9,7 @@ import contextlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -98,24 +99,8 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
 def tables_of(path: Path, look: Look, unit: UnitOf) -> list[Table]:
     """The tables of any file built on HDF5, with a function that finds a dataset's unit."""
     with opened(path) as file:
-        found = [t for t in _groups(file, look, unit, path) if t.columns]
-    found = chosen(path, found, look)
-    return [
-        Table(path, t.headings(), lambda t=t: _rows(path, t), t.line if len(found) > 1 else None)  # type: ignore[misc]
-        for t in found
-    ]
-
-
-@dataclass(frozen=True)
-class Group:
-    """A group that is a table: its place in the file, its columns, the name of the line it may be."""
-
-    place: str
-    line: str
-    columns: tuple[tuple[Heading, Place], ...]
-
-    def headings(self) -> tuple[Heading, ...]:
-        return tuple(h for h, _ in self.columns)
+        found = list(_groups(file, look, unit, path))
+    return chosen(path, found, look)
 
 
 def unit_of(data: h5py.Dataset) -> str:
@@ -142,7 +127,7 @@ def opened(path: Path) -> Iterator[h5py.File]:
         ) from None
 
 
-def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[Group]:
+def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[Table]:
     import h5py
 
     waiting: list[tuple[str, h5py.Group]] = [("", file)]
@@ -168,7 +153,8 @@ def _groups(file: h5py.File, look: Look, unit: UnitOf, path: Path) -> Iterator[G
 
 def _group(
     place: str, group: h5py.Group, arrays: Mapping[str, h5py.Dataset], look: Look, unit: UnitOf, path: Path
-) -> Group:
+) -> Table:
+    """The group as a table, perhaps without columns; it may be a line."""
     if look.only is not None:
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
         arrays = {n: d for n, d in arrays.items() if n in wanted or text_of(d, "name") in wanted}
@@ -180,9 +166,9 @@ def _group(
         text = data.dtype.kind in "SOU" or bool(h.name == "line" and text_of(data, "flag_meanings"))
         if look.wants(h.name) and (not text or look.allows_text(h.name)):
             columns.append((Heading(h.name, unit(data).split(" since ")[0] or h.unit, text), p))
-    distinct(path, [h for h, _ in columns])
+    headings = distinct(path, [h for h, _ in columns])
     name = text_of(group, "line") or matlab_text(group.get("line")) or place.rsplit("/", 1)[-1]
-    return Group(place=place, line=name, columns=tuple(columns))
+    return Table(path, headings, partial(_rows, path, place, columns), name, place)
 
 
 def _is_column(data: h5py.Dataset) -> bool:
@@ -199,10 +185,10 @@ def _is_column(data: h5py.Dataset) -> bool:
     return data.shape is not None and (kind in "fiu" or (kind in "SO" and len(data.shape) == 1))
 
 
-def _rows(path: Path, table: Group) -> Rows:
+def _rows(path: Path, place: str, columns: Sequence[tuple[Heading, Place]]) -> Rows:
     with opened(path) as file:
-        group = file[table.place or "/"]
-        return {h.name: _values(group[p.array], p, h) for h, p in table.columns}
+        group = file[place or "/"]
+        return {h.name: _values(group[p.array], p, h) for h, p in columns}
 
 
 def _values(data: h5py.Dataset, place: Place, column: Heading) -> NDArray[Any]:

@@ -6,7 +6,7 @@ Version 5 to 7 through SciPy, 7.3 (HDF5) through h5py. Functions and objects in 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,27 +32,10 @@ def open_tables(path: Path, look: Look) -> Sequence[Table]:
         head = stream.read(10)
     if head.startswith((b"MATLAB 7.3", hdf5_file.MAGIC[0][:8])):
         return hdf5_file.tables_of(path, look, _unit_73)
-    found = [t for t in _structures(_loaded(path), look, path) if t.columns]
-    found = chosen(path, found, look)
-    return [
-        Table(path, t.headings(), lambda t=t: _rows(t), t.place if len(found) > 1 else None)  # type: ignore[misc]
-        for t in found
-    ]
+    return chosen(path, list(_structures(_loaded(path), look, path)), look)
 
 
-@dataclass(frozen=True)
-class _Structure:
-    """A structure of vectors: where it stands (its line), its columns."""
-
-    place: str
-    columns: tuple[tuple[Heading, Place], ...]
-    arrays: Mapping[str, NDArray[Any]]
-
-    def headings(self) -> tuple[Heading, ...]:
-        return tuple(h for h, _ in self.columns)
-
-
-def _structures(variables: Mapping[str, Any], look: Look, path: Path) -> Iterator[_Structure]:
+def _structures(variables: Mapping[str, Any], look: Look, path: Path) -> Iterator[Table]:
     waiting: list[tuple[str, Mapping[str, Any]]] = [("", variables)]
     while waiting:
         place, inside = waiting.pop(0)
@@ -74,7 +57,8 @@ def _structures(variables: Mapping[str, Any], look: Look, path: Path) -> Iterato
 
 def _structure(
     place: str, inside: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], look: Look, path: Path
-) -> _Structure:
+) -> Table:
+    """A structure of vectors as a table; where it stands is the name of its line."""
     units, names = _fields(inside.get("units")), _fields(inside.get("names"))
     if look.only is not None:
         wanted = look.only | {n.rsplit("_", 1)[0] for n in look.only}
@@ -88,14 +72,14 @@ def _structure(
             text = arrays[p.array].dtype.kind == "O"
             unit = units.get(p.column) or units.get(p.array) or h.unit
             columns.append((Heading(h.name, unit, text), p))
-    distinct(path, [h for h, _ in columns])
-    return _Structure(place=place, columns=tuple(columns), arrays=arrays)
+    headings = distinct(path, [h for h, _ in columns])
+    return Table(path, headings, partial(_rows, columns, arrays), place, place)
 
 
-def _rows(table: _Structure) -> Rows:
+def _rows(columns: Sequence[tuple[Heading, Place]], arrays: Mapping[str, NDArray[Any]]) -> Rows:
     found: dict[str, NDArray[Any]] = {}
-    for h, p in table.columns:
-        values = p.of(table.arrays[p.array])
+    for h, p in columns:
+        values = p.of(arrays[p.array])
         found[h.name] = values if h.text else values.astype(np.float64)
     return found
 

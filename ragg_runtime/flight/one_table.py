@@ -35,7 +35,7 @@ def joined(tables: Sequence[Written]) -> tuple[list[Column], Rows]:
         whole = [
             np.full(n, np.nan) if p is None else np.asarray(p) for p, n in zip(parts, lengths, strict=True)
         ]
-        found[c.name] = np.concatenate([np.empty(0), *whole])
+        found[c.name] = np.concatenate(whole) if whole else np.empty(0)
     return [*([LINE if numeric else Column("line", "")] if named else []), *columns], found
 
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Protocol, TypeVar, runtime_checkable
+from typing import Any
 
 from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.names import EXPECTED, is_column
-from ragg_runtime.flight.record import Array
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.units import units
 
@@ -55,12 +54,15 @@ class Table:
         A function that reads exactly these columns.
     line
         Name of the flight line that the table is, where the file has several.
+    place
+        The group, structure or sheet of the file that it is.
     """
 
     path: Path
     headings: tuple[Heading, ...]
     rows: Callable[[], Rows]
     line: str | None = None
+    place: str = ""
 
 
 @dataclass(frozen=True)
@@ -121,49 +123,8 @@ def passed_over(names: Sequence[str]) -> str:
 class Written:
     """A table to be written: columns (N,) with their units, and the name of the line, where there are several."""
 
-    columns: Sequence[tuple[Column, Array]]
+    columns: Sequence[tuple[Column, NDArray[Any]]]
     line: str | None = None
-
-
-class Format(Protocol):
-    """A file format: a module with these names; :mod:`ragg_runtime.flight.formats` lists them."""
-
-    @property
-    def NAME(self) -> str:
-        """As it is called in messages."""
-
-    @property
-    def ENDINGS(self) -> Sequence[str]:
-        """Endings of file names, in small letters, each of one format alone."""
-
-    @property
-    def MAGIC(self) -> Sequence[bytes]:
-        """What such files begin with; none for text."""
-
-    def open_tables(self, path: Path, look: Look) -> Sequence[Table]:
-        """The tables of a file. What is wrong with it is one UserError; nothing in it is executed."""
-
-
-@runtime_checkable
-class Writable(Format, Protocol):
-    """A format that is written as well."""
-
-    def write_tables(self, path: Path, tables: Sequence[Written]) -> None:
-        """Write tables to ``path`` so that :meth:`open_tables` gives every number back to the last bit."""
-
-
-class Place(Protocol):
-    """A table in a file that may hold several: where it stands, and its columns."""
-
-    @property
-    def place(self) -> str:
-        """Group, structure or sheet."""
-
-    def headings(self) -> tuple[Heading, ...]:
-        """Its columns."""
-
-
-Placed = TypeVar("Placed", bound=Place)
 
 
 def is_line(name: str) -> bool:
@@ -231,14 +192,17 @@ def distinct(path: Path, headings: Sequence[Heading]) -> tuple[Heading, ...]:
     return tuple(headings)
 
 
-def chosen(path: Path, found: Sequence[Placed], look: Look) -> list[Placed]:
+def chosen(path: Path, found: Sequence[Table], look: Look) -> list[Table]:
     """The tables that are meant: all if they are lines of one kind; UserError where a choice is needed."""
+    found = [t for t in found if t.headings]
     if look.part is not None:
         part = look.part.strip("/")
         found = [t for t in found if t.place.strip("/") == part or t.place.strip("/").startswith(part + "/")]
-    kinds = {tuple(sorted(h.name for h in t.headings())) for t in found}
-    if found and len(kinds) == 1:
-        return list(found)
+    kinds = {tuple(sorted(h.name for h in t.headings)) for t in found}
+    if len(found) == 1:
+        return [replace(found[0], line=None)]
+    if len(kinds) == 1:
+        return found
     everything = [t.place or "/" for t in found]
     raise UserError(
         "the file holds no table" if not found else "the file holds several tables that differ",

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from importlib import resources
 from pathlib import Path
@@ -29,10 +28,11 @@ from ragg_runtime.compensation.export.contents import Contents
 from ragg_runtime.compensation.export.numpy_folder import json_files, numpy_files, write_folder
 from ragg_runtime.compensation.export.program import c_program
 from ragg_runtime.compensation.frozen import Held
-from ragg_runtime.compensation.output import Table, format_for, joined, writing
+from ragg_runtime.compensation.output import Table, joined, write_series
 from ragg_runtime.compensation.saved import Saved, with_another
 from ragg_runtime.compensation.series import MEANING
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.formats import writable
 from ragg_runtime.flight.record import distinct
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.record import GRADIENTS
@@ -108,8 +108,8 @@ def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
 class Compensation:
     """The result of ``compensate``.
 
-    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.output.Table`) of every flight,
-    unless they went to a file; ``units`` are theirs, in order.
+    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.output.Table`) of every flight;
+    ``units`` are theirs, in order.
     """
 
     name: str
@@ -129,9 +129,7 @@ class Compensation:
 
     def write(self, path: Path) -> None:
         """The series of all flights, one after the other, into a file of the format that its ending names."""
-        with writing(path, sum(len(x["time"]) for x in self.series), self.units) as write:
-            for rows in self.series:
-                write(rows)
+        write_series(path, self.series, self.units)
 
 
 QUALITY: Mapping[str, str] = MappingProxyType({str(q.name): text for q, text in MEANING.items()})
@@ -161,7 +159,7 @@ def compensate(
     demodulator
         ``fir``, ``butterworth`` or ``causal``.
     output
-        A file for the series; without one they are in the result.
+        A file for the series.
     noise
         Of ``online``: density of the noise of the cross channel about twice the spin rate, Eo/sqrt(Hz); by default what the kept
         calibration left.
@@ -180,19 +178,12 @@ def compensate(
     each = [[Compensated(p, n, demodulator) for n in p.of_flight(k)] for k in range(len(p.flights))]
     table = _table(each, p.flights)
     kept: list[Mapping[str, NDArray[Any]]] = []
-    with contextlib.ExitStack() as stack:
-        samples = sum(len(x.time) for x in p.flights)
-        write = None if output is None else stack.enter_context(writing(output, samples, table.units))
-        for k, (flight, outputs) in enumerate(zip(p.flights, each, strict=True)):
-            rows = (
-                table.rows(np.array(flight.time[parts[0].rows]), parts, k + 1)
-                for parts in zip(*(x.segments() for x in outputs), strict=True)
-            )
-            if write is None:
-                kept.append(joined(list(rows), list(table.units)))
-            else:
-                for some in rows:
-                    write(some)
+    for k, (flight, outputs) in enumerate(zip(p.flights, each, strict=True)):
+        rows = [
+            table.rows(np.array(flight.time[parts[0].rows]), parts, k + 1)
+            for parts in zip(*(x.segments() for x in outputs), strict=True)
+        ]
+        kept.append(joined(rows, list(table.units)))
     d = each[0][0].demodulator
     result = {
         "calibration": calibration,
@@ -212,7 +203,10 @@ def compensate(
         result["frozen"] = told | p.change.as_json()
         if not p.change.holds:
             result["notes"] = [_frozen.warning(saved.time, p.change)]
-    return Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
+    found = Compensation(name=m.name, result=result, series=tuple(kept), units=MappingProxyType(table.units))
+    if output is not None:
+        found.write(output)
+    return found
 
 
 def _online(
@@ -234,10 +228,9 @@ def _online(
         series=tuple(series),
         units=MappingProxyType(units),
     )
-    if output is None:
-        return found
-    found.write(output)
-    return replace(found, series=())
+    if output is not None:
+        found.write(output)
+    return found
 
 
 def _table(each: Sequence[Sequence[Compensated]], flights: Sequence[Flight]) -> Table:
@@ -316,7 +309,7 @@ FORMS: Mapping[str, Callable[[Contents], Mapping[str, str]]] = MappingProxyType(
 
 def check_output(path: Path) -> None:
     """UserError if no compensated series is written in this format: said before anything is computed."""
-    format_for(path)
+    writable(path)
 
 
 def read_for_compensation(

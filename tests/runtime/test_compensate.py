@@ -280,7 +280,7 @@ def _parquet(model: Path, flight: Path, folder: Path) -> Path:
 
 BAD: dict[str, list[Any]] = {
     "is too short for the demodulator": ["short.parquet", "-o", "o.csv", "--demodulator", "fir"],
-    "not written in this format": ["one.parquet", "-o", "o.xyz"],
+    "no flight format has this file name ending": ["one.parquet", "-o", "o.xyz"],
     "no saved calibration": ["one.parquet", "-o", "o.csv", "--calibration", "frozen"],
 }
 
