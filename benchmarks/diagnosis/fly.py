@@ -97,7 +97,9 @@ def prepared(spec: Spec) -> Prepared:
     hidden: tuple[Hidden, ...] = ()
     term = None
     if spec.kind != "quiet":
-        oracle = Oracle(w, plain.flight("plain", voltages=w.output == "voltages"), loudness)
+        changed = kind.change(channels, Recorded(plain.G_out_noise_free, 1.0, w.scenario.rate), spec.rng(4))
+        lost = np.isnan(changed["G_out"])
+        oracle = Oracle(w, plain.flight("plain", voltages=w.output == "voltages"), loudness, lost)
         hidden = _hidden(spec, oracle)
         if spec.kind == "outside":
             at = outside.World(
@@ -159,15 +161,16 @@ def _recorded(
         x["G_out"] = x["G_out"] + term.change
         if w.output == "voltages":
             x["V_1"] = x["V_1"] + term.change
+    if w.output != "voltages":
+        x = {n: v for n, v in x.items() if not n.startswith("V_")}
+    rms = float(np.std(combine(noise))) or 1e-12 * float(np.std(x["G_out"]))
+    clean = x["G_out"] - combine(noise)
+    x = records.KINDS[spec.record].change(x, Recorded(clean, rms, s.rate), spec.rng(4))
     if "saturation" in recorder:
         x["G_out"] = np.clip(x["G_out"], -recorder["saturation"]["V_max"], recorder["saturation"]["V_max"])
     if "quantisation" in recorder:
         q = recorder["quantisation"]["q"]
         x["G_out"] = np.round(x["G_out"] / q) * q
-    if w.output != "voltages":
-        x = {n: v for n, v in x.items() if not n.startswith("V_")}
-    rms = float(np.std(combine(noise))) or 1e-12 * float(np.std(x["G_out"]))
-    x = records.KINDS[spec.record].change(x, Recorded(sim.G_out_noise_free, rms, s.rate), spec.rng(4))
     return _channels(w, x) if w.output == "channels" else x
 
 

@@ -166,5 +166,5 @@ def drawn(oracle: Oracle, w: World, name: str, strength: float) -> Outside:
     k = w.scenario.instrument.accelerometers
     unit = combine((k["k_VI"] * k["K1"])[:, None] * ({**TERMS, **FURTHER})[name](w))
     factor = strength / oracle.beyond_all(unit)
-    whole = float(np.linalg.norm(oracle.projected(oracle.whitened(unit[None, None]))))
+    whole = float(np.linalg.norm(oracle.row(unit)))
     return Outside(name, factor * unit, strength, factor * whole)

@@ -114,7 +114,7 @@ def alarm(x: Line) -> bool:
 
 def least_p(x: Line) -> tuple[float, float, float]:
     """Family-wise p-values of an effect-free flight: of the effects, of the generic terms, and of both together."""
-    best = min((r["log10_p"] for r in x["ranking"]), default=0.0)
+    best = min((-np.inf if r["log10_p"] is None else r["log10_p"] for r in x["ranking"]), default=0.0)
     effects = min(1.0, x["tested"] * 10.0**best)
     terms = min(1.0, 10.0 ** x["terms_log10_p"])
     return effects, terms, min(1.0, 2.0 * min(effects, terms))

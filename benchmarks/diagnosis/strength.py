@@ -30,6 +30,7 @@ from ragg_runtime.model.model import packaged
 from ragg_runtime.reference.effects import CATALOGUE
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 LARGEST, LARGEST_STRONG = 30.0, 1000.0
 """Plausible sizes beyond which an effect is not hidden: up to 10 sigma, and above."""
@@ -72,9 +73,11 @@ class Hidden:
 class Oracle:
     """A flight without effects, whitened with the noise as it is: what strengths are measured on."""
 
-    def __init__(self, w: World, flight: Flight, loudness: Loudness) -> None:
+    def __init__(self, w: World, flight: Flight, loudness: Loudness, lost: Mask | None = None) -> None:
+        """``lost``: samples whose output is missing."""
         self.model, self.flight = packaged(), flight
         self.o = observe(flight, w.known)
+        self.valid = self.o.record.valid if lost is None else self.o.record.valid & ~lost
         i = w.known.accelerometers
         scale = (i["k_VI"] * i["K1"])[:, None]
         of_each = np.broadcast_to(scale * loudness.level, (4, len(flight))) ** 2
@@ -99,7 +102,7 @@ class Oracle:
     def whitened(self, x: Array) -> Array:
         """(k, rows) of columns (k, m, N), V."""
         y = signal.lfilter(self.taps, [1.0], x / self.rms, axis=-1)
-        return np.asarray(y[:, :, self.o.record.valid].reshape(len(x), -1))
+        return np.asarray(y[:, :, self.valid].reshape(len(x), -1))
 
     def projected(self, rows: Array) -> Array:
         """(k, rows + n): whitened rows less what the calibration takes for them."""
@@ -156,10 +159,15 @@ class Oracle:
             return Hidden(effect, values | ({} if instant is None else {"t_step": instant}), size, strength)
         return None
 
+    def row(self, change: Array) -> Array:
+        """A change (N,) of the output, of the first voltage where these are recorded, projected."""
+        series = np.zeros((1, len(self.rms), len(change)))
+        series[0, 0] = change
+        return np.asarray(self.projected(self.whitened(series))[0])
+
     def beyond_all(self, change: Array) -> float:
-        """Norm of a change (N,) of the output beyond the calibration and all effects together."""
-        row = self.projected(self.whitened(change[None, None]))[0]
-        return float(np.linalg.norm(_beside(row, self.left)))
+        """Norm of such a change beyond the calibration and all effects together."""
+        return float(np.linalg.norm(_beside(self.row(change), self.left)))
 
     def _jitter(self, effect: str, strength: float) -> Hidden | None:
         at = self.of(effect)[0]
@@ -169,7 +177,9 @@ class Oracle:
         size = design.EFFECT_PRIOR * sigma / c.scale
         return None if size > LARGEST else Hidden(effect, {"sigma_phi": sigma}, size, strength)
 
-    def _quantised(self, strength: float) -> Hidden:
+    def _quantised(self, strength: float) -> Hidden | None:
+        if len(self.rms) > 1:
+            return None
         rms = float(np.sqrt(np.mean(self.rms**2)))
         q = float(rms * np.sqrt(12 * strength * np.sqrt(2 / self.rows)))
         return Hidden("quantisation", {"q": q}, float("nan"), strength)
@@ -181,8 +191,7 @@ class Oracle:
         low, high = 0.0, float(np.sort(np.abs(G))[-CLIPPED])
 
         def seen(limit: float) -> float:
-            change = np.clip(G, -limit, limit) - G
-            return float(np.linalg.norm(self.projected(self.whitened(change[None, None]))))
+            return float(np.linalg.norm(self.row(np.clip(G, -limit, limit) - G)))
 
         for _ in range(30):
             middle = (low + high) / 2
