@@ -44,7 +44,7 @@ def provenance(
     made_by
         The command line.
     model
-        What tells the model apart (:func:`ragg_runtime.model_dir.identity.identity`), where there is one.
+        What tells the model apart (:func:`ragg_runtime.model_dir.directory.identity`), where there is one.
     files
         The flights: path and SHA-256, ``None`` where there is no such file.
     """

@@ -14,8 +14,7 @@ from types import MappingProxyType
 
 import click
 
-from ragg_runtime.base.errors import UserError, printable
-from ragg_runtime.cli.boundary import hold_streams, refusal
+from ragg_runtime.base.errors import UserError, one_line, printable
 
 COMMANDS: Mapping[str, str] = MappingProxyType(
     {
@@ -26,14 +25,14 @@ COMMANDS: Mapping[str, str] = MappingProxyType(
         "remove": "cli.model_commands",
         "history": "cli.model_commands",
         "survey": "cli.flight_commands",
-        "calibrate": "cli.after",
-        "compensate": "cli.after",
-        "export": "cli.after",
-        "next-motion": "cli.next_motion_command",
+        "calibrate": "cli.flight_commands",
+        "compensate": "cli.flight_commands",
+        "export": "cli.flight_commands",
+        "next-motion": "cli.flight_commands",
         "simulate": "cli.model_commands",
         "effects": "cli.model_commands",
-        "convert": "cli.file_commands",
-        "map": "cli.file_commands",
+        "convert": "cli.model_commands",
+        "map": "cli.model_commands",
         "derive": "cli.model_commands",
         "demo": "cli.model_commands",
         "studio": "studio.command",
@@ -101,3 +100,26 @@ def main(arguments: Sequence[str] | None = None) -> None:
         traceback.print_exc()
         click.echo("ragg: this is a fault of the program, not of your input; please report it", err=True)
         sys.exit(1)
+
+
+def refusal(error: OSError) -> str:
+    """What the system refused, and where, in one line."""
+    try:
+        os.getcwd()
+    except OSError:
+        return "the current folder is no longer there: change into one that is"
+    places = [os.fsdecode(p) for p in (error.filename, error.filename2) if isinstance(p, (str, bytes))]
+    what = error.strerror or (str(error).splitlines() or [type(error).__name__])[0]
+    return one_line(": ".join([" and ".join(places), what] if places else [what]))
+
+
+def hold_streams() -> None:
+    """Put the null device in place of closed standard streams: the next file would be taken for one of them."""
+    for number, flags in ((0, os.O_RDONLY), (1, os.O_WRONLY), (2, os.O_WRONLY)):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, flags)  # the lowest free number, which is this one
+    # Python has none where it found them closed. Without stdout no result can be told: commands say so (cli.outputs).
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115

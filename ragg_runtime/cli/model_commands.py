@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ragg_runtime.base.errors import UserError, one_line
-from ragg_runtime.cli import completion
-from ragg_runtime.cli.file_commands import mapping_option
-from ragg_runtime.cli.outputs import Command, OutputFile
+from ragg_runtime.base.errors import UserError, one_line, printable
+from ragg_runtime.cli import shared
+from ragg_runtime.cli.outputs import Command, OutputFile, asked
 from ragg_runtime.cli.shared import (
     DIRECTORY,
     Finite,
@@ -19,6 +18,7 @@ from ragg_runtime.cli.shared import (
     emit,
     json_option,
     load,
+    mapping_option,
     telling,
     under_way,
 )
@@ -75,7 +75,7 @@ def new(model_dir: Path, source: Path | None, mapping: Path | None) -> None:
 
 
 @click.command(cls=Command)
-@click.argument("identifier", metavar="[ID]", required=False, shell_complete=completion.catalogued)
+@click.argument("identifier", metavar="[ID]", required=False, shell_complete=shared.catalogued)
 @json_option
 def effects(identifier: str | None, json_file: str | None) -> None:
     """The catalogue of physical effects; with ID one of them in full."""
@@ -91,12 +91,11 @@ def effects(identifier: str | None, json_file: str | None) -> None:
 
 @click.command(cls=Command)
 @click.argument("model_dir", type=DIRECTORY)
-@click.argument("effect", shell_complete=completion.present)
+@click.argument("effect", shell_complete=shared.present)
 @json_option
 def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
     """Take an effect out of the model."""
     from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow import origin as made_from
 
     before = load(model_dir)
 
@@ -104,7 +103,7 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
         left = [e.id for e in m.model.effects]
         with telling():
             emit(
-                {"effect": effect, "effects": left} | made_from.origin(m, (), command_line(), before=before),
+                {"effect": effect, "effects": left} | loop.origin(m, (), command_line(), before=before),
                 json_file,
                 f"removed {effect}; effects left: {', '.join(left) or 'none'}",
             )
@@ -118,8 +117,7 @@ def remove(model_dir: Path, effect: str, json_file: str | None) -> None:
 def history(model_dir: Path, json_file: str | None) -> None:
     """The error after every step."""
     from ragg_runtime.base.provenance import provenance
-    from ragg_runtime.model_dir.directory import load_model_dir
-    from ragg_runtime.model_dir.identity import identity
+    from ragg_runtime.model_dir.directory import identity, load_model_dir
     from ragg_runtime.report import in_words
 
     d = load_model_dir(model_dir)  # not derived: a model that no longer can be is told its steps, too
@@ -191,3 +189,53 @@ def demo(output: Path) -> None:
     from ragg_runtime.cli import demo as _demo
 
     _demo.main(output, command=command_line())
+
+
+@click.command(cls=Command)
+@click.argument("source", metavar="IN", type=DIRECTORY)
+@click.argument("target", metavar="OUT", type=DIRECTORY)
+@mapping_option
+def convert(source: Path, target: Path, mapping: Path | None) -> None:
+    """Write a flight file in another format, by the ending of OUT: same numbers, names and units.
+
+    Reads CSV, Parquet, NetCDF, HDF5, MATLAB and Excel; writes CSV, Parquet and NetCDF.
+    """
+    from ragg_runtime.flight.files import convert as _convert
+    from ragg_runtime.flight.mapping import read_mapping
+
+    if mapping is not None and mapping.resolve() == target.resolve():
+        raise UserError("OUT is the mapping itself", where=target, remedy="name another file")
+    done = _convert(source, target, None if mapping is None else read_mapping(mapping))
+    for note in done.notes:
+        click.echo(printable(f"note: {note}"), err=True)
+    lines = f"{done.lines} lines, " if done.lines > 1 else ""
+    click.echo(printable(f"{target}: {lines}{done.rows} rows of {len(done.columns)} columns"))
+
+
+@click.command(name="map", cls=Command)
+@click.argument("flight", type=DIRECTORY)
+@click.option(
+    "-o", "--output", type=OutputFile(), metavar="mapping.toml", help="File to write (default: stdout)."
+)
+def map_command(flight: Path, output: str | None) -> None:
+    """Write a first mapping for a foreign file: which column is what, in which unit, and how time is written.
+
+    What the file does not say is marked with "?" and asked for: units are never guessed.
+    """
+    from ragg_runtime.flight.guess import draft
+
+    made = draft(flight)
+    if output is None:
+        click.echo(printable(made.text), nl=False)
+    else:
+        if Path(output).exists():
+            raise UserError(
+                "the mapping exists already", where=output, remedy="choose another name or remove it first"
+            )
+        asked().write(output, made.text)
+        click.echo(printable(f"{output}: written; look it over, then: --map {output}"), err=True)
+    if made.questions:
+        count = len(made.questions)
+        click.echo(f'{count} question{"s are" if count > 1 else " is"} left, marked with "?":', err=True)
+        for question in made.questions:
+            click.echo(printable(f"  {question}"), err=True)

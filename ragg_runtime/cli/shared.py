@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.shell_completion import CompletionItem
 
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.cli.outputs import STDOUT, OutputFile, asked
@@ -21,6 +22,13 @@ DIRECTORY = click.Path(path_type=Path)
 OUTPUT = OutputFile()
 json_option = click.option(
     "--json", "json_file", type=OUTPUT, metavar="FILE", help="Write the result as JSON (- is stdout)."
+)
+mapping_option = click.option(
+    "--map",
+    "mapping",
+    type=DIRECTORY,
+    metavar="FILE",
+    help="What the columns of the flight files are (ragg map).",
 )
 series_option = click.option(
     "-o",
@@ -63,13 +71,12 @@ def load(model_dir: Path) -> Loaded:
 def about(m: Loaded, read: Sequence[Flight], title: str | None = None) -> dict[str, Any]:
     """What a page says about itself: its title (else those of model and flights), command, sources and notes."""
     from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow import origin as made_from
 
     return {
         "title": f"{m.name} and {', '.join(x.name for x in read)}" if title is None else title,
         "command": command_line(),
         "sources": loop.sources(m, read),
-        "notes": made_from.notes(m, read),
+        "notes": loop.notes(m, read),
     }
 
 
@@ -116,3 +123,39 @@ def command_line() -> str:
     from ragg_runtime.base.provenance import command
 
     return command()
+
+
+def catalogued(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Effects of the catalogue, each with its title where the shell shows it."""
+    from ragg_runtime.workflow.catalogue import effects
+
+    found = [(str(e["id"]), str(e["title"])) for e in effects()]
+    return [CompletionItem(e, help=title) for e, title in found if e.startswith(incomplete)]
+
+
+def addable(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """The catalogue's, and those that the model lists, without those that it has with values."""
+    listed = _listed(ctx.params.get("model_dir"))
+    own = [e for e, has_values in listed.items() if not has_values and e.startswith(incomplete)]
+    others = [x for x in catalogued(ctx, param, incomplete) if x.value not in listed]
+    return [*(CompletionItem(e, help="listed in model.toml") for e in own), *others]
+
+
+def present(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Effects that the model lists."""
+    return [CompletionItem(e) for e in _listed(ctx.params.get("model_dir")) if e.startswith(incomplete)]
+
+
+def _listed(model_dir: Any) -> dict[str, bool]:
+    """Effects of a model.toml -> whether they have values; nothing of one that cannot be read: completion never fails."""
+    import tomllib
+
+    from ragg_runtime.base.errors import UserError
+    from ragg_runtime.base.files import read_text
+
+    try:
+        entries = tomllib.loads(read_text(Path(model_dir) / "model.toml")).get("effects", [])
+        rows = [{"id": e} if isinstance(e, str) else dict(e) for e in entries]
+        return {str(r["id"]): any(isinstance(v, dict) and "value" in v for v in r.values()) for r in rows}
+    except (OSError, ValueError, KeyError, TypeError, UserError):
+        return {}

@@ -1,27 +1,34 @@
 """Derive models at run time: the one place, beside the command line, where the runtime meets the derivation.
 
 A model directory's own ``generated/`` is never executed, but what this program derives, or has derived before
-(:mod:`ragg_runtime.model_dir.derived_cache`), for the directory's list of effects. SymPy is imported only where something is derived.
+(below), for the directory's list of effects. SymPy is imported only where something is derived.
 """
 
 from __future__ import annotations
 
 import functools
+import hashlib
+import json
+import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from importlib import metadata, resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, ParamSpec, TypeVar
 
+import platformdirs
+
 from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.files import write_text
 from ragg_runtime.instrument import layout as layouts
 from ragg_runtime.instrument.form import PAPER, Form
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import PAPER as FOUR
 from ragg_runtime.instrument.layout import Layout
 from ragg_runtime.model.model import Model, from_files, packaged
-from ragg_runtime.model_dir import derived_cache
 from ragg_runtime.model_dir.directory import DIGEST, read_digest
 from ragg_runtime.model_dir.own_effects import own_effects, own_sources
 
@@ -121,13 +128,13 @@ def _derived(
     instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True
 ) -> Mapping[str, str]:
     """The files of an instrument's model, with effects of these ids (its own if none are given), derived or kept."""
-    asked = derived_cache.request(instrument, ids, candidates=candidates)
-    files = derived_cache.kept(asked)
+    asked = request(instrument, ids, candidates=candidates)
+    files = kept(asked)
     if files is None:
         k = known(instrument)
         chosen = tuple(_chosen(instrument, k) if ids is None else map(k.get, ids))
         _, files = derived(chosen, k.effects if candidates else (), instrument.form, instrument.layout)
-        derived_cache.keep(asked, files)
+        keep(asked, files)
     return files
 
 
@@ -139,7 +146,7 @@ def departure(instrument: Instrument, generated: Path | None) -> str | None:
     """That a model directory's ``generated/`` was derived for something else, in a sentence; ``None``: it was not."""
     if generated is None or not _has_files(instrument):
         return None
-    if read_digest(generated) == derived_cache.request(instrument):
+    if read_digest(generated) == request(instrument):
         return None
     return (
         "generated/ was not derived for this model.toml by this version; it is never used, but what is derived; "
@@ -242,7 +249,7 @@ def files_of(instrument: Instrument) -> Mapping[str, str]:
     if not _has_files(instrument):
         return {}
     found = {n: text for n, text in _derived(instrument).items() if not n.startswith("fits/")}
-    return found | {DIGEST: derived_cache.request(instrument)}
+    return found | {DIGEST: request(instrument)}
 
 
 def without_signatures(instrument: Instrument, form: Form) -> Model:
@@ -269,3 +276,91 @@ def harmonics_of(instrument: Instrument) -> Mapping[str, str]:
     from derive import pipeline
 
     return pipeline.derive_harmonics(_symbolic(instrument.form, instrument.layout))
+
+
+_LARGEST = 1 << 24
+"""Bytes of all generated files together."""
+
+MOST_KEPT = 200
+"""Derivations that are kept, at most half a megabyte each: a catalogue's effects one by one, and pairs of those that are used."""
+
+
+def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
+    """Digest of all that a derivation depends on: for this instrument, with effects of these ids (its own if none are
+    given), and with the signatures of all others if ``candidates``.
+    """
+    expressions = {
+        s.id: _expression_key(s.expression) for s in instrument.effects if s.expression is not None
+    }
+    chosen = [s.id for s in instrument.effects] if ids is None else ids
+    effects = [[i, expressions.get(i)] for i in chosen]
+    own = sorted(map(_sha256, own_sources().values()))
+    asked: list[object] = [_derivation(), effects, own, instrument.form.as_json(), candidates and expressions]
+    if not instrument.layout.like_paper:
+        layout = instrument.layout
+        asked += [
+            layout.names,
+            dict(layouts.constants(layout)),
+            [[o.name, o.members, o.signs] for o in layout.outputs],
+        ]
+    return _sha256(json.dumps(asked, sort_keys=True))
+
+
+def kept(asked: str) -> Mapping[str, str] | None:
+    """The files that were derived for this request before, if they are at hand."""
+    place = _folder() / f"{asked}.json"
+    try:
+        with place.open("rb") as stream:
+            found = json.loads(stream.read(_LARGEST))
+        os.utime(place)  # used last: the others go first
+    except (OSError, ValueError, RecursionError):
+        return None
+    whole = isinstance(found, dict) and all(isinstance(text, str) for text in found.values())
+    return found if whole and "manifest.json" in found else None
+
+
+def keep(asked: str, files: Mapping[str, str]) -> None:
+    """Keep what a derivation yielded; where that cannot be written, it will be derived again."""
+    folder = _folder()
+    try:
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        write_text(folder / f"{asked}.json", json.dumps(dict(files)))
+        for old in sorted(folder.glob("*.json"), key=lambda p: -p.stat().st_mtime)[MOST_KEPT:]:
+            old.unlink(missing_ok=True)
+    except (OSError, UserError):
+        return
+
+
+def _expression_key(e: Mapping[str, object]) -> object:
+    parameters = e["params"]
+    assert isinstance(parameters, Mapping)
+    kept = {
+        name: {k: repr(q[k]) for k in ("unit", "plausible", "shared") if k in q}
+        for name, q in parameters.items()
+    }
+    return [str(e["stage"]), str(e["add"]), kept]
+
+
+@cache
+def _derivation() -> str:
+    """Digest of the derivation itself: its sources, and the SymPy that it uses."""
+    total = hashlib.sha256(metadata.version("sympy").encode())
+    pending: list[tuple[str, Traversable]] = [("derive", resources.files("derive"))]
+    sources: dict[str, bytes] = {}
+    while pending:
+        name, place = pending.pop()
+        if place.is_dir():
+            pending += [(f"{name}/{p.name}", p) for p in place.iterdir() if p.name != "__pycache__"]
+        elif name.endswith((".py", ".j2")):
+            sources[name] = place.read_bytes()
+    for name in sorted(sources):
+        total.update(f"{name} {len(sources[name])}\n".encode() + sources[name])
+    return total.hexdigest()
+
+
+def _folder() -> Path:
+    return platformdirs.user_cache_path("ragg") / "derived"
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()

@@ -17,8 +17,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.files import read_text, sync
-from ragg_runtime.base.lock import locked
+from ragg_runtime.base.files import locked, read_text, sync
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.history import Step, digest, history_text, read_history
@@ -238,3 +237,15 @@ def _remove(place: Path) -> None:
         place.unlink()
     elif place.exists():
         shutil.rmtree(place)
+
+
+def identity(
+    directory: ModelDir, derivation: str | None = None, before: ModelDir | None = None
+) -> dict[str, object]:
+    """Of a directory as it was read, with the digest of what was derived for it, and as it was ``before`` a change."""
+    found: dict[str, object] = {"model": str(directory.path), "model_digest": digest(directory.text)}
+    if before is not None:
+        found["model_digest_before"] = digest(before.text)
+    if derivation is not None:
+        found["derivation_digest"] = derivation
+    return found

@@ -9,18 +9,9 @@ from ragg_runtime.diagnosis import budget, series
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.parameters import calibrated
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.report import (
-    barcharts,
-    diagnose_page,
-    effect_values,
-    figures,
-    page,
-    panels,
-    parameters,
-)
-from ragg_runtime.report.barcharts import Step
+from ragg_runtime.report import diagnose_page, figures, page, panels, parameters
+from ragg_runtime.report.figures import Step
 from ragg_runtime.report.page import Origin
-from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import notebook, numbers
 
 CHANGED = 0.005
@@ -57,7 +48,6 @@ def add_html(
         Of the flights, if one was made.
     """
     f = after.fitted
-    shown = Shown(fitted=f, residual=after.residual, before=before.residual)
     context: dict[str, Any] = {
         "kind": "The model, step by step",
         "state": "good" if after.adequate else "found",
@@ -67,11 +57,11 @@ def add_html(
         "errors": errors(before, after),
         "history": _history_table(history),
         "loop": _loop(history, after),
-        "sections": [*_sections(before, after), *panels_of("add", shown)],
+        "sections": [*_sections(before, after), panels.demodulated_panel(f, after.residual, before.residual)],
         "ranking": diagnose_page.ranking(diagnosis) if diagnosis else [],
         "evidence": diagnose_page.evidence(diagnosis, "evidence") if diagnosis else None,
         "budget": _budget(after),
-        "headlines": [(e.id, effect_values.headlines(*calibrated(f, e.id))) for e in f.model.effects],
+        "headlines": [(e.id, diagnose_page.headlines(*calibrated(f, e.id))) for e in f.model.effects],
         "effects": [r for r in parameters.by_accelerometer(f) if "." in r.symbol.name],
         "combined": [r for r in parameters.by_combination(f) if "." in r.symbol.name],
         "patterns": [name for name, _ in parameters.PATTERNS],
@@ -152,7 +142,7 @@ def _loop(history: Sequence[Mapping[str, Any]], after: Comparison) -> dict[str, 
     steps = _steps(history)
     if not steps:
         return None
-    svg = barcharts.loop(steps, after.noise_floor, "loop", "error after every step")
+    svg = figures.loop(steps, after.noise_floor, "loop", "error after every step")
     caption = (
         "Calibrated error before demodulation after every step, and the noise floor of the present flights."
     )
@@ -194,7 +184,7 @@ def _sections(before: Comparison, after: Comparison) -> list[dict[str, Any]]:
 
 def _budget(after: Comparison) -> dict[str, Any]:
     rows = budget.contributions(after.fitted)
-    svg = barcharts.budget(rows, after.noise_floor, "budget", "what each group of parameters contributes")
+    svg = figures.budget(rows, after.noise_floor, "budget", "what each group of parameters contributes")
     caption = (
         "What each group of calibrated parameters contributes to the output: the change when it is put to zero"
         " and all else stays. Bars: rms before demodulation; marks: standard deviation in the channels. Dark:"

@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ragg_runtime.compensation.frozen import Held
 from ragg_runtime.diagnosis import series
 from ragg_runtime.diagnosis.comparison import LOUD, Comparison
-from ragg_runtime.report import figures, held, page, panels, parameters
+from ragg_runtime.report import figures, page, panels, parameters
 from ragg_runtime.report.page import Origin
-from ragg_runtime.report.panel import Shown, panels_of
 from ragg_runtime.wording import numbers
 
 HARDLY = 0.05
@@ -24,7 +24,7 @@ def compare_html(
     command: str,
     sources: Sequence[tuple[str, str]],
     notes: Sequence[str] = (),
-    frozen: held.Held | None = None,
+    frozen: Held | None = None,
 ) -> str:
     """The report as one HTML document.
 
@@ -45,17 +45,17 @@ def compare_html(
     context: dict[str, Any] = {
         "kind": "Model against flight",
         "state": "good" if comparison.adequate else "bad",
-        "headline": headline(comparison) if frozen is None else held.headline(frozen),
+        "headline": headline(comparison) if frozen is None else held_headline(frozen),
         # where the instrument changed, its parameters are others: no effect is missing
         "lead": lead(comparison)
         if frozen is None
-        else held.lead(frozen, lead(comparison, advise=frozen.holds)),
+        else held_lead(frozen, lead(comparison, advise=frozen.holds)),
         "facts": panels.facts(f),
-        "errors": errors(comparison) if frozen is None else held.errors(frozen),
+        "errors": errors(comparison) if frozen is None else held_errors(frozen),
         "sections": [
-            *([] if frozen is None else [held.section(frozen)]),
+            *([] if frozen is None else [held_section(frozen)]),
             *_sections(comparison),
-            *panels_of("compare", Shown(fitted=f, residual=comparison.residual)),
+            panels.demodulated_panel(f, comparison.residual),
         ],
         "by_combination": parameters.by_combination(f),
         "by_accelerometer": parameters.by_accelerometer(f),
@@ -164,3 +164,50 @@ def _sections(c: Comparison) -> list[dict[str, Any]]:
     text = [] if rows else ["No motion term stands out of the residual."]
     found.append({"title": "Where it fails", "text": text, "figures": page.figures(rest), "terms": rows})
     return found
+
+
+MOVED = 8
+"""Combinations that are listed, those that moved furthest first."""
+
+
+def held_headline(h: Held) -> str:
+    """Error with the saved parameters, whether they hold, and what a fit would leave."""
+    frozen, free = numbers.number(h.comparison.calibrated.rms_Eo), numbers.number(h.free.rms_Eo)
+    noise = numbers.number(h.comparison.noise_floor)
+    holds = "The saved calibration holds here" if h.holds else "The saved calibration does not hold here"
+    return f"{holds}: it leaves {frozen} Eo, parameters fitted to this record {free} Eo; the noise is {noise} Eo."
+
+
+def held_lead(h: Held, said: list[str]) -> list[str]:
+    """What follows: the test, and what is ``said`` of any error."""
+    test = (
+        f"Chi-square of the step from the saved parameters to what this record says: {numbers.number(h.chi2)} in"
+        f" {h.degrees_of_freedom} directions (p = {h.p_value:.2g})."
+    )
+    return [test, *said]
+
+
+def held_errors(h: Held) -> list[dict[str, Any]]:
+    """Rows of the table of errors."""
+    c = h.comparison
+    return [
+        panels.error_row("as model.toml says", c.nominal, "nominal values, nothing fitted"),
+        panels.error_row("frozen", c.calibrated, "parameters as they were saved, nothing fitted here"),
+        panels.error_row("free", h.free, "parameters fitted to this record"),
+        panels.noise_row(c.fitted, c.noise_floor),
+    ]
+
+
+def held_section(h: Held) -> dict[str, Any]:
+    """What moved since the calibration, and which single parameter would explain it."""
+    rows = sorted(h.drift(), key=lambda r: -abs(r["z"]))[:MOVED]
+    text = [
+        f"{r['flight']}: {r['name']} was {r['frozen']:.5g} ± {r['frozen_std']:.2g}, is {r['value']:.5g} ± {r['std']:.2g}"
+        f" {r['unit']} ({r['z']:+.1f} σ)."
+        for r in rows
+    ]
+    text += [
+        f"A change of {x['name']} by {x['change']:+.4g} {x['unit']} alone would explain {100 * x['share']:.0f} % of it."
+        for x in h.suspects()
+    ]
+    return {"title": "What moved since it was saved", "text": text, "figures": []}

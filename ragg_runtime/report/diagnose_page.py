@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.diagnosis import series
-from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN, ParameterValue, gains
+from ragg_runtime.diagnosis.parameters import headlines as of_parameters
+from ragg_runtime.diagnosis.parameters import own_name as _name
+from ragg_runtime.diagnosis.ranking import Ranked, other_accelerometers
 from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.report import barcharts, effect_values, figures, page, panels, parameters
-from ragg_runtime.report.barcharts import Bar
-from ragg_runtime.report.effect_values import Value, Values
+from ragg_runtime.fit.posterior import Posterior, posterior
+from ragg_runtime.report import figures, page, panels, parameters
+from ragg_runtime.report.figures import Bar
 from ragg_runtime.report.page import Origin
-from ragg_runtime.report.panel import Shown, panels_of
-from ragg_runtime.report.parameters import Row
+from ragg_runtime.report.parameters import PATTERNS, Row
 from ragg_runtime.wording import numbers
 
 SHOWN_BARS = 12
@@ -49,7 +54,7 @@ def diagnose_html(
         "lead": lead(d),
         "facts": panels.facts(f),
         "errors": errors(d),
-        "sections": [*_sections(d), *panels_of("diagnose", _shown(d))],
+        "sections": [*_sections(d), *_panels(d)],
         "ranking": ranking(d),
         "evidence": evidence(d, "evidence"),
         "groups": [(main, others) for main, others, _ in groups(d) if others],
@@ -105,7 +110,7 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
             clear = [x for x in _headlines(r) if abs(x.z) > CLEAR]
             if clear:
                 sizes_ = numbers.listed([f"{_named(x)} = {x.text}" for x in clear[:MOST_SAID]])
-                instead = _instead(effect_values.values(d.fitted, r))
+                instead = _instead(values(d.fitted, r))
                 said.append(f"{numbers.clean(r.effect)}: {sizes_}{instead}.")
     for main, others, name in groups(d):
         if name is not None:
@@ -128,7 +133,7 @@ def lead(d: Diagnosis, sizes: str = "listed at the end") -> list[str]:
 
 
 def _headlines(r: Ranked) -> tuple[Value, ...]:
-    return effect_values.headlines(r.parameters, r.combinations)
+    return headlines(r.parameters, r.combinations)
 
 
 def _named(v: Value) -> str:
@@ -200,9 +205,9 @@ def ranking(d: Diagnosis) -> list[dict[str, Any]]:
 def _fitted(d: Diagnosis, r: Ranked) -> Values:
     """Values of an effect alone; of one that was derived into the model first, those that it has there."""
     if d.staged and d.final is not None and any(q.effect == r.effect for q in d.final.calibration.columns):
-        best_first = sorted(effect_values.joint(d.final, r.effect), key=lambda v: -abs(v.z))
+        best_first = sorted(joint(d.final, r.effect), key=lambda v: -abs(v.z))
         return Values(tuple(best_first), 0, ())
-    return effect_values.values(d.fitted, r)
+    return values(d.fitted, r)
 
 
 def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
@@ -217,7 +222,7 @@ def evidence(d: Diagnosis, key: str) -> dict[str, Any] | None:
     finite = [b.value for b in bars if math.isfinite(b.value)]
     log = bool(finite) and max(finite) > 8.0 * level
     unit = "evidence, −log₁₀ p" + (" (logarithmic scale)" if log else "")
-    svg = barcharts.lying(bars, key, "evidence for each effect", unit, level, log)
+    svg = figures.lying(bars, key, "evidence for each effect", unit, level, log)
     caption = (
         "Evidence for each effect by itself, with nothing else added, best first. Dark: what would be added."
         f" Right of the dashed line the whole catalogue would raise a false alarm in {100 * false_alarms.CATALOGUE:.0f} records"
@@ -271,9 +276,9 @@ def sizes(d: Diagnosis) -> list[tuple[str, list[str]]]:
     return list(found.items())
 
 
-def _shown(d: Diagnosis) -> Shown:
+def _panels(d: Diagnosis) -> list[dict[str, Any]]:
     before = d.residual if d.after != d.before else None
-    return Shown(fitted=d.target, residual=d.residual_after, before=before, diagnosis=d)
+    return [panels.demodulated_panel(d.target, d.residual_after, before), *panels.own_effect_panel(d)]
 
 
 def _sections(d: Diagnosis) -> list[dict[str, Any]]:
@@ -301,3 +306,118 @@ def _sections(d: Diagnosis) -> list[dict[str, Any]]:
     drawn.append(page.figure(svg, caption))
     title = "The residual before and after" if changed else "The residual"
     return [{"title": title, "text": [], "figures": drawn}]
+
+
+Array = NDArray[np.float64]
+
+MOST = 6
+"""Values that a row of the ranking holds, the most significant ones."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """``name`` of accelerometer or combination ``of`` (empty: shared), with unit, and its significance."""
+
+    name: str
+    of: str
+    text: str
+    z: float
+
+
+@dataclass(frozen=True)
+class Values:
+    """What a row shows: values, how many more there are, and accelerometers that would do as well."""
+
+    values: tuple[Value, ...]
+    more: int
+    instead: tuple[Value, ...]
+
+
+def values(f: Fitted, r: Ranked) -> Values:
+    """The values of a ranked effect."""
+    columns = [(n, c) for n, c in enumerate(f.candidates) if c.effect == r.effect]
+    wanted = {(p.name, p.accelerometer) for p in r.parameters}
+    own = [(n, c) for n, c in columns if (_name(c), c.accelerometer) in wanted]
+    extra = [
+        _plain(p.name, p.value, p.unit) for p in r.parameters if p.name not in {_name(c) for _, c in own}
+    ]
+    if not own:
+        return Values(tuple(extra), 0, ())
+    accelerometers = {c.accelerometer for _, c in own}
+    if len(accelerometers) == 1 and None not in accelerometers:
+        found = _single(f, own)
+        others = other_accelerometers(f, r.effect, own, columns)
+        return Values((*found, *extra), 0, tuple(v for block in others for v in _single(f, block)))
+    found = _combined(f, own, _fit(f, own))
+    kept = sorted(found, key=lambda v: -abs(v.z))[:MOST]
+    return Values((*kept, *extra), len(found) - len(kept), ())
+
+
+def headlines(
+    parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
+) -> tuple[Value, ...]:
+    """One value per parameter, the same numbers as on the terminal and in the JSON."""
+    return tuple(_headline(q) for q in of_parameters(parameters, combinations))
+
+
+def _headline(q: ParameterValue) -> Value:
+    of, _, name = q.name.rpartition(" ")
+    if q.std <= 0.0:
+        return _plain(name, q.value, q.unit)
+    of = of.replace("Sigma", "Σ") or q.accelerometer_name
+    text = numbers.with_unit(numbers.plus_minus(q.value, q.std), q.unit)
+    return Value(name, of, text, q.value / q.std)
+
+
+def _plain(name: str, value: float, unit: str) -> Value:
+    return Value(name, "", numbers.with_unit(numbers.number(value, 4), unit), 0.0)
+
+
+def _fit(f: Fitted, own: Sequence[tuple[int, Column]]) -> Posterior:
+    """Values of an effect's columns, in scales, with their uncertainty."""
+    both = posterior(f, [n for n, _ in own])
+    return both.of(range(f.n_base, f.n_base + len(own)))
+
+
+def joint(f: Fitted, effect: str) -> list[Value]:
+    """The values of an effect that is in the model of ``f``, as calibrated."""
+    places = [k for k, c in enumerate(f.calibration.columns) if c.effect == effect]
+    own = [(k, f.calibration.columns[k]) for k in places]
+    scale = np.array([c.scale for _, c in own])
+    value = f.calibration.p[f.calibration.index[places]] / scale
+    return _combined(f, own, Posterior(value, posterior(f).of(places).covariance))
+
+
+def _single(f: Fitted, own: Sequence[tuple[int, Column]]) -> list[Value]:
+    fitted = _fit(f, own)
+    return [_value(c, c.accelerometer_name, np.eye(len(own))[k], fitted) for k, (_, c) in enumerate(own)]
+
+
+def _value(c: Column, of: str, weights: Array, fitted: Posterior) -> Value:
+    factor = c.scale / c.unit_factor
+    v, s = float(weights @ fitted.value), fitted.std(weights)
+    text = numbers.with_unit(numbers.plus_minus(v * factor, s * factor), c.unit)
+    return Value(_name(c), of, text, v / s if s > 0.0 else 0.0)
+
+
+def _combined(f: Fitted, own: Sequence[tuple[int, Column]], fitted: Posterior) -> list[Value]:
+    """Combinations that the record sees of parameters of all four; others one by one unless they are unseen."""
+    places: dict[str, list[int]] = {}
+    for k, (_, c) in enumerate(own):
+        places.setdefault(_name(c), []).append(k)
+    found = []
+    for positions in places.values():
+        column = own[positions[0]][1]
+        rows: list[tuple[str, Array, float]] = []
+        if len(positions) == 4 and f.instrument.layout.like_paper:
+            for name, signs in PATTERNS:
+                w = np.zeros(len(own))
+                w[positions] = np.array(signs) * gains(f.model, f.calibration.p, column.name)
+                rows.append((name, w, SEEN))
+        else:
+            for k in positions:
+                rows.append((own[k][1].accelerometer_name, np.eye(len(own))[k], UNSEEN))
+        for of, w, limit in rows:
+            if fitted.std(w) < limit * float(np.linalg.norm(w)):
+                found.append(_value(column, of, w, fitted))
+    return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,8 +15,10 @@ from ragg_runtime.diagnosis.ranking import Ranked
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error, least
-from ragg_runtime.report.held import Held
 from ragg_runtime.wording import notebook
+
+if TYPE_CHECKING:
+    from ragg_runtime.compensation.frozen import Held
 
 
 def _error(e: Error) -> str:

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis import comparison, series
 from ragg_runtime.diagnosis.comparison import Comparison
+from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.score import Error
-from ragg_runtime.report import barcharts, figures, page
-from ragg_runtime.report.barcharts import Bar
-from ragg_runtime.report.figures import ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
+from ragg_runtime.report import figures, page
+from ragg_runtime.report.figures import Bar, ChannelPanel, Line, MeasuredPanel, SpectrumPanel, TimePanel
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]
@@ -248,12 +248,43 @@ def remainder_figures(
             " 0.2 Hz as the demodulator does. Dashed: what the noise alone gives. Harmonics 2 are the ones that"
             " the demodulator reads as gradient. Bars in grey do not stand out of the noise."
         )
-        found.append({"svg": barcharts.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
+        found.append({"svg": figures.harmonics(bars, f"{key}-harmonic", label), "caption": caption})
     if rows:
         label = "error by motion term"
         caption = "Motion terms that stand out of the residual, by their own size before demodulation."
         shown = term_bars(rows)
         found.append(
-            {"svg": barcharts.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
+            {"svg": figures.lying(shown, f"{key}-terms", label, "Eo rms", None, False), "caption": caption}
         )
     return found
+
+
+def demodulated_panel(f: Fitted, residual: Residuals, before: Residuals | None = None) -> dict[str, Any]:
+    """The demodulated residual: the error of the measured gradients, before a step (if there was one) and after it."""
+    chosen = series.worst(f, residual, FLIGHTS)
+    lines = [(figures.ONLY, residual)]
+    if before is not None:
+        lines = [(figures.BEFORE, before), (figures.AFTER, residual)]
+    drawn = channel_panels(f, lines, chosen)
+    if not drawn:
+        said = (
+            "The record is too short for the demodulator’s low-pass: there are no inline and cross channels."
+        )
+        return {"title": "Demodulated channels", "text": [said], "figures": []}
+    svg = figures.channels(drawn, "channels", "demodulated residual over time")
+    caption = "Demodulated residual: the error of the measured gradients. Dashed: the noise’s one sigma."
+    return {"title": "Demodulated channels", "text": [], "figures": [page.figure(svg, caption)]}
+
+
+def own_effect_panel(d: Diagnosis) -> list[dict[str, Any]]:
+    """What no known effect explains, as a line for model.toml: the strongest term as an effect of the user's own."""
+    line = None if d.verdict != "unexplained" else d.expression()
+    if line is None:
+        return []
+    text = [
+        "To keep the strongest term as an effect of your own, put this line into effects of model.toml, and add it as any"
+        " other: ragg add MODEL_DIR my-effect FLIGHT. It says what the output follows, not why."
+    ]
+    if d.needs():
+        text.append(f"The flight then needs further columns: {'; '.join(d.needs())}.")
+    return [{"title": "As an effect of your own", "text": text, "code": [line], "figures": []}]

@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.survey.result import Survey, counted, recommended
-from ragg_runtime.survey.summary import Trend
+from ragg_runtime.survey.result import Survey, Trend, counted, recommended
 from ragg_runtime.wording.numbers import clean
 
 SHOWN = 12

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
-from ragg_runtime.studio.pyramid import Pyramid, pyramid
+from ragg_runtime.studio.tracks import Pyramid, pyramid
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after
 from ragg_runtime.workflow.after import Compensation

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import contextlib
+import html
+import os
 import socket
 import sys
+import tempfile
 import webbrowser
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+import platformdirs
 import uvicorn
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.studio.guard import Guard, Keys
-from ragg_runtime.studio.opening import remove_opening, write_opening
-from ragg_runtime.studio.places import Places
-from ragg_runtime.studio.routes import UPLOAD, application
-from ragg_runtime.studio.session import Session
+from ragg_runtime.studio.routes import UPLOAD, Guard, Keys, application
+from ragg_runtime.studio.session import Places, Session
 
 LOOPBACK = "127.0.0.1"
 
@@ -97,3 +98,42 @@ def _listening(port: int) -> socket.socket:
         ) from None
     made.listen(128)
     return made
+
+
+_PAGE = """<!doctype html>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<title>ragg studio</title>
+<form method="post" action="{address}"><input type="hidden" name="token" value="{token}"><button>Open ragg studio</button></form>
+<script>document.forms[0].submit()</script>
+"""
+
+
+def write_opening(address: str, token: str) -> Path:
+    """A file of mode 0600, in a folder of its own, that posts the token to the address."""
+    folder = Path(tempfile.mkdtemp(prefix="ragg-studio-", dir=_runtime_folder()))
+    page = folder / "open.html"
+    with open(os.open(page, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as f:
+        f.write(_PAGE.format(address=html.escape(address), token=html.escape(token)))
+    return page
+
+
+def remove_opening(page: Path) -> None:
+    """Take it away, if it is still there."""
+    with contextlib.suppress(OSError):
+        page.unlink(missing_ok=True)
+        page.parent.rmdir()
+
+
+def _runtime_folder() -> Path | None:
+    """The user's own folder for what lives as long as a session; ``None``: there is none, the temporary files' serves."""
+    folder = platformdirs.user_runtime_path()
+    try:
+        known = folder.stat()
+    except OSError:
+        return None
+    return (
+        folder
+        if hasattr(os, "getuid") and known.st_uid == os.getuid() and not known.st_mode & 0o077
+        else None
+    )

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import os
+import re
 import threading
+import time
+import traceback
+import unicodedata
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -10,22 +15,21 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.base.errors import UserError
+from ragg_runtime.base import progress
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.base.progress import PASSES
 from ragg_runtime.diagnosis import foresee
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.foresee import Unwhitened
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
+from ragg_runtime.flight.formats import ENDINGS, ending_of
 from ragg_runtime.studio import apply
-from ragg_runtime.studio.jobs import Busy, Jobs
-from ragg_runtime.studio.places import Places
 from ragg_runtime.studio.tracks import Tracks
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation
-from ragg_runtime.workflow.branches import branches, text_of
 from ragg_runtime.workflow.loop import Added, Loaded
-from ragg_runtime.workflow.sheet import Edit
+from ragg_runtime.workflow.versions import Edit, branches, text_of
 
 Part = Callable[[str, float], None]
 
@@ -305,3 +309,212 @@ def _nothing() -> dict[str, object]:
     """Of another model or other flights nothing is known yet."""
     names = ("compared", "diagnosed", "unwhitened", "previous", "beside", "trial", "compensated")
     return dict.fromkeys(names) | {"tracks": Tracks()}
+
+
+LISTED = 500
+"""Most entries of a folder that are shown."""
+
+LONGEST_NAME = 120
+"""Longest name of an uploaded file, characters."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Folders, resolved, below which files may be touched."""
+
+    roots: tuple[Path, ...]
+
+    @staticmethod
+    def of(model: Path | None, flights: Sequence[Path]) -> Places:
+        """Those of the model directory and of the flights; the working directory where nothing is named."""
+        named = [*([model.parent if model.name else model] if model else []), *(f.parent for f in flights)]
+        found = [p.resolve() for p in named] or [Path.cwd()]
+        return Places(tuple(dict.fromkeys(found)))
+
+    def inside(self, text: str) -> Path:
+        """The file or folder of this name if it lies, links followed, below one of the folders."""
+        try:
+            path = Path(text).resolve() if text and "\0" not in text else None
+        except (OSError, RuntimeError, ValueError):
+            path = None
+        if path is None or not self.holds(path):
+            raise UserError(
+                "this place is not open to the studio",
+                where=text[:200] or "(no name)",
+                expected="a place below " + ", ".join(map(str, self.roots)),
+                remedy="name its folder when you start `ragg studio`",
+            )
+        return path
+
+    def holds(self, path: Path) -> bool:
+        """Whether it lies, links followed, below one of the folders."""
+        real = path.resolve()
+        return any(real == r or r in real.parents for r in self.roots)
+
+    def listing(self, text: str) -> dict[str, object]:
+        """What of a folder can be opened: folders, model directories, flights."""
+        folder = self.inside(text) if text else self.roots[0]
+        if not folder.is_dir():
+            raise UserError("there is no such folder", where=folder)
+        entries: list[dict[str, object]] = []
+        with os.scandir(folder) as found:
+            for e in sorted(found, key=lambda e: e.name):
+                kind = _kind(e)
+                if kind is not None and len(entries) < LISTED:
+                    entries.append({"name": e.name, "path": e.path, "kind": kind, "bytes": _size(e)})
+        above = str(folder.parent) if any(r in folder.parents for r in self.roots) else None
+        return {
+            "folder": str(folder),
+            "above": above,
+            "roots": list(map(str, self.roots)),
+            "entries": entries,
+        }
+
+
+def safe_name(name: str) -> str:
+    """A name for an uploaded flight: one part, no control characters, of a known ending; or UserError."""
+    plain = unicodedata.normalize("NFC", name).replace("\\", "/").split("/")[-1]
+    plain = re.sub(r"[^\w.+ ()-]", "_", plain).strip(" .")
+    ending = ending_of(plain)
+    if ending is None or len(plain) == len(ending):
+        raise UserError(
+            "this is not a flight file",
+            where=name[:200],
+            expected="a name that ends in " + ", ".join(ENDINGS),
+        )
+    if len(plain) > LONGEST_NAME:
+        raise UserError("the name is too long", where=plain[:60] + "…", expected=f"{LONGEST_NAME} characters")
+    return plain
+
+
+def _kind(e: os.DirEntry[str]) -> str | None:
+    if e.name.startswith("."):
+        return None
+    if e.is_dir():
+        return "model" if Path(e.path, "model.toml").is_file() else "folder"
+    if e.name.lower().endswith(".toml"):
+        return "sheet"
+    return "flight" if ending_of(e.name) else None
+
+
+def _size(e: os.DirEntry[str]) -> int:
+    try:
+        return e.stat().st_size if e.is_file() else 0
+    except OSError:
+        return 0
+
+
+class Cancelled(Exception):
+    """The user does not want the result any more."""
+
+
+class Busy(Exception):
+    """Something else is being worked on."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """What the page shows: a count that grows with every change, and what is being worked on.
+
+    ``revision`` grows with the state alone, not with progress; ``share`` is done of it (0 ... 1),
+    ``error`` are the facts of the last failure.
+    """
+
+    count: int = 0
+    revision: int = 0
+    name: str = ""
+    share: float = 0.0
+    began: float = 0.0
+    error: dict[str, str | None] | None = None
+
+    def as_json(self) -> dict[str, object]:
+        spent = time.monotonic() - self.began if self.name else 0.0
+        return {
+            "count": self.count,
+            "revision": self.revision,
+            "job": self.name,
+            "share": self.share,
+            "spent_s": spent,
+            "error": self.error,
+        }
+
+
+@dataclass
+class Jobs:
+    """One worker. ``told`` is called, in its thread, whenever the status changes."""
+
+    status: Status = field(default_factory=Status)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _cancel: threading.Event = field(default_factory=threading.Event)
+    _thread: threading.Thread | None = None
+
+    def start(self, name: str, work: Callable[[Callable[[str, float], None]], None]) -> None:
+        """Begin ``work``, which is given a function (what, how much in samples of a pass) to announce its parts.
+
+        Raises Busy if something is being worked on.
+        """
+        with self._lock:
+            if self._thread is not None and self._thread.is_alive() and self.status.name:
+                raise Busy
+            self._cancel.clear()
+            self._tell(name=name, share=0.0, began=time.monotonic(), error=None)
+            self._thread = threading.Thread(target=self._run, args=(work,), name="work", daemon=True)
+            self._thread.start()
+
+    def cancel(self) -> None:
+        """Ask the work to end at its next step."""
+        self._cancel.set()
+
+    def wait(self, seconds: float) -> None:
+        """Until the work has ended."""
+        if self._thread is not None:
+            self._thread.join(seconds)
+
+    def changed(self) -> None:
+        """Something that the page shows has changed."""
+        self._tell(revision=self.status.revision + 1)
+
+    def _tell(self, **changes: object) -> None:
+        self.status = replace(self.status, count=self.status.count + 1, **changes)  # type: ignore[arg-type]
+
+    def _run(self, work: Callable[[Callable[[str, float], None]], None]) -> None:
+        total, done = 1.0, 0.0
+
+        def step(amount: float) -> None:
+            nonlocal done
+            if self._cancel.is_set():
+                raise Cancelled
+            done += amount
+            share = min(done / total, 0.99)
+            if share - self.status.share > 0.01:
+                self._tell(share=share)
+
+        def part(name: str, amount: float) -> None:
+            nonlocal total, done
+            if self._cancel.is_set():
+                raise Cancelled
+            total, done = max(amount, 1.0), 0.0
+            self._tell(name=name, share=0.0, began=time.monotonic())
+
+        error: dict[str, str | None] | None = None
+        try:
+            with progress.listening(step):
+                work(part)
+        except Cancelled:
+            error = {"what": "cancelled; nothing was changed"}
+        except UserError as e:
+            facts = ("what", "where", "found", "expected", "remedy")
+            error = {k: getattr(e, k) for k in facts}
+        except OSError as e:
+            error = {"what": e.strerror or "the system refuses", "where": _shown(e.filename)}
+        except MemoryError:
+            error = {"what": "there is not enough memory for this; nothing was changed"}
+        except Exception:
+            traceback.print_exc()
+            error = {"what": "this is a fault of the program, not of your input; the terminal shows where"}
+        finally:
+            self._tell(name="", share=0.0, error=error)
+
+
+def _shown(name: object) -> str | None:
+    return None if name is None else one_line(str(name))

@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
+import html
+import io
+import json
 import math
+import re
 import shlex
-from collections.abc import Mapping, Sequence
+import zipfile
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
-from ragg_runtime.base.errors import one_line
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.base.errors import UserError, one_line
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.flight.record import left_out
+from ragg_runtime.flight.record import WIDEST_SPIKE, left_out
 from ragg_runtime.report import diagnose_page, panels, parameters
+from ragg_runtime.report.add_page import add_html
+from ragg_runtime.report.compare_page import compare_html
+from ragg_runtime.report.diagnose_page import diagnose_html
 from ragg_runtime.report.parameters import Piece, Row, Symbol
-from ragg_runtime.studio import apply, flights, maths
+from ragg_runtime.signals.derivative import runs
+from ragg_runtime.studio import apply
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow import sheet
-from ragg_runtime.workflow.branches import branches, tree
+from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.loop import Loaded, errors_of
+from ragg_runtime.workflow.versions import branches, tree
 
 Json = dict[str, Any]
 
@@ -28,7 +41,7 @@ def overview(s: State, version: str) -> Json:
     return {
         "version": version,
         "model": None if s.loaded is None else _model(s),
-        "flights": flights.shown(s),
+        "flights": shown(s),
         "unread": [] if s.flights else [str(p) for p in s.paths],
         "banner": _banner(s),
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
@@ -36,7 +49,7 @@ def overview(s: State, version: str) -> Json:
         "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
         "next_motion": [] if s.diagnosed is None else [_motion(p) for p in s.diagnosed.next_motion],
         "parameters": None if s.compared is None else _parameters(s.compared),
-        "sheet": None if s.loaded is None else sheet.shown(s.loaded.instrument),
+        "sheet": None if s.loaded is None else versions.shown_sheet(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
         "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
@@ -67,11 +80,11 @@ def _about(e: Any) -> Json:
         "physics": numbers.clean(e.physics),
         "source": numbers.clean(e.source),
         "limits": numbers.clean(e.limits),
-        "equation": maths.mathml(e.equation, block=True),
+        "equation": mathml(e.equation, block=True),
         "channels": list(e.channels),
         "parameters": [
             {
-                "symbol": maths.mathml(q.latex),
+                "symbol": mathml(q.latex),
                 "unit": numbers.unit(q.unit),
                 "meaning": numbers.clean(q.meaning),
             }
@@ -337,3 +350,181 @@ def commands(s: State) -> list[str]:
         for c in cuts
     ]
     return [*_done(s, model, files), *cut, *found]
+
+
+def shown(s: State) -> list[Json]:
+    """Every flight that is open; before it is compared, what a first look tells."""
+    if not s.flights:  # they are being read
+        return []
+    observed = () if s.compared is None else s.compared.fitted.observations
+    return [
+        {
+            "name": numbers.clean(x.name),
+            "path": str(p),
+            "samples": len(x),
+            "valid": int(x.valid.sum()),
+            "rate_Hz": x.rate,
+            "start_s": 0.0,  # figures count from the first sample
+            "duration_s": x.duration,
+            "notes": [numbers.clean(n) for n in x.notes],
+            "channels": [{"name": n, "unit": x.units[n]} for n in x.channels],
+            "outputs": list(x.outputs),
+            "cuts": [list(c) for c in cuts],
+            "parts": [
+                {"name": o.output.name, "spin_Hz": abs(o.record.spin_frequency) * o.record.turning}
+                for o in seen
+            ],
+            "missing": missing(seen[0].record.valid if seen else x.valid, x.rate),
+        }
+        for n, (x, p, cuts) in enumerate(zip(s.flights, s.paths, s.cuts, strict=True))
+        for seen in [[o for o in observed if o.flight == n]]
+    ]
+
+
+_ABSENT = re.compile(r"\\(bm|boldsymbol)\b")
+_OPERATOR = re.compile(r"\\mathrel\{([+-])\}=")
+
+
+@lru_cache(maxsize=512)
+def mathml(latex: str, *, block: bool = False) -> str:
+    """``latex`` as a ``<math>`` element; as plain text where it is none (an expression of the user's own)."""
+    from latex2mathml.converter import convert
+
+    plain = f"<code>{html.escape(latex)}</code>"
+    if ("\\" not in latex and "*" in latex) or set("<>&") & set(latex):  # the converter passes markup on
+        return plain
+    try:
+        made = convert(
+            _OPERATOR.sub(r"\1=", _ABSENT.sub(r"\\mathbf", latex)), display="block" if block else "inline"
+        )
+    except Exception:  # whatever a stranger's text does to the converter, the text can be shown
+        return plain
+    return str(made) if "\\" not in made else plain
+
+
+File = tuple[str, str, bytes]
+HTML, JSON, TEXT = "text/html", "application/json", "text/plain"
+
+
+def take_away(s: State, what: str) -> File:
+    """(name, media type, content) of a file to download."""
+    make = FILES.get(what)
+    if make is None:
+        raise UserError("there is no such file", found=what[:40], expected=", ".join(FILES))
+    return make(s)
+
+
+def _common(s: State) -> dict[str, object]:
+    m, flights = s.model, s.flights
+    return {
+        "title": f"{m.name} and {', '.join(x.name for x in flights)}",
+        "sources": loop.sources(m, flights),
+        "notes": loop.notes(m, flights),
+    }
+
+
+def _dumped(s: State, result: dict[str, object], command: str) -> bytes:
+    return _json(result | loop.origin(s.model, s.flights, command))
+
+
+def _json(result: dict[str, object]) -> bytes:
+    return (json.dumps(result, indent=1, allow_nan=False) + "\n").encode()
+
+
+def _command(s: State, name: str) -> str:
+    return next((c for c in commands(s) if c.startswith(f"ragg {name} ")), f"ragg {name}")
+
+
+def _wait() -> UserError:
+    return UserError("there is no result yet", remedy="open a flight and wait until it is compared")
+
+
+def _compare_report(s: State) -> File:
+    if s.compared is None:
+        raise _wait()
+    page = compare_html(s.compared, command=_command(s, "compare"), **_common(s))  # type: ignore[arg-type]
+    return "compare.html", HTML, page.encode()
+
+
+def _diagnose_report(s: State) -> File:
+    if s.diagnosed is None:
+        raise _wait()
+    page = diagnose_html(s.diagnosed, command=_command(s, "diagnose"), **_common(s))  # type: ignore[arg-type]
+    return "diagnosis.html", HTML, page.encode()
+
+
+def _steps_report(s: State) -> File:
+    if s.compared is None or s.previous is None:
+        raise UserError("there is no step to report yet", remedy="derive an effect into the model first")
+    history = s.model.directory.history
+    steps = [history[n].as_json() for n in branches(history)[0]]
+    page = add_html(steps, s.previous, s.compared, s.diagnosed, command=_command(s, "history"), **_common(s))  # type: ignore[arg-type]
+    return "steps.html", HTML, page.encode()
+
+
+def _compare_json(s: State) -> File:
+    if s.compared is None:
+        raise _wait()
+    return "compare.json", JSON, _dumped(s, s.compared.as_json(), _command(s, "compare"))
+
+
+def _diagnose_json(s: State) -> File:
+    if s.diagnosed is None:
+        raise _wait()
+    return "diagnosis.json", JSON, _dumped(s, s.diagnosed.as_json(), _command(s, "diagnose"))
+
+
+def _compensated(s: State, name: str) -> File:
+    if s.compensated is None:
+        raise UserError("nothing is compensated yet", remedy="do it under Apply")
+    kind = "text/csv" if name.endswith(".csv") else "application/vnd.apache.parquet"
+    return name, kind, apply.file_of(s.compensated, name)
+
+
+def _model_file(s: State) -> File:
+    return "model.toml", "application/toml", s.model.directory.text.encode()
+
+
+def _exported(s: State, form: str) -> File:
+    """The model to run elsewhere, with the calibration that is kept: what ``ragg export`` writes, as one file."""
+    files = after.FORMS[form](after.contents(s.model))
+    name = f"model-{form}"
+    made = io.BytesIO()
+    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as z:
+        for path, text in files.items():
+            z.writestr(zipfile.ZipInfo(f"{name}/{path}"), text, zipfile.ZIP_DEFLATED)
+    return f"{name}.zip", "application/zip", made.getvalue()
+
+
+def _commands(s: State) -> File:
+    return "commands.sh", TEXT, ("#!/bin/sh\n" + "\n".join(commands(s)) + "\n").encode()
+
+
+FILES: Mapping[str, Callable[[State], File]] = {
+    "compare.html": _compare_report,
+    "diagnosis.html": _diagnose_report,
+    "steps.html": _steps_report,
+    "compare.json": _compare_json,
+    "diagnosis.json": _diagnose_json,
+    "compensated.csv": lambda s: _compensated(s, "compensated.csv"),
+    "compensated.parquet": lambda s: _compensated(s, "compensated.parquet"),
+    "model.toml": _model_file,
+    "model-c.zip": lambda s: _exported(s, "c"),
+    "model-numpy.zip": lambda s: _exported(s, "numpy"),
+    "commands.sh": _commands,
+}
+
+
+MOST_MARKS = 300
+"""Marks of either kind on a timeline, the longest and the first: it has no more pixels for them."""
+
+
+def missing(valid: NDArray[np.bool_], rate: float) -> dict[str, Any]:
+    """Stretches (from, to, s since the first sample) without usable samples, and instants of those too short for a gap."""
+    lacking = runs(~valid)
+    gaps = [x for x in lacking if x.stop - x.start > WIDEST_SPIKE]
+    longest = sorted(gaps, key=lambda x: x.start - x.stop)[:MOST_MARKS]
+    return {
+        "gaps": [[x.start / rate, x.stop / rate] for x in sorted(longest, key=lambda x: x.start)],
+        "alone": [x.start / rate for x in lacking if x.stop - x.start <= WIDEST_SPIKE][:MOST_MARKS],
+    }

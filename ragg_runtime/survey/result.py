@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import io
 import shlex
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.survey import summary
-from ragg_runtime.survey.summary import Advice, Summary
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+from scipy import special
+
+from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.false_alarms import PROMISED, SURVEY
+from ragg_runtime.fit.significance import log_sf
 from ragg_runtime.survey.task import Record
 from ragg_runtime.wording import notebook
 from ragg_runtime.wording.numbers import clean
@@ -38,7 +45,7 @@ class Survey:
 
     @cached_property
     def summary(self) -> Summary:
-        return summary.summarised(self.records)
+        return summarised(self.records)
 
     def __repr__(self) -> str:
         return f"<Survey: {counted(self.summary.counts)}>"
@@ -103,3 +110,326 @@ def _place(r: Mapping[str, Any]) -> str:
     path = Path(r["file"])
     below = path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
     return shlex.quote(clean(str(below)))
+
+
+CERTAIN = -30.0
+"""Logarithm of a p-value that no flaw of an estimated noise brings about: one flight is enough."""
+
+BEYOND = -1e6
+"""The same of an effect that is seen in the values themselves (a saturated output): certain."""
+
+VERDICTS = ("adequate", "missing-effect", "unexplained")
+
+
+@dataclass(frozen=True)
+class EffectCount:
+    """How often an effect was found.
+
+    Attributes
+    ----------
+    found
+        Flights in which it is claimed.
+    perhaps
+        Further flights in which it would do as well as what is claimed.
+    testable
+        Flights whose record could have shown it.
+    """
+
+    effect: str
+    found: int
+    perhaps: int
+    testable: int
+
+
+@dataclass(frozen=True)
+class Advice:
+    """An effect to add, and the flights that ask for it.
+
+    Attributes
+    ----------
+    effect
+        The effect that accounts for most of the flights not yet accounted for.
+    flights
+        Their names.
+    log10_chance
+        Logarithm of the probability of as many false alarms, if :data:`~ragg_runtime.base.false_alarms.PROMISED` of all flights give one.
+    strongest_log10_p
+        That of the least p-value of these flights (``None``: unknown).
+    alternatives
+        Effects that none of these flights can tell from it.
+    """
+
+    effect: str
+    flights: tuple[str, ...]
+    log10_chance: float
+    strongest_log10_p: float | None
+    alternatives: tuple[str, ...]
+
+    @property
+    def firm(self) -> bool:
+        """Whether so many flights, or one with such evidence, can hardly be false alarms."""
+        strong = self.strongest_log10_p is not None and self.strongest_log10_p < CERTAIN
+        return bool(strong or self.log10_chance < np.log10(SURVEY))
+
+
+@dataclass(frozen=True)
+class Trend:
+    """A calibrated parameter over the flights that see it, in the order of their names.
+
+    Attributes
+    ----------
+    name, accelerometer, unit
+        As in a diagnosis; parameters of an effect begin with its id.
+    values, stds
+        By flight; ``None`` where the flight does not see it.
+    mean, scatter
+        Mean weighted by the variances, and standard deviation of the values.
+    chi2, dof
+        Sum of squared deviations from the mean in standard deviations, and values less one.
+    slope_z
+        Slope from flight to flight over its standard deviation, the scatter about the line included (``None``
+        for less than three values).
+    """
+
+    name: str
+    accelerometer: int | None
+    unit: str
+    values: tuple[float | None, ...]
+    stds: tuple[float | None, ...]
+    mean: float
+    scatter: float
+    chi2: float
+    dof: int
+    slope_z: float | None
+
+    @property
+    def label(self) -> str:
+        return self.name if self.accelerometer is None else f"{self.name}[{self.accelerometer}]"
+
+    @property
+    def varies(self) -> bool:
+        """Whether the values differ by more than their standard deviations let expect (1 %)."""
+        return bool(self.log_p < np.log(SURVEY))
+
+    @property
+    def log_p(self) -> float:
+        """Logarithm of the probability that a constant parameter scatters so much."""
+        return log_sf(self.chi2, self.dof)
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What all records say together. Tuples are sorted, most telling first."""
+
+    counts: Mapping[str, int]
+    effects: tuple[EffectCount, ...]
+    advice: tuple[Advice, ...]
+    terms: tuple[tuple[str, str, int], ...]
+    trends: tuple[Trend, ...]
+    names: tuple[str, ...]
+    median: Mapping[str, float | None]
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "counts": dict(self.counts),
+            "effects": [asdict(e) for e in self.effects],
+            "recommendation": [asdict(a) | {"firm": a.firm} for a in self.advice],
+            "unexplained_terms": [{"harmonic": h, "term": t, "flights": n} for h, t, n in self.terms],
+            "median_error": dict(self.median),
+            "parameters": [_trend_json(t) for t in self.trends],
+        }
+
+
+def _trend_json(t: Trend) -> dict[str, Any]:
+    whole = asdict(t)
+    return {k: list(v) if isinstance(v, tuple) else v for k, v in whole.items()} | {"varies": t.varies}
+
+
+def summarised(records: Sequence[Mapping[str, Any]]) -> Summary:
+    """Summary of records in the order of their flights' names."""
+    done = [r for r in records if "verdict" in r]
+    counts = {v: sum(r["verdict"] == v for r in done) for v in VERDICTS}
+    counts["error"] = len(records) - len(done)
+    return Summary(
+        counts=counts,
+        effects=tuple(_effects(done)),
+        advice=tuple(_advice(done)),
+        terms=tuple(_terms(done)),
+        trends=tuple(_trends(done)),
+        names=tuple(str(r["flight"]) for r in done),
+        median={k: _median(done, k) for k in ("nominal", "calibrated", "holdout", "after", "after_holdout")}
+        | {"noise_floor": float(np.median([r["noise_floor"]["rms_Eo"] for r in done])) if done else None},
+    )
+
+
+def _median(done: Sequence[Mapping[str, Any]], which: str) -> float | None:
+    values = [r["error"][which]["rms_Eo"] for r in done if r["error"][which]]
+    known = [v for v in values if v is not None]
+    return float(np.median(known)) if known else None
+
+
+def _claims(r: Mapping[str, Any]) -> list[frozenset[str]]:
+    """What a flight asks for: one effect out of each of these."""
+    return [frozenset({e, *r["indistinguishable"].get(e, ())}) for e in r["found"]]
+
+
+def _effects(done: Sequence[Mapping[str, Any]]) -> list[EffectCount]:
+    names = sorted({e for r in done for group in _claims(r) for e in group})
+    found = []
+    for e in names:
+        own = sum(e in r["found"] for r in done)
+        either = sum(any(e in group for group in _claims(r)) for r in done)
+        testable = sum(e not in r["not_testable"] for r in done)
+        found.append(EffectCount(e, own, either - own, testable))
+    return sorted(found, key=lambda x: (-x.found, -x.perhaps, x.effect))
+
+
+def _advice(done: Sequence[Mapping[str, Any]]) -> list[Advice]:
+    """Effects that together account for all claims, each the one with most claims still open."""
+    open_claims = [
+        (n, group, e) for n, r in enumerate(done) for group, e in zip(_claims(r), r["found"], strict=True)
+    ]
+    found = []
+    while open_claims:
+        score: dict[str, tuple[int, int]] = {}
+        for _, group, main in open_claims:
+            for e in sorted(group):
+                either, own = score.get(e, (0, 0))
+                score[e] = (either + 1, own + (e == main))
+        best = min(score, key=lambda e: (-score[e][0], -score[e][1], e))
+        mine = [(n, group) for n, group, _ in open_claims if best in group]
+        flights = list(dict.fromkeys(n for n, _ in mine))
+        shared = frozenset.intersection(*(group for _, group in mine)) - {best}
+        chance = float(np.log10(special.bdtrc(len(flights) - 1, len(done), PROMISED)))
+        names = tuple(str(done[n]["flight"]) for n in flights)
+        evidence = [_log10_p(done[n], best) for n in flights]
+        strongest = min((p for p in evidence if p is not None), default=None)
+        found.append(
+            Advice(
+                effect=best,
+                flights=names,
+                log10_chance=chance,
+                strongest_log10_p=strongest,
+                alternatives=tuple(sorted(shared)),
+            )
+        )
+        open_claims = [c for c in open_claims if best not in c[1]]
+    return found
+
+
+def _log10_p(r: Mapping[str, Any], effect: str) -> float | None:
+    """Of one flight; ``None`` if its record does not tell (the effect is far down its ranking)."""
+    for x in r["ranking"]:
+        if x["effect"] == effect:
+            return BEYOND if x["log10_p"] is None else float(x["log10_p"])
+    return None
+
+
+def _terms(done: Sequence[Mapping[str, Any]]) -> list[tuple[str, str, int]]:
+    """Motion terms of the unexplained flights: (harmonic, term, flights), most frequent first."""
+    count: dict[tuple[str, str], int] = {}
+    for r in done:
+        for key in dict.fromkeys((t["harmonic"], t["term"]) for t in r.get("terms", ())):
+            count[key] = count.get(key, 0) + 1
+    return [(h, t, n) for (h, t), n in sorted(count.items(), key=lambda x: (-x[1], x[0]))]
+
+
+def _trends(done: Sequence[Mapping[str, Any]]) -> list[Trend]:
+    """Parameters that two flights or more see; those that vary most come first."""
+    columns: dict[tuple[str, int | None, str], dict[int, tuple[float, float]]] = {}
+    for n, r in enumerate(done):
+        for p in r["parameters"]:
+            if p["value"] is not None and p["std"]:
+                key = (p["name"], p["accelerometer"], p["unit"])
+                columns.setdefault(key, {})[n] = (p["value"], p["std"])
+    found = [_trend(key, seen, len(done)) for key, seen in columns.items() if len(seen) > 1]
+    return sorted(found, key=lambda t: (t.log_p, t.name, t.accelerometer or 0))
+
+
+def _trend(key: tuple[str, int | None, str], seen: Mapping[int, tuple[float, float]], count: int) -> Trend:
+    at = np.array(sorted(seen), dtype=np.float64)
+    v, s = (np.array([seen[int(n)][k] for n in at]) for k in (0, 1))
+    w = 1.0 / s**2
+    centre = float(v[0])  # of values that agree to many digits, only the differences are summed
+    mean = centre + float(np.sum(w * (v - centre)) / np.sum(w))
+    x = at - float(np.sum(w * at) / np.sum(w))
+    values, stds = ([seen[n][k] if n in seen else None for n in range(count)] for k in (0, 1))
+    chi2 = float(np.sum(w * (v - mean) ** 2))
+    line = float(np.sum(w * x * (v - mean)) / np.sum(w * x**2))
+    about = float(np.sum(w * (v - mean - line * x) ** 2))
+    wider = max(1.0, about / max(len(v) - 2, 1)) ** 0.5
+    slope = line * float(np.sqrt(np.sum(w * x**2))) / wider if len(v) > 2 else None
+    return Trend(*key, tuple(values), tuple(stds), mean, float(np.std(v, ddof=1)), chi2, len(v) - 1, slope)
+
+
+TOGETHER = 512
+"""Flights of a row group: so many are in memory as a table at once."""
+
+ERRORS = ("nominal", "calibrated", "holdout", "after", "after_holdout")
+"""Of these a row has the rms, ``nominal_Eo`` and so on; None where a record does not tell."""
+
+_NAMES = pa.list_(pa.string())
+_SCHEMA = pa.schema(
+    [
+        *((n, pa.string()) for n in ("flight", "file", "sha256", "verdict", "error")),
+        ("samples", pa.int64()),
+        *((n, pa.float64()) for n in ("duration_s", "rate_Hz")),
+        ("found", _NAMES),
+        *((f"{n}_Eo", pa.float64()) for n in (*ERRORS, "noise_floor")),
+        (
+            "ranking",
+            pa.list_(pa.struct({"effect": pa.string(), "log10_p": pa.float64(), "delta_bic": pa.float64()})),
+        ),
+        (
+            "parameters",
+            pa.list_(
+                pa.struct(
+                    {
+                        "name": pa.string(),
+                        "accelerometer": pa.int64(),
+                        "unit": pa.string(),
+                        "value": pa.float64(),
+                        "std": pa.float64(),
+                    }
+                )
+            ),
+        ),
+        ("terms", pa.list_(pa.struct({"harmonic": pa.string(), "term": pa.string()}))),
+        ("notes", _NAMES),
+    ]
+)
+
+
+def parquet(records: Sequence[Record]) -> bytes:
+    """The table as the bytes of a Parquet file; the same records give the same bytes."""
+    stream = io.BytesIO()
+    with pq.ParquetWriter(stream, _SCHEMA, compression="zstd") as writer:
+        for start in range(0, max(len(records), 1), TOGETHER):
+            rows = [_row(r) for r in records[start : start + TOGETHER]]
+            writer.write_table(pa.Table.from_pylist(rows, schema=_SCHEMA))
+    return stream.getvalue()
+
+
+def check_place(path: Path) -> None:
+    """UserError if a file stands there that is neither empty nor such a table: a record may be a Parquet file too."""
+    if not path.is_file() or not path.stat().st_size:
+        return
+    try:
+        known = pq.read_schema(path).names == _SCHEMA.names
+    except (OSError, pa.ArrowException):
+        known = False
+    if not known:
+        raise UserError(
+            "a table would be written over something else",
+            where=path,
+            found="a file that is no table of a survey",
+            remedy="name another file, or delete this one first",
+        )
+
+
+def _row(r: Record) -> dict[str, Any]:
+    row = {name: r.get(name) for name in _SCHEMA.names}
+    if "verdict" not in r:
+        return row | {"error": r["error"]["message"]}
+    scored = {f"{n}_Eo": r["error"][n]["rms_Eo"] if r["error"][n] else None for n in ERRORS}
+    return row | scored | {"error": None, "noise_floor_Eo": r["noise_floor"]["rms_Eo"]}

@@ -3,16 +3,39 @@
 from __future__ import annotations
 
 import contextlib
+import importlib
+import logging
+import os
+import sys
+import tempfile
+import time
 from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Sequence
+from functools import partial
+from itertools import islice
 from pathlib import Path
+from typing import Any
+
+import click
 
 from ragg_runtime.base.errors import UserError
+from ragg_runtime.base.progress import INTERVAL
 from ragg_runtime.flight.record import same_record
-from ragg_runtime.survey import cluster, local
+from ragg_runtime.survey import local
 from ragg_runtime.survey.journal import Journal, journal
+from ragg_runtime.survey.local import ATTEMPTS, lost
 from ragg_runtime.survey.result import Survey
-from ragg_runtime.survey.task import BETWEEN, CONTENT, Job, Record, divided, expanded, job
+from ragg_runtime.survey.task import (
+    BETWEEN,
+    CONTENT,
+    Job,
+    Record,
+    divided,
+    examine,
+    expanded,
+    fingerprint,
+    job,
+)
 
 Progress = Callable[[int, int, Record | None], None]
 """Called with the number of flights done, of all, and the record just made (``None`` at the beginning)."""
@@ -121,7 +144,7 @@ def _examined(
     given: Job, files: Sequence[str], jobs: int | None, scheduler: str | None
 ) -> Generator[tuple[str, Record]]:
     if scheduler is not None:
-        return cluster.examined(given, files, scheduler)
+        return examined_on_cluster(given, files, scheduler)
     return local.examined(given, files, jobs or local.processors())
 
 
@@ -132,3 +155,187 @@ def _kept(resume: Path | None) -> Iterator[Journal | None]:
     else:
         with journal(resume) as kept:
             yield kept
+
+
+PATIENCE = 5.0
+"""How long the scheduler, and then its first worker, is waited for, s."""
+
+AHEAD = 4
+"""Flights that the scheduler knows for each thread of its workers: its memory does not grow with their number."""
+
+
+def examined_on_cluster(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
+    """(file, record) of every flight, in the order in which they are done.
+
+    Raises UserError if the cluster cannot be used, or is lost on the way.
+    """
+    with _client(address) as (distributed, client):
+        _check_workers(client, address)
+        ask = partial(client.submit, partial(examine, job), pure=False, retries=ATTEMPTS - 1)
+        waiting = iter(files)
+        ahead = AHEAD * sum(client.nthreads().values())
+        asked = {ask(file): file for file in islice(waiting, ahead)}
+        done = distributed.as_completed(list(asked), loop=client.loop)
+        for future in done:
+            file = asked.pop(future)
+            yield file, _record(address, file, future)
+            future.release()
+            for following in islice(waiting, 1):
+                new = ask(following)
+                asked[new] = following
+                done.add(new)
+
+
+def _record(address: str, file: str, future: Any) -> Record:
+    if future.cancelled():
+        raise UserError(
+            "the connection to the scheduler is lost",
+            where=address,
+            remedy="survey again with the same --resume file: what is done is kept",
+        )
+    try:
+        record: Record = future.result()
+    except Exception as error:
+        if type(error).__name__ != "KilledWorker":
+            return lost(file, error)
+        died = "every worker that was given the flight died (out of memory, or killed)"
+        return lost(file, RuntimeError(died))
+    return record
+
+
+@contextlib.contextmanager
+def _client(address: str) -> Iterator[tuple[Any, Any]]:
+    """Dask, and its client of the scheduler; what Dask logs is said here, in one message."""
+    try:
+        distributed: Any = importlib.import_module("distributed")
+    except ImportError:
+        raise UserError(
+            "a survey on a cluster needs Dask",
+            where="--scheduler",
+            found="no package distributed",
+            remedy="pip install 'ragg[cluster]'; or leave --scheduler out: the survey then runs on this machine",
+        ) from None
+    log = logging.getLogger("distributed")
+    level = log.level
+    log.setLevel(logging.CRITICAL)
+    try:
+        try:
+            client = distributed.Client(address, timeout=PATIENCE, set_as_default=False, name="ragg-survey")
+        except Exception as error:
+            raise UserError(
+                "the scheduler cannot be reached",
+                where=address,
+                found=f"{type(error).__name__}: {error}"[:300],
+                expected="a dask.distributed scheduler, tcp://host:port or tls://host:port, as it prints its address",
+                remedy="check the address and that the scheduler runs; Dask must be of the same version there",
+            ) from None
+        try:
+            yield distributed, client
+        finally:
+            with contextlib.suppress(Exception):
+                client.close(timeout=PATIENCE)
+    finally:
+        log.setLevel(level)
+
+
+def _check_workers(client: Any, address: str) -> None:
+    """UserError unless every worker runs this very program: the figures would not be the same."""
+    with contextlib.suppress(Exception):
+        client.wait_for_workers(1, timeout=PATIENCE)
+    answers: dict[str, Any] = client.run(fingerprint, on_error="return")
+    if not answers:
+        raise UserError("the cluster has no workers", where=address, remedy="start some: dask worker ADDRESS")
+    own = fingerprint()
+    for worker, answer in sorted(answers.items()):
+        if answer != own:
+            raise UserError(
+                "a worker of the cluster does not run this version of the program",
+                where=worker,
+                found=f"{answer!r}"[:300] if isinstance(answer, Exception) else _listed(answer),
+                expected=_listed(own),
+                remedy="install the same versions of ragg, NumPy, SciPy and SymPy on all workers",
+            )
+
+
+def _listed(versions: Sequence[tuple[str, str]]) -> str:
+    return ", ".join(f"{n} {v}" for n, v in versions)
+
+
+@contextlib.contextmanager
+def results_file(resume: Path | None) -> Iterator[Path]:
+    """The results file: the one asked for, else one that is kept only if the survey is cut short."""
+    if resume is not None:
+        path, temporary = resume, False
+    else:
+        handle, name = tempfile.mkstemp(prefix="ragg-survey-", suffix=".jsonl")
+        os.close(handle)
+        path, temporary = Path(name), True
+        # A survey that is killed outright cannot say it any more.
+        click.echo(f"... if it is cut short, continue with --resume {path}", err=True)
+    before = path.stat().st_size if path.is_file() else 0
+    try:
+        yield path
+    except BaseException:
+        # Nothing that was there before is read: it may be anything, and a refusal says so.
+        if path.is_file() and path.stat().st_size > before and path.read_bytes().count(b"\n") > 1:
+            click.echo(f"ragg: what is done is kept; continue with --resume {path}", err=True)
+        elif temporary:
+            path.unlink(missing_ok=True)
+        raise
+    if temporary:
+        path.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def shown() -> Iterator[Progress]:
+    """A bar with the time left where stderr is a terminal, else a line now and then."""
+    if sys.stderr.isatty():
+        with _bar() as show:
+            yield show
+    else:
+        yield _lines()
+
+
+@contextlib.contextmanager
+def _bar() -> Iterator[Progress]:
+    from rich import progress as rich_progress
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("flights"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("time left"),
+        TimeRemainingColumn(),
+        TextColumn("{task.fields[failed]}"),
+    )
+    with rich_progress.Progress(*columns, console=Console(stderr=True), speed_estimate_period=600.0) as bar:
+        task = bar.add_task("", total=None, failed="")
+        failed = 0
+
+        def show(done: int, total: int, record: Record | None) -> None:
+            nonlocal failed
+            failed += record is not None and "error" in record and "verdict" not in record
+            bar.update(task, completed=done, total=total, failed=f"[red]{failed} in error" if failed else "")
+
+        yield show
+
+
+def _lines() -> Progress:
+    start = last = time.monotonic()
+    before = 0
+
+    def show(done: int, total: int, record: Record | None) -> None:
+        nonlocal last, before
+        now = time.monotonic()
+        if record is None:
+            before = done
+            kept = f", {done} of them done before" if done else ""
+            click.echo(f"... {total} flights{kept}", err=True)
+        elif now - last >= INTERVAL or done == total:
+            last = now
+            left = (now - start) / max(done - before, 1) * (total - done)
+            click.echo(f"... {done} of {total}, {left:.0f} s left", err=True)
+
+    return show

@@ -10,35 +10,42 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.base.files import read_text
+from ragg_runtime.base.provenance import provenance
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
 from ragg_runtime.diagnosis.comparison import Comparison
 from ragg_runtime.diagnosis.ladder import climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
+from ragg_runtime.diagnosis.parameters import ParameterValue, calibrated
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.record import distinct
-from ragg_runtime.instrument.units import read_quantity
+from ragg_runtime.instrument.edit_toml import add_effect, remove_effect
+from ragg_runtime.instrument.instrument import EffectSetting
+from ragg_runtime.instrument.layout import PAPER
+from ragg_runtime.instrument.read_toml import parse_instrument
+from ragg_runtime.instrument.units import RawQuantity, read_quantity
+from ragg_runtime.model.model import Model, missing_channels
 from ragg_runtime.model_dir import derive
-from ragg_runtime.workflow.change import Added as Added
-from ragg_runtime.workflow.change import add as add
-from ragg_runtime.workflow.change import errors_of as errors_of
-from ragg_runtime.workflow.change import remove as remove
+from ragg_runtime.model_dir.directory import identity, replace_model_dir
+from ragg_runtime.model_dir.history import Step
+from ragg_runtime.wording import notebook
 from ragg_runtime.workflow.loaded import NO_FORM as NO_FORM
 from ragg_runtime.workflow.loaded import Loaded as Loaded
 from ragg_runtime.workflow.loaded import example as example
 from ragg_runtime.workflow.loaded import load as load
+from ragg_runtime.workflow.loaded import loaded, now
 from ragg_runtime.workflow.loaded import mapping_of as mapping_of
 from ragg_runtime.workflow.loaded import new as new
 from ragg_runtime.workflow.loaded import read_flights as read_flights
@@ -136,3 +143,225 @@ def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
     """(name, sha256) of everything that a result depends on."""
     text = hashlib.sha256(m.directory.text.encode()).hexdigest()
     return [(f"{m.name}/model.toml", text), *((x.name, x.digest) for x in flights)]
+
+
+@dataclass(frozen=True, repr=False)
+class Added:
+    """The result of ``add``: the errors before and after, and the calibrated parameters.
+
+    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
+    """
+
+    loaded: Loaded
+    effect: str
+    before: Comparison | None
+    after: Comparison | None
+    parameters: tuple[ParameterValue, ...]
+    combinations: tuple[ParameterValue, ...]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the effect was added."""
+        return self.after is None or self.after.converged
+
+    def __repr__(self) -> str:
+        before = None if self.before is None else self.before.calibrated.rms_Eo
+        after = None if self.after is None else self.after.calibrated.rms_Eo
+        noise = None if self.after is None else self.after.noise_floor
+        errors = (("before", before), ("after", after), ("noise", noise))
+        return notebook.in_one_line("Added", self.effect, *errors)
+
+    def _repr_html_(self) -> str:
+        noise, adequate = (
+            (None, False) if self.after is None else (self.after.noise_floor, bool(self.after.adequate))
+        )
+        return notebook.added(self.as_json(), [e.id for e in self.loaded.model.effects], noise, adequate)
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            "effect": self.effect,
+            "converged": self.converged,
+            "reason": None if self.after is None else self.after.complaint,
+            "off_sheet": [] if self.after is None else [x.as_json() for x in self.after.off_sheet],
+            "before": errors_of(self.before),
+            "after": errors_of(self.after),
+            "parameters": [p.as_json() for p in self.parameters],
+            "combinations": [p.as_json() for p in self.combinations],
+        }
+
+
+def errors_of(c: Comparison | None) -> dict[str, object] | None:
+    """The ``error`` of compare: nominal, calibrated, holdout."""
+    if c is None:
+        return None
+    return {
+        "nominal": c.nominal.as_json(),
+        "calibrated": c.calibrated.as_json(),
+        "holdout": c.holdout.as_json(),
+    }
+
+
+def add(
+    m: Loaded,
+    effect: str,
+    flights: Sequence[Flight] = (),
+    tell: Callable[[Added], None] | None = None,
+    *,
+    save: bool = True,
+) -> Added:
+    """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
+
+    An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
+    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
+    says what would be.
+    """
+    distinct(flights)
+    setting = _setting(m, effect, flights)
+    others = replace(m.instrument, effects=tuple(s for s in m.instrument.effects if s.id != effect))
+    before = _compare.compare(derive.model_of(others), others, flights, judged=False) if flights else None
+    extended = replace(others, effects=(*others.effects, setting))
+    model = derive.model_of(extended)
+    after: Comparison | None = None
+    parameters: tuple[ParameterValue, ...] = ()
+    combinations: tuple[ParameterValue, ...] = ()
+    if flights:
+        after = _compare.compare(model, extended, flights)
+        parameters, combinations = calibrated(after.fitted, effect)
+        values = {**setting.values, **settings(parameters, m.instrument.layout.size)}
+        setting = replace(setting, values=MappingProxyType(values))
+        after = after.with_nominal(replace(extended, effects=(*others.effects, setting)))
+    made = Added(
+        loaded=m, effect=effect, before=before, after=after, parameters=parameters, combinations=combinations
+    )
+    if made.converged:
+        text = add_effect(m.directory.text, setting)
+        step = Step(
+            action="add",
+            time=now(),
+            effect=effect,
+            before=errors_of(before),
+            after=errors_of(after),
+            flights=MappingProxyType({x.name: x.digest for x in flights}),
+            text=text,
+        )
+        made = replace(made, loaded=_planned(m, text, model, step))
+    if tell is not None:
+        tell(made)
+    if not (save and made.converged):
+        return replace(made, loaded=m)
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(extended), step=step)
+    return replace(made, loaded=loaded(directory))
+
+
+def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
+    """The effect as model.toml will list it, its values still open but for the instant of a step; UserError if it
+    cannot be added.
+    """
+    # a candidate of the model tells all that is asked here: the derivation, half a second to begin, is for others
+    found = next((e for e in m.model.candidates if e.id == effect), None)
+    offered = derive.offered(m.instrument, effect) if found is None else found
+    present = next((s for s in m.instrument.effects if s.id == effect), None)
+    if present is not None and present.values:
+        raise UserError(
+            "the effect is in the model already",
+            where=str(m.directory.path),
+            found=effect,
+            remedy=f"remove it first: ragg remove {m.directory.path} {effect}",
+        )
+    for x in flights:
+        missing = missing_channels(offered, x.channels)
+        if missing:
+            raise UserError(
+                f"the effect {effect} needs a channel that the flight lacks",
+                where=x.path or x.name,
+                found=f"no {', '.join(missing)}",
+                expected="a column of that name with its unit",
+                remedy="record it, or choose another effect",
+            )
+    values: dict[str, RawQuantity] = {}
+    if offered.kind == "step" and flights:
+        values = {"t_step": RawQuantity(_instant(m, effect, flights), "s")}
+    expression = present.expression if present is not None else None
+    return EffectSetting(effect, MappingProxyType(values), expression)
+
+
+def _planned(m: Loaded, text: str, model: Model, step: Step) -> Loaded:
+    """What the model will be after this step."""
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    history = (*m.directory.history, step)
+    return Loaded(replace(m.directory, text=text, instrument=instrument, history=history), model)
+
+
+def remove(m: Loaded, effect: str, tell: Callable[[Loaded], None] | None = None) -> Loaded:
+    """Take an effect out of the model again; ``tell`` as for :func:`add`."""
+    text = remove_effect(m.directory.text, effect)
+    instrument = parse_instrument(text, m.directory.path / "model.toml")
+    step = Step("remove", now(), effect, text=text)
+    if tell is not None:
+        tell(_planned(m, text, derive.model_of(instrument), step))
+    directory = replace_model_dir(m.directory, text, generated=derive.files_of(instrument), step=step)
+    return loaded(directory)
+
+
+def settings(parameters: Sequence[ParameterValue], count: int = PAPER.size) -> dict[str, RawQuantity]:
+    """Calibrated parameters of an effect as they are written to model.toml, ``count`` accelerometers."""
+    values: dict[str, RawQuantity] = {}
+    for p in parameters:
+        if p.accelerometer is None:
+            values[p.name] = RawQuantity(p.value, p.unit)
+        else:
+            old = values.get(p.name)
+            each = list(old.value) if old is not None and isinstance(old.value, tuple) else [0.0] * count
+            each[p.accelerometer - 1] = p.value
+            values[p.name] = RawQuantity(tuple(each), p.unit)
+    return values
+
+
+def _instant(m: Loaded, effect: str, flights: Sequence[Flight]) -> float:
+    """The most likely instant of a step."""
+    d = _diagnose.diagnose(m.model, m.instrument, flights)
+    for r in d.ranking:
+        if r.effect == effect:
+            for p in r.parameters:
+                if p.name == "t_step":
+                    return p.value
+    return 0.0
+
+
+def origin(
+    m: Loaded,
+    flights: Sequence[Flight],
+    command: str,
+    *,
+    files: Sequence[tuple[str, str | None]] = (),
+    before: Loaded | None = None,
+) -> dict[str, object]:
+    """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
+
+    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
+    has changed.
+    """
+    model = identity(m.directory, m.model.digest, None if before is None else before.directory)
+    read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
+    return {"notes": notes(m, flights), "provenance": provenance(command, model, [*read, *files])}
+
+
+def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
+    """The same of a survey that was made with ``m``, and what its report says about itself.
+
+    Flights that could not be read are among the files, too.
+    """
+    from ragg_runtime.survey.journal import sha256  # slow to import, and only surveys need it
+
+    files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
+    read = [(r["flight"], digest) for r, (_, digest) in zip(s.records, files, strict=True) if digest]
+    names = [*sources(m, []), *read]
+    told = origin(m, [], command, files=files) | {"sources": [{"name": n, "sha256": d} for n, d in names]}
+    title = f"{m.name} and {len(s.records)} flights"
+    return told, {"title": title, "command": command, "digest": m.model.digest, "sources": names}
+
+
+def notes(m: Loaded, flights: Sequence[Flight]) -> list[str]:
+    """What was done to model directory and flights, or looks odd in them."""
+    return [*m.notes, *(f"{x.name}: {note}" for x in flights for note in x.notes)]

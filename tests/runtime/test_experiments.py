@@ -12,15 +12,27 @@ from click.testing import CliRunner
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.experiments import paper
 from ragg_runtime.experiments.__main__ import main
-from ragg_runtime.experiments.dynamic import dynamic
-from ragg_runtime.experiments.models import ANGLES_DROPPED, Channels, channels, error, over_turns
+from ragg_runtime.experiments.dynamic import dynamic, regular_run
+from ragg_runtime.experiments.models import (
+    ANGLES_DROPPED,
+    Channels,
+    channels,
+    error,
+    over_turns,
+    response,
+    smallest_angles,
+    with_angles,
+)
 from ragg_runtime.experiments.multifrequency import centre, differences, mass_run, multifrequency
-from ragg_runtime.experiments.page import page
-from ragg_runtime.experiments.regular import regular_run
+from ragg_runtime.experiments.paper import page
 from ragg_runtime.experiments.result import Printed, Result, Row, judge
-from ragg_runtime.experiments.turbulence import statistics, turbulence
-from ragg_runtime.experiments.turbulent import gaussian, turbulent_motion, turbulent_run
-from ragg_runtime.experiments.vartheta_x import response, smallest_angles, with_angles
+from ragg_runtime.experiments.turbulence import (
+    gaussian,
+    statistics,
+    turbulence,
+    turbulent_motion,
+    turbulent_run,
+)
 from ragg_runtime.reference.gravity import G
 from ragg_runtime.reference.instruments import table_v
 

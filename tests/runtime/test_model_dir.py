@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.base.lock import locked
+from ragg_runtime.base.files import locked
 from ragg_runtime.model_dir import directory as md
 from ragg_runtime.model_dir.directory import ModelDir, create_model_dir, load_model_dir, replace_model_dir
 from ragg_runtime.model_dir.history import Step, digest
@@ -239,7 +239,7 @@ def test_the_lock_holds_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 def test_the_lock_ends_with_its_process(tmp_path: Path) -> None:
     code = (
-        "import sys, pathlib, ragg_runtime.base.lock as l\n"
+        "import sys, pathlib, ragg_runtime.base.files as l\n"
         "with l.locked(pathlib.Path(sys.argv[1]), 0): print(1, flush=True); input()"
     )
     with subprocess.Popen(

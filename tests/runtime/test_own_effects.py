@@ -9,7 +9,7 @@ import pytest
 
 import derive.effects as derive_effects
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.model_dir import derive, derived_cache, own_effects
+from ragg_runtime.model_dir import derive, own_effects
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.catalogue import effects
 
@@ -22,7 +22,7 @@ def mine(identifier: str) -> str:
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache")
     own_effects._installed.cache_clear()
 
 

@@ -26,7 +26,7 @@ from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import named, output, vector, voltages
 from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
-from ragg_runtime.report import barcharts, diagnose_page, effect_values, parameters
+from ragg_runtime.report import diagnose_page, figures, parameters
 from ragg_runtime.report.add_page import add_html
 from ragg_runtime.report.compare_page import compare_html
 from ragg_runtime.report.diagnose_page import diagnose_html
@@ -256,8 +256,8 @@ def test_missing_effect_is_named_with_its_size_and_its_ambiguity(cubic: Case) ->
     assert "The model lacks cubic-input" in said
     # a cubic term of A3 and its opposite in A4, which feels the opposite force, are the same in G_out
     r = next(r for r in cubic.diagnosis.ranking if r.effect == "cubic-input")
-    shown = effect_values.values(cubic.diagnosis.fitted, r)
-    (headline,) = effect_values.headlines(r.parameters, r.combinations)
+    shown = diagnose_page.values(cubic.diagnosis.fitted, r)
+    (headline,) = diagnose_page.headlines(r.parameters, r.combinations)
     told = [
         q
         for q in (*r.parameters, *r.combinations)
@@ -466,10 +466,10 @@ def test_numbers_a_reader_expects() -> None:
 
 
 def test_labels_in_figures_are_never_taken_for_mathematics() -> None:
-    bars = [barcharts.Bar("$\\frac{1}$ <b>\udc80\u202e 傾斜", 2.0), barcharts.Bar("b" * 300, math.inf)]
+    bars = [figures.Bar("$\\frac{1}$ <b>\udc80\u202e 傾斜", 2.0), figures.Bar("b" * 300, math.inf)]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        text = barcharts.lying(bars, "x", 'a "label" <', "Eo", 1.0, True)
+        text = figures.lying(bars, "x", 'a "label" <', "Eo", 1.0, True)
     assert "$\\frac{1}$ &lt;b&gt;" in text
     assert "傾斜" in text
     assert "certain" in text

@@ -28,9 +28,8 @@ from ragg_runtime.report.survey_page import survey_html
 from ragg_runtime.report.survey_text import surveyed
 from ragg_runtime.survey import local
 from ragg_runtime.survey import run as survey_run
-from ragg_runtime.survey.result import Survey
+from ragg_runtime.survey.result import Survey, parquet
 from ragg_runtime.survey.run import ordered
-from ragg_runtime.survey.table import parquet
 from ragg_runtime.survey.task import Record, examine, job
 from ragg_runtime.workflow import loop
 

@@ -19,7 +19,7 @@ import pytest
 from flights_of_a_survey import lines_of, make, without_effect
 
 from ragg_runtime.base.errors import UserError
-from ragg_runtime.survey import cluster
+from ragg_runtime.survey import run
 from ragg_runtime.survey.result import Survey
 from ragg_runtime.survey.task import Record, examine, fingerprint, job
 from ragg_runtime.workflow import loop
@@ -167,7 +167,7 @@ def test_workers_of_another_version_are_refused(
 ) -> None:
     m = loop.load(flights[0])
     with running(tmp_path, 0) as c:
-        monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+        monkeypatch.setattr(run, "PATIENCE", 1.0)
         with pytest.raises(UserError, match="no workers"):
             loop.survey(m, flights[1], scheduler=c.address)
         c.worker()
@@ -176,7 +176,7 @@ def test_workers_of_another_version_are_refused(
         own = dict(fingerprint())
         other, here = tuple((own | {"numpy": "1.0"}).items()), os.getpid()
         there = tuple(own.items())
-        monkeypatch.setattr(cluster, "fingerprint", lambda: other if os.getpid() == here else there)
+        monkeypatch.setattr(run, "fingerprint", lambda: other if os.getpid() == here else there)
         with pytest.raises(UserError) as error:
             loop.survey(m, flights[1], scheduler=c.address)
     assert "does not run this version" in error.value.message
@@ -199,7 +199,7 @@ def test_a_scheduler_that_is_not_there_is_one_message(
     with socket.socket() as s:
         s.bind((HERE, 0))
         free = s.getsockname()[1]
-    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+    monkeypatch.setattr(run, "PATIENCE", 1.0)
     start = time.monotonic()
     with pytest.raises(UserError, match="cannot be reached"):
         loop.survey(m, flights[1], scheduler=f"tcp://{HERE}:{free}")

@@ -10,7 +10,7 @@ import pytest
 
 from derive import pipeline
 from ragg_runtime.instrument.read_toml import parse_instrument
-from ragg_runtime.model_dir import derive, derived_cache
+from ragg_runtime.model_dir import derive
 from ragg_runtime.workflow import loop
 
 ROOT = Path(loop.__file__).parents[2]
@@ -19,7 +19,7 @@ EVIL = "\nimport pathlib\npathlib.Path({mark!r}).write_text('executed')\n"
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(derived_cache, "_folder", lambda: tmp_path / "cache" / "derived")
+    monkeypatch.setattr(derive, "_folder", lambda: tmp_path / "cache" / "derived")
     derive._executed.cache_clear()
 
 
@@ -55,9 +55,9 @@ def test_what_was_derived_before_is_not_derived_again(model: Path, monkeypatch: 
 
 def test_sympy_is_not_even_imported_then(model: Path, tmp_path: Path) -> None:
     code = (
-        "import sys; from pathlib import Path; from ragg_runtime.model_dir import derived_cache; "
+        "import sys; from pathlib import Path; from ragg_runtime.model_dir import derive; "
         "from ragg_runtime.workflow import loop\n"
-        f"derived_cache._folder = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
+        f"derive._folder = lambda: Path({str(tmp_path / 'cache' / 'derived')!r})\n"
         "m = loop.load(sys.argv[1]); print([e.id for e in m.model.effects], 'sympy' in sys.modules)"
     )
     done = subprocess.run(
@@ -116,13 +116,11 @@ def test_a_request_depends_on_all_that_is_derived(tmp_path: Path, monkeypatch: p
         f"[{line.replace('ug/g^2', 'mg/g^2')}]",
         f"[{line.replace('unit =', 'shared = true, unit =')}]",
     ]
-    found = {
-        derived_cache.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists
-    }
+    found = {derive.request(parse_instrument(text.replace("effects = []", f"effects = {e}"))) for e in lists}
     monkeypatch.setenv("RAGG_EFFECTS", str(tmp_path))
     for source in ("# 1\n", "# 2\n"):
         (tmp_path / "a.py").write_text(source)
-        found.add(derived_cache.request(parse_instrument(text)))
+        found.add(derive.request(parse_instrument(text)))
     assert len(found) == len(lists) + 2
 
 
@@ -130,7 +128,7 @@ def test_values_are_no_part_of_the_request() -> None:
     text = (ROOT / "ragg_runtime" / "example.toml").read_text("utf-8")
     line = '{ id = "mine", stage = "transducer", add = "K * f_i**2", K = { VALUE unit = "ug/g^2" } }'
     found = {
-        derived_cache.request(
+        derive.request(
             parse_instrument(text.replace("effects = []", f"effects = [{line}]".replace("VALUE", v)))
         )
         for v in ("", "value = 3,", "value = [1, 2, 3, 4],")

@@ -25,15 +25,13 @@ from ragg_runtime.flight import write_flight
 from ragg_runtime.instrument.read_toml import parse_instrument
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.studio import mapping, session, views
-from ragg_runtime.studio.flights import missing
-from ragg_runtime.studio.maths import mathml
-from ragg_runtime.studio.places import Places
-from ragg_runtime.studio.pyramid import HEAD, pyramid
 from ragg_runtime.studio.routes import ACTIONS
-from ragg_runtime.studio.session import Session
+from ragg_runtime.studio.session import Places, Session
+from ragg_runtime.studio.tracks import HEAD, pyramid
+from ragg_runtime.studio.views import mathml, missing
 from ragg_runtime.workflow import loop
-from ragg_runtime.workflow.branches import branches, tree
 from ragg_runtime.workflow.simulate import simulated
+from ragg_runtime.workflow.versions import branches, tree
 from tests.layouts import sheets
 
 
