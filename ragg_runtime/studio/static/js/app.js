@@ -1,21 +1,15 @@
 // The page: tabs, keys, what the server is doing, and which view is open.
 //
-// Imports go down alone: app -> views -> plots and doing -> store, api, dom.
-//   dom     elements, numbers, MathML                 api    what the server is asked
-//   store   what is known (server) and looked at (view)   doing  actions, and telling what went wrong
-//   plots/  draw what they are given                  views/ one a tab, and the panes of the loop
-import { ask, events, Refused } from "./api.js";
-import { doing, trouble } from "./doing.js";
+// Imports go down alone: app -> loop, model, files, apply -> effects, figures -> curves, drawings -> store, api, dom.
+//   dom     elements, numbers, MathML                     api     what the server is asked; actions, and what went wrong
+//   store   what is known (server) and looked at (view)   curves, drawings  draw what they are given
+import { applyView, takeView } from "./apply.js";
+import { ask, doing, events, Refused, trouble } from "./api.js";
+import { filesView } from "./files.js";
 import { fill, h } from "./dom.js";
+import { historyView, parametersView, sheetView } from "./model.js";
 import { known, look, on, recall, server, view } from "./store.js";
-import { loopView } from "./views/loop.js";
-import { parametersView } from "./views/parameters.js";
-import { sheetView } from "./views/sheet.js";
-import { historyView } from "./views/history.js";
-import { filesView } from "./views/files.js";
-import { applyView } from "./views/apply.js";
-import { takeView } from "./views/take.js";
-import { help } from "./views/help.js";
+import { loopView } from "./loop.js";
 
 const VIEWS = [
   ["loop", "Loop", loopView],
@@ -166,3 +160,33 @@ function listen() {
 document.addEventListener("visibilitychange", listen);
 listen();
 document.documentElement.dataset.ready = "yes";
+
+// The keys, in a dialog.
+
+const HELP = [
+  ["1 … 7", "the views, from left to right"],
+  ["j, k", "next and previous effect"],
+  ["Space", "tick or untick the effect"],
+  ["Enter", "on an effect: open or close what is known of it"],
+  ["a", "derive and calibrate what is ticked"],
+  ["v, e, i, c", "V, Eo, inline, cross"],
+  ["+, −", "zoom in and out"],
+  ["[, ]", "move left and right"],
+  ["0", "the whole flight"],
+  ["f, o", "next flight, next output"],
+  ["u, r", "undo, redo"],
+  ["d", "light or dark"],
+  ["wheel", "zoom about the pointer; with Shift: move"],
+  ["drag", "choose a stretch of time, a band of frequencies; double click: all"],
+];
+
+export function help() {
+  const box = h(
+    "dialog.help", { "aria-label": "Keys", onclose: () => box.remove() },
+    h("h2", {}, "Keys"),
+    h("table", {}, h("tbody", {}, HELP.map(([key, what]) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, key)), h("td", {}, what))))),
+    h("form", { method: "dialog" }, h("button", {}, "Close")),
+  );
+  document.body.append(box);
+  box.showModal();
+}

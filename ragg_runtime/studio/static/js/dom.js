@@ -1,5 +1,4 @@
 // Elements without templates: text stays text, whatever a file or a channel is called.
-
 /** An element: h("p", {class: "note", onclick}, "text", child, [children]). */
 export function h(name, attributes = {}, ...children) {
   const [tag, ...classes] = name.split(".");

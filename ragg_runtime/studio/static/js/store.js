@@ -1,5 +1,4 @@
 // Two states: what the server knows (server), and what this page looks at (view), which stands in the address.
-
 const DEFAULTS = {
   view: "loop", flight: 0, output: 0, from: null, to: null, unit: "Eo", ticked: [], open: "", term: "", low: null, high: null, theme: "",
 };

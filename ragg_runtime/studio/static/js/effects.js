@@ -1,8 +1,7 @@
 // The effects, best first: evidence, equation, physics, what absorbs them; a tick shows what it would do.
-import { fill, h, maths, number } from "../dom.js";
-import { look, on, server, view } from "../store.js";
-import { doing } from "../doing.js";
-import { foreseen } from "./foresee.js";
+import { ask, doing, Refused } from "./api.js";
+import { fill, h, maths, number } from "./dom.js";
+import { look, on, server, view } from "./store.js";
 
 // a meter is full at this evidence (-log10 p) at least, lest chance look like a finding
 const LEAST = 100;
@@ -122,3 +121,43 @@ export function effectsPane(box) {
   const off = [on("ticked open", marks), on("foreseen ticked", footer), () => removeEventListener("keydown", keys)];
   return { known, gone: () => off.forEach((f) => f()) };
 }
+
+// What ticked effects would leave: asked at once, shown everywhere.
+
+let found = null;
+let asked = 0;
+
+/** The last answer for what is ticked, or null. */
+export const foreseen = () => found;
+
+async function again() {
+  const mine = ++asked;
+  const effects = view.ticked.join(",");
+  if (!effects || !server.state || !server.state.effects.length) {
+    found = null;
+    look({ foreseen: String(mine) }, true);
+    return;
+  }
+  const began = performance.now();
+  try {
+    const answer = await ask("preview", { effects });
+    if (mine !== asked) return;
+    found = answer;
+    document.documentElement.dataset.preview = (performance.now() - began).toFixed(1);
+  } catch (error) {
+    if (!(error instanceof Refused)) throw error;
+    found = null;
+  }
+  look({ foreseen: String(mine) }, true);
+}
+
+on("ticked", again);
+on("server", () => {
+  // effects that are in the model now, or unknown, are ticked no longer
+  const ids = new Set((server.state ? server.state.effects : []).map((e) => e.id));
+  if (server.state && server.state.effects.length) {
+    const kept = view.ticked.filter((e) => ids.has(e));
+    if (kept.length !== view.ticked.length) look({ ticked: kept });
+    else if (view.ticked.length && !found) again();
+  } else if (server.state && server.state.banner && !server.state.effects.length && found) again();
+});

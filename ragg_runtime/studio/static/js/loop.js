@@ -1,0 +1,164 @@
+// The loop: where one stands, where the model fails, what is missing, and what ticking it would do.
+import { doing } from "./api.js";
+import { drawingText, fileName, saves, stepBars } from "./drawings.js";
+import { effectsPane, foreseen } from "./effects.js";
+import { figures } from "./figures.js";
+import { fill, h, number } from "./dom.js";
+import { look, on, server, view } from "./store.js";
+
+export function loopView(main) {
+  const top = h("section.banner", { "aria-label": "Where one stands" });
+  const left = h("div.figures");
+  const right = h("aside.effects", { "aria-label": "Effects" });
+  const below = h("section.unexplained", { "aria-label": "What is unexplained" });
+  main.replaceChildren(top, h("div.columns", {}, left, h("div.side", {}, right, below)));
+  const parts = [banner(top), figures(left), effectsPane(right), unexplainedPane(below)];
+  const off = on("server", () => parts.forEach((p) => p.known && p.known()));
+  parts.forEach((p) => p.known && p.known());
+  return () => {
+    off();
+    parts.forEach((p) => p.gone && p.gone());
+  };
+}
+
+// Verdict, errors and noise, and the error after every step with what is foreseen.
+
+let seen = []; // the steps that were shown last: what has been added since is seen to fall
+
+export function banner(box) {
+  const known = () => {
+    const { state } = server;
+    const b = state && state.banner;
+    if (!b) {
+      const busy = state && state.status.job;
+      fill(box, h("div.verdict.wait", {}, h("p.headline", {}, !state || !state.model ? "Open a model and a flight to begin." : !state.flights.length ? (busy ? "Reading the flights …" : "Choose a flight to hold this model against.") : busy ? "Calibrating the model on the flight …" : "Nothing is known of these flights yet."), state && state.flights.length && !busy ? h("button", { type: "button", onclick: () => doing("look") }, "Compare them with the model") : null,
+        state && !state.flights.length && !busy ? h("p.row", {},
+          (state.unread || []).map((path) => h("button.main", { type: "button", onclick: () => look({ view: "files", columns: path }) }, `Say what the columns of ${path.split("/").at(-1)} are`)),
+          h("button", { type: "button", onclick: () => look({ view: "files" }) }, "Choose files")) : null));
+      return;
+    }
+    const times = b.errors[1].rms_Eo / b.noise.rms_Eo;
+    fill(
+      box,
+      h(
+        `div.verdict.${b.state}`, {},
+        h("p.headline", {}, b.headline),
+        b.lead.map((t) => h("p.lead", {}, t)),
+        h("p.flags", {},
+          b.converged === null ? null : h("span", { class: b.converged ? "flag good" : "flag bad" }, b.converged ? "converged" : "not converged"),
+          h("span.flag", {}, b.adequate && b.verdict !== "unexplained" ? "down to the noise" : `${number(times, times < 1.95 ? 3 : 2)} × the noise`),
+          h("span.flag", {}, { G_out: "G_out", voltages: "V₁ … V₄", channels: "inline and cross" }[b.kind] || b.kind)),
+      ),
+      h("dl.errors", {},
+        b.errors.map((e) => h("div", { class: e.label.replace(" ", "-"), title: e.about }, h("dt", {}, e.label), h("dd", {}, h("b", {}, e.text), h("small", {}, " Eo")))),
+        h("div.noise", { title: "root mean square of the estimated noise, before demodulation" }, h("dt", {}, "noise floor"), h("dd", {}, h("b", {}, b.noise.text), h("small", {}, " Eo")))),
+      h("div.bars"),
+    );
+    bars();
+  };
+  const bars = () => {
+    const { state } = server;
+    const place = box.querySelector(".bars");
+    if (!place || !state || !state.banner) return;
+    const steps = present(state);
+    const now = foreseen();
+    if (now && view.ticked.length) {
+      steps.push({ label: view.ticked.length > 1 ? `${view.ticked.length} effects?` : `${view.ticked[0]}?`, value: now.rms_Eo, kind: "foreseen" });
+    }
+    const made = stepBars(steps, state.banner.noise.rms_Eo, seen);
+    fill(place, made, saves("Error after every step", () => fileName(state.model.name, "steps"), () => drawingText(made.querySelector("svg"))));
+    if (!view.ticked.length) seen = steps;
+  };
+  const off = on("foreseen", bars);
+  return { known, gone: off };
+}
+
+/** The error after every step of the present branch, ending with what the flights that are open show now. */
+function present(state) {
+  const steps = [];
+  for (const s of state.history ? state.history.steps.filter((x) => x.present) : []) {
+    const lastly = steps.at(-1);
+    if (s.before !== null && (!lastly || Math.abs(lastly.value - s.before) > 0.02 * s.before)) {
+      steps.push({ label: steps.length ? "other flights" : "as it was", value: s.before, kind: "start" });
+    }
+    if (s.after !== null) steps.push({ label: `${s.action === "remove" ? "−" : "+"} ${s.effect}`, value: s.after, kind: "step" });
+  }
+  const now = state.banner.errors[1].rms_Eo;
+  const lastly = steps.at(-1);
+  if (!lastly || Math.abs(lastly.value - now) > 0.02 * now) steps.push({ label: steps.length ? "now" : "as it is", value: now, kind: steps.length ? "step" : "start" });
+  return steps;
+}
+
+// What no known effect explains: a term, or an expression of one's own, tried and kept.
+
+export function unexplainedPane(box) {
+  const status = h("div");
+  const trial = h("div");
+  const form = own();
+  fill(box, h("h2", {}, "An effect of your own"), status, form.element, trial);
+
+  const known = () => {
+    const { state } = server;
+    const u = state && state.unexplained;
+    fill(
+      status,
+      u && u.significant
+        ? [h("p", {}, `The remainder is significant (p = ${u.p}); these terms hold ${u.share} of it:`),
+           h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: `${t.harmonic}|${t.product}`, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`, t.how ? `, ${t.how}` : "")))),
+           u.expression ? h("button", { type: "button", onclick: () => form.put(u.expression) }, "Write the strongest as an expression") : null,
+           u.needs.length ? h("p.note", {}, `The flight must have: ${u.needs.join("; ")}`) : null]
+        : h("p.note", {}, u ? "Nothing that is left asks for an effect beyond the catalogue’s." : ""),
+    );
+    const t = state && state.trial;
+    fill(
+      trial,
+      t ? h("div.trial", {},
+        h("p", {}, h("code", {}, t.id), `: ${number(t.before_Eo)} → `, h("b", {}, number(t.after_Eo)), ` Eo (held out ${number(t.holdout_before_Eo)} → ${number(t.holdout_Eo)}, noise ${number(t.noise_Eo)})`),
+        t.holdout_Eo > t.holdout_before_Eo ? h("p.note", {}, "On held-out time the error does not fall: this record does not confirm it.") : null,
+        h("ul.terms", {}, t.values.map((v) => h("li", {}, `${v.name}${v.of ? ` of ${v.of}` : ""} = ${v.text}`))),
+        h("button.main", { type: "button", disabled: Boolean(state.status.job), onclick: () => doing("keep") }, `Keep ${t.id} in the model`)) : null,
+    );
+    form.known();
+  };
+  return { known };
+}
+
+const UNIT = "m/s^2";
+
+function own() {
+  const id = h("input", { type: "text", value: "my-effect", spellcheck: "false", autocomplete: "off", id: "own-id", pattern: "[a-z][a-z0-9]*(-[a-z0-9]+)*" });
+  const add = h("textarea", { rows: "2", spellcheck: "false", autocomplete: "off", id: "own-add", placeholder: "K_x * f_i**2 * temperature" });
+  const unit = h("input", { type: "text", value: UNIT, spellcheck: "false", autocomplete: "off", id: "own-unit" });
+  const names = h("p.note.names");
+  const button = h("button", { type: "submit" }, "Try it");
+  const element = h(
+    "form.own", { onsubmit: (e) => (e.preventDefault(), send()) },
+    h("label", { for: "own-id" }, "name"), id,
+    h("label", { for: "own-add" }, "adds to what the accelerometer feels"), add,
+    h("label", { for: "own-unit" }, "unit of each parameter (K_…)"), unit,
+    names, h("div.row", {}, button),
+  );
+  const parameters = () => [...new Set(add.value.match(/\b[A-Z][A-Za-z0-9]*_[A-Za-z0-9_]+\b/g) || [])];
+  const send = () => {
+    const units = Object.fromEntries(parameters().map((p) => [p, unit.value.trim()]));
+    doing("try", { id: id.value.trim(), add: add.value.trim(), units });
+  };
+  return {
+    element,
+    known() {
+      const { state } = server;
+      const flight = state && state.flights[view.flight];
+      const channels = flight ? flight.channels.map((c) => c.name).filter((n) => !/^(Gamma|spin_angle)/.test(n)) : [];
+      names.textContent = `Names: f_i, f_o, f_p, time, cos_phi, sin_phi${channels.length ? `, ${channels.join(", ")}` : ""}; abs, sign, sqrt, sin, cos, exp, tanh. Parameters are K_… names.`;
+      button.disabled = !state || !state.flights.length || Boolean(state.status.job);
+    },
+    /** A line of model.toml: { id = "…", stage = …, add = "…", K_x = { unit = "…" } } */
+    put(line) {
+      const found = (key) => (line.match(new RegExp(`${key} = "([^"]*)"`)) || [])[1];
+      id.value = found("id") || id.value;
+      add.value = found("add") || "";
+      unit.value = found("unit") || UNIT;
+      add.focus();
+    },
+  };
+}
