@@ -71,6 +71,19 @@ def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     return f"did you mean {folded[near[0]]!r}?" if near else None
 
 
+def check_keys(keys: Iterable[object], known: Iterable[str], where: object = None) -> None:
+    """UserError at the first key that is none of the known ones."""
+    known = list(known)
+    for key in keys:
+        if key not in known:
+            raise UserError(
+                f"unknown key {str(key)[:60]!r}",
+                where=where,
+                expected="one of " + ", ".join(known),
+                remedy=did_you_mean(str(key)[:60], known),
+            )
+
+
 def printable(text: str) -> str:
     """``text`` without what would steer a terminal: names in files of strangers may hold anything."""
     return "".join(c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text)

@@ -37,7 +37,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_column, read_name
 from ragg_runtime.flight.instants import WAYS
@@ -120,13 +120,12 @@ def parse_mapping(text: str, path: Path) -> Mapped:
         raise UserError(
             "not valid TOML", where=path, found=str(error) or "tables nested too deeply"
         ) from None
+    check_keys(data, _TABLES, path)
     for key, value in data.items():
-        if key not in _TABLES:
-            raise _unknown(at(path), key, _TABLES)
         if not isinstance(value, dict):
             raise UserError(f"[{key}] is not a table", where=path, found=repr(value)[:60])
         if key in _KEYS and key != "columns":
-            _check_keys(value, _KEYS[key], at(path, f"[{key}]"))
+            check_keys(value, _KEYS[key], at(path, f"[{key}]"))
     file = data.get("file", {})
     lines = file.get("lines")
     if lines is not None and not (
@@ -170,7 +169,7 @@ def _entry(name: str, raw: Any, where: str) -> Entry:
             found=repr(raw)[:60],
             expected=f'{name} = {{ column = "its name in the file", unit = "..." }}',
         )
-    _check_keys(raw, _KEYS["columns"], where)
+    check_keys(raw, _KEYS["columns"], where)
     sign = _number(raw.get("sign", 1), "sign", where)
     if sign not in (1.0, -1.0):
         raise UserError(
@@ -279,15 +278,3 @@ def _number(raw: Any, key: str, where: str) -> float:
     ):
         raise UserError(f"{key} is not a number", where=where, found=repr(raw)[:60])
     return float(raw)
-
-
-def _check_keys(raw: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:
-    for key in raw:
-        if key not in known:
-            raise _unknown(where, key, known)
-
-
-def _unknown(where: str, key: str, known: tuple[str, ...]) -> UserError:
-    return UserError(
-        "unknown key", where=where, found=key[:60], expected=", ".join(known), remedy=did_you_mean(key, known)
-    )

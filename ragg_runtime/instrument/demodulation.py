@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
 from ragg_runtime.instrument.units import read_quantity, units
 
 KINDS: Mapping[str, tuple[str, ...]] = {
@@ -97,15 +97,7 @@ def read_demodulation(table: object, where: str) -> Demodulation | None:
         raise UserError(
             "demodulator must be a table", where=where, found=repr(table)[:60], expected="[demodulator]"
         )
-    for key in table:
-        if key not in _KEYS:
-            raise UserError(
-                "unknown key",
-                where=where,
-                found=key[:60],
-                expected=", ".join(_KEYS),
-                remedy=did_you_mean(key, _KEYS),
-            )
+    check_keys(table, _KEYS, where)
     kind = table.get("kind", "fir")
     if not isinstance(kind, str) or kind not in KINDS:
         raise UserError(

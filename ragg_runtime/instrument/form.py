@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys, did_you_mean
 
 KINEMATICS = ("platform", "full")
 MOUNTING: tuple[int | str, ...] = (1, 2, "exact")
@@ -81,40 +81,27 @@ def read_form(table: object, path: Path | None = None) -> Form:
     if not isinstance(table, dict):
         raise UserError("model must be a table", where=path, found=repr(table), expected="[model]")
     where = at(path, "[model]")
-    _check_keys(table, ("kinematics", "order"), where)
+    check_keys(table, ("kinematics", "order"), where)
     kinematics = _one_of(table.get("kinematics", PAPER.kinematics), KINEMATICS, f"{where} kinematics")
     order = table.get("order", "paper")
     where = f"{where} order"
     if isinstance(order, str):
-        return Form(kinematics=str(kinematics), **_order(PRESETS[str(_one_of(order, tuple(PRESETS), where))]))
+        return Form(
+            kinematics=str(kinematics), **dict[str, Any](PRESETS[str(_one_of(order, tuple(PRESETS), where))])
+        )
     if not isinstance(order, dict):
         raise UserError("the order is not understood", where=where, found=repr(order), expected=_EXPECTED)
-    _check_keys(order, tuple(PAPER.order), where)
+    check_keys(order, tuple(PAPER.order), where)
     known: dict[str, tuple[int | str | bool, ...]] = {
         "mounting": MOUNTING,
         "misalignment": MISALIGNMENT,
         "second_order_angles": (True, False),
     }
     chosen = {k: _one_of(v, known[k], f"{where}: {k}") for k, v in order.items()}
-    return Form(kinematics=str(kinematics), **_order({**PAPER.order, **chosen}))
+    return Form(kinematics=str(kinematics), **dict[str, Any]({**PAPER.order, **chosen}))
 
 
 _EXPECTED = '"paper", "exact" or { mounting = 1, misalignment = 1, second_order_angles = false }'
-
-
-def _order(order: Mapping[str, int | str | bool]) -> dict[str, Any]:
-    return dict(order)
-
-
-def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:
-    for name in table:
-        if name not in known:
-            raise UserError(
-                f"unknown key {name!r}",
-                where=where,
-                expected="one of " + ", ".join(known),
-                remedy=did_you_mean(str(name), known),
-            )
 
 
 def _one_of(found: object, known: tuple[int | str | bool, ...], where: str) -> int | str | bool:

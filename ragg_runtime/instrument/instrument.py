@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys
 from ragg_runtime.instrument import form as forms
 from ragg_runtime.instrument.demodulation import Demodulation
 from ragg_runtime.instrument.form import Form
@@ -105,7 +105,7 @@ class Instrument:
         Without a ``layout`` it is the paper's.
         """
         layout = paper(radius, spin_frequency) if layout is None else layout
-        _check_names(accelerometers, PARAMETER, "accelerometers")
+        check_keys(accelerometers, PARAMETER, "[accelerometers]")
         for p in PARAMETERS:
             if p.required and p.name not in accelerometers:
                 raise UserError(
@@ -131,7 +131,7 @@ class Instrument:
 
     def replace(self, **changes: ArrayLike) -> Instrument:
         """The same instrument with some accelerometer parameters changed (SI, scalar or (n,))."""
-        _check_names(changes, PARAMETER, "accelerometers")
+        check_keys(changes, PARAMETER, "[accelerometers]")
         vectors = dict(self.accelerometers) | {
             name: _vector(v, self.layout.size) for name, v in changes.items()
         }
@@ -173,17 +173,6 @@ class Instrument:
     def units(self) -> Units:
         """Units with this instrument's g0."""
         return units(self.g0)
-
-
-def _check_names(names: Any, known: Any, table: str | None, where: object = None) -> None:
-    for name in names:
-        if name not in known:
-            raise UserError(
-                f"unknown key {name!r}",
-                where=at(where, None if table is None else f"[{table}]"),
-                expected="one of " + ", ".join(known),
-                remedy=did_you_mean(str(name), known),
-            )
 
 
 def _vector(value: ArrayLike, count: int) -> Vector:

@@ -12,12 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from ragg_runtime.base.errors import UserError, at, did_you_mean
+from ragg_runtime.base.errors import UserError, at, check_keys
 from ragg_runtime.base.files import read_text
 from ragg_runtime.base.names import is_name, read_name
 from ragg_runtime.instrument.demodulation import read_demodulation
 from ragg_runtime.instrument.form import read_form
-from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _check_names, _finite
+from ragg_runtime.instrument.instrument import EffectSetting, Instrument, _finite
 from ragg_runtime.instrument.layout import (
     PAPER,
     TANGENTIAL,
@@ -60,7 +60,7 @@ def parse_instrument(text: str, path: Path | None = None) -> Instrument:
             "RAGG_EFFECTS, and take effects_folder out of model.toml",
         )
     known = ("disc", "accelerometers", "effects", "model", "g0", "demodulator")
-    _check_names(table, known, None, path)
+    check_keys(table, known, path)
     layout, g0 = _discs(table, path)
     accelerometers, sigmas = _accelerometers(_table(table, "accelerometers", path), g0, path, layout.size)
     return Instrument.build(
@@ -111,7 +111,7 @@ def _table(table: Mapping[str, Any], name: str, path: Path | None) -> Mapping[st
 
 
 def _disc(table: Mapping[str, Any], path: Path | None) -> dict[str, float]:
-    _check_names(table, DISC_UNITS, "disc", path)
+    check_keys(table, DISC_UNITS, at(path, "[disc]"))
     for name in DISC_UNITS:
         if name not in table:
             raise UserError(
@@ -135,7 +135,7 @@ def _accelerometers(
     table: Mapping[str, Any], g0: float, path: Path | None, count: int
 ) -> tuple[dict[str, Vector], dict[str, Vector]]:
     """Values, and how sure the sheet is of those for which it says so, in SI."""
-    _check_names(table, PARAMETER, "accelerometers", path)
+    check_keys(table, PARAMETER, at(path, "[accelerometers]"))
     found, sigmas = {}, {}
     for name, raw in table.items():
         place = at(path, f"[accelerometers] {name}")
@@ -205,7 +205,7 @@ def _effect(entry: object, where: str, known: Units, count: int) -> EffectSettin
     values = {name: known.quantity(raw, f"{where}: {name}", count=count) for name, raw in own.items()}
     expression = _expression(entry, where, known)
     if expression is not None:
-        _check_names(values, expression["params"], None, where)
+        check_keys(values, expression["params"], where)
         for name, parameter in expression["params"].items():
             if "value" in parameter:
                 values[name] = known.quantity(
@@ -234,7 +234,7 @@ def _expression(entry: Mapping[str, Any], where: str, known: Units) -> Mapping[s
             raise UserError(
                 "the parameter needs a unit", where=f"{where}: {name}", found=repr(raw), expected=example
             )
-        _check_names(table, ("value", "unit", "shared", "plausible"), None, f"{where}: {name}")
+        check_keys(table, ("value", "unit", "shared", "plausible"), f"{where}: {name}")
         known.parse(table["unit"], f"{where}: {name}")
         params[name] = MappingProxyType(table)
     return MappingProxyType(
@@ -266,7 +266,7 @@ def read_layout(tables: Sequence[Any], path: Path | None) -> Layout:
             raise UserError("disc must be a table", where=path, found=repr(table), expected="[[disc]]")
         named = table["name"] if is_name(table.get("name")) else str(number)
         where = at(path, f"[[disc]] {named}")
-        _known(table, DISC_KEYS, where)
+        check_keys(table, DISC_KEYS, where)
         discs.append(_a_disc(table, where, single=len(tables) == 1))
         radius = None if "radius" not in table else _number(table, "radius", "m", where)
         entries = table.get("accelerometer", [])
@@ -300,7 +300,7 @@ def _a_disc(table: Mapping[str, Any], where: str, *, single: bool) -> Disc:
 def _place(entry: Any, where: str, disc: int, radius: float | None, outputs: dict[str, int]) -> Place:
     if not isinstance(entry, dict):
         raise UserError("an accelerometer must be a table", where=where, found=repr(entry), expected=_EXAMPLE)
-    _known(entry, PLACE_KEYS, where)
+    check_keys(entry, PLACE_KEYS, where)
     output = _text(entry, "output", where, None)
     sign = entry.get("sign")
     if isinstance(sign, bool) or sign not in (1, -1):
@@ -356,17 +356,6 @@ def _check(layout: Layout, path: Path | None) -> None:
         if _OTHERS.fullmatch(name):
             raise UserError(
                 f"the output {name} has the name of another column", where=where, expected="such as G_out_A"
-            )
-
-
-def _known(table: Mapping[str, Any], keys: Sequence[str], where: str) -> None:
-    for name in table:
-        if name not in keys:
-            raise UserError(
-                f"unknown key {name!r}",
-                where=where,
-                expected="one of " + ", ".join(keys),
-                remedy=did_you_mean(str(name), keys),
             )
 
 

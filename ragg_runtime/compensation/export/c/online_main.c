@@ -1,15 +1,13 @@
-/* ragg_online NOISE_V WALK_EO FORGET_S [TIMES] < FLIGHT.csv > OUT.csv: an example of online.h.
+/* ragg_online NOISE_V WALK_EO FORGET_S < FLIGHT.csv > OUT.csv: an example of online.h.
  *
  * FLIGHT.csv: the columns of a record (record.h) and the recorded outputs, in SI units. Every output that sees a gradient
  * and is there is filtered; recorded gradients do not enter. OUT.csv: time,inline,cross,inline_std,cross_std (Eo; of several
  * outputs each with its ending) at every step of the gradient's walk, nan where nothing was recorded yet; at last the
- * parameters, one a line after #, output after output. With TIMES the samples are taken so many times over, and their time
- * is told on stderr instead. */
+ * parameters, one a line after #, output after output. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "record.h"
 
@@ -67,8 +65,8 @@ static void tell(double t) {
 }
 
 int main(int count, char **arguments) {
-    if (count < 4) {
-        fprintf(stderr, "usage: ragg_online NOISE_V WALK_EO FORGET_S [TIMES] < FLIGHT.csv > OUT.csv\n");
+    if (count != 4) {
+        fprintf(stderr, "usage: ragg_online NOISE_V WALK_EO FORGET_S < FLIGHT.csv > OUT.csv\n");
         return 2;
     }
     static ragg_record r;
@@ -85,23 +83,11 @@ int main(int count, char **arguments) {
     if (!any) {
         ragg_fail("the column is missing", ONLINE_OUTPUT[0].name, "a recorded output in V");
     }
-    const long times = count > 4 ? strtol(arguments[4], NULL, 10) : 1;
-    const double length = r.n > 1 ? r.seconds[r.n - 1] + r.seconds[1] : 0.0;
-    const clock_t begun = clock();
-    if (times == 1) {
-        header();
-    }
-    for (long k = 0; k < times; ++k) {
-        for (size_t i = 0; i < r.n; ++i) {
-            const double t = r.seconds[i] + (double)k * length;
-            if (take(&r, i, t) && times == 1) {
-                tell(r.column[TIME][i]);
-            }
+    header();
+    for (size_t i = 0; i < r.n; ++i) {
+        if (take(&r, i, r.seconds[i])) {
+            tell(r.column[TIME][i]);
         }
-    }
-    if (times > 1) {
-        const double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC, samples = (double)times * (double)r.n;
-        fprintf(stderr, "%.0f samples, %.3g microseconds a sample\n", samples, 1e6 * seconds / samples);
     }
     for (int n = 0; n < ONLINE_OUTPUTS; ++n) {
         double p[ONLINE_PARAMETERS];
