@@ -71,15 +71,6 @@ def test_what_is_no_identifier_is_refused_where_it_is_read(text: str, old: str, 
     assert error.value.expected is not None and error.value.expected.startswith(EXPECTED)
 
 
-def test_a_strangers_model_runs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "model.toml").write_text(sheet(output=RUNS[0].replace('"', '\\"'), effects="[]"))
-    write_flight(flown_by(parse_instrument(sheet(effects="[]")), 20.0), tmp_path / "flight.csv")
-    for command in ("compare", "diagnose", "calibrate"):
-        assert ragg(command, str(tmp_path), "flight.csv").returncode == 2
-    assert not (tmp_path / "PWNED").exists()
-
-
 @pytest.mark.parametrize("name", ["a", "A-b_c9", "int", "G_out", "a" * 64, "K__x_", "x--"])
 def test_names(name: str) -> None:
     assert is_name(name)
@@ -242,8 +233,3 @@ def test_an_output_is_no_other_column() -> None:
     for name in ("time", "a_x", "spin_angle_int", "inline", "Gamma_xx", "V_a-b"):
         with pytest.raises(UserError, match="has the name of"):
             parse_instrument(sheet(output=name))
-
-
-def test_what_a_parameter_of_a_line_does_not_have(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="unknown key 'latex'"):
-        parse_instrument(sheet().replace("value = 1.0", "value = 1.0, latex = '*/'"), tmp_path / "model.toml")

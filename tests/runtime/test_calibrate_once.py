@@ -12,7 +12,7 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.compensation import calibrated, frozen
-from ragg_runtime.compensation.saved import KEPT, read, with_another
+from ragg_runtime.compensation.saved import read, with_another
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.workflow import after, loop
@@ -67,14 +67,6 @@ def test_what_is_kept_is_what_was_found_to_the_last_bit_with_its_history(kept: t
     assert list(saved.flights) == ["one"]
     assert [s.action for s in m.directory.history] == ["new", "calibrate"]
     assert "calibrate" in run("history", model)
-
-
-def test_the_latest_calibrations_are_kept(kept: tuple[Any, ...]) -> None:
-    text = loop.load(kept[0]).directory.calibration
-    (saved,) = read(text, "here")
-    for _ in range(KEPT + 2):
-        text = with_another(text, saved, "here")
-    assert len(read(text, "here")) == KEPT
 
 
 def test_on_another_flight_of_the_same_instrument_it_holds(kept: tuple[Any, ...], tmp_path: Path) -> None:
@@ -167,19 +159,12 @@ def _set(*path: Any, to: Any) -> Callable[[str], str]:
 
 HOSTILE: dict[str, Callable[[str], str]] = {
     "no JSON": lambda text: text[:1000],
-    "a list": lambda text: "[]",
     "nothing in it": lambda text: '{"calibrations": []}',
-    "deep": lambda text: "[" * 100000,
     "NaN": _set("values", "K1", to=[float("nan")] * 4),
-    "huge": _set("values", "K1", to=[10**400] * 4),
-    "a text for a number": _set("values", "K1", to=["one"] * 4),
     "a parameter too few": _set("values", "K1", to=[1e-3] * 3),
     "singular": _set("square_root_information", 0, 0, to=0.0),
     "ragged": _set("square_root_information", 3, to=[1.0]),
     "place outside": _set("fitted", 0, "place", to=10**6),
-    "place twice": _set("fitted", 0, "place", to=20),
-    "another column": _set("fitted", 0, "name", to="K99"),
-    "negative scale": _set("fitted", 0, "scale", to=-1.0),
     "no limits": _set("validity", "a_z", to=[1.0]),
     "negative gain": _set("values", "K1", to=[-1e-3] * 4),
     "another spin": _set("values", "spin_frequency", to=[0.5]),

@@ -14,7 +14,7 @@ import pytest
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.files import convert, write_tables
-from ragg_runtime.flight.formats import ALL, open_file
+from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.netcdf_file import room
 from ragg_runtime.flight.source import Column, Look, Written
 from ragg_runtime.flight.sources import open_sources
@@ -80,12 +80,6 @@ def test_converted_there_and_back(tmp_path: Path, pair: tuple[str, str]) -> None
     assert (told.lines, told.rows) == (2, 51)
     convert(second, back)
     same(content(first), content(back))
-
-
-def test_every_ending_is_of_one_format() -> None:
-    endings = [e for f in ALL for e in f.ENDINGS]
-    assert len(endings) == len(set(endings))
-    assert set(ENDINGS) <= set(endings)
 
 
 @pytest.mark.parametrize("ending", [".h5", ".mat", ".xlsx"])

@@ -196,13 +196,6 @@ def test_empty_cells_are_marked(load: Load) -> None:
     assert any(note.startswith("temperature") and "interpolated" in note for note in found.notes)
 
 
-def test_infinity_is_no_value(load: Load) -> None:
-    table = columns()
-    table["a_x"][3] = np.inf
-    found = load(table)
-    assert np.flatnonzero(~found.valid).tolist() == [3]
-
-
 def test_an_empty_column_is_left_out(load: Load) -> None:
     found = load(columns() | {"temperature": np.full(N, np.nan)}, {"temperature": "K"})
     assert "temperature" not in found.channels
@@ -296,10 +289,6 @@ def test_what_is_refused(
         load(table, {"V_1": "V", "omegadot_x": "rad/s^2"})
     for fact in (str(tmp_path / "record.csv"), *facts):
         assert fact in str(caught.value), f"{fact!r} is not in: {caught.value}"
-
-
-def test_motion_alone_if_wanted(load: Load) -> None:
-    assert load(without("G_out"), need_output=False).outputs == {}
 
 
 @pytest.mark.parametrize(

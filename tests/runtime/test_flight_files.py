@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -116,16 +115,6 @@ def test_where_nothing_can_be_written(tmp_path: Path) -> None:
         write_flight(flight(), tmp_path / "none" / "x.csv")
     with pytest.raises(UserError, match="ending"):
         write_flight(flight(), tmp_path / "x.xls")
-
-
-def test_the_file_gets_ordinary_rights(tmp_path: Path) -> None:
-    write_flight(flight(), tmp_path / "x.csv")
-    plain = tmp_path / "plain"
-    plain.touch()
-    assert (tmp_path / "x.csv").stat().st_mode == plain.stat().st_mode
-    os.chmod(tmp_path / "x.csv", 0o640)
-    write_flight(flight(), tmp_path / "x.csv")
-    assert (tmp_path / "x.csv").stat().st_mode & 0o777 == 0o640
 
 
 def table(**changes: pa.Array) -> pa.Table:

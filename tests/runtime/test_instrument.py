@@ -66,21 +66,10 @@ def test_values_in_si() -> None:
     assert all(v.shape == (4,) and not v.flags.writeable for v in k.values())
 
 
-def test_g_follows_g0_of_the_file() -> None:
-    here, there = parse_instrument(TEXT), parse_instrument(with_line("9.8 m/s^2", "4.9 m/s^2"))
-    for name, power in (("K0", 1), ("K1", -1), ("K2", -1), ("dR", 0)):
-        assert there.accelerometers[name] == pytest.approx(here.accelerometers[name] * 0.5**power)
-
-
 def test_scale_factor_of_the_shared_nominal() -> None:
     """Four equal accelerometers: 4 k_VI K1 R."""
     found = parse_instrument(with_line("[0, 30, 35, 25]", "0")).replace(K1=1e-3, k_VI=2e9)
     assert found.scale_factor == pytest.approx(4 * 2e9 * 1e-3 * 0.1)
-
-
-def test_spin_in_turns_a_minute() -> None:
-    assert parse_instrument(with_line("0.25 Hz", "15 rpm")).spin_frequency == pytest.approx(0.25)
-    assert parse_instrument(with_line("0.25 Hz", "90 deg/s")).spin_frequency == pytest.approx(0.25)
 
 
 def test_effects() -> None:

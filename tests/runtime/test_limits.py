@@ -5,8 +5,6 @@ from __future__ import annotations
 import gzip
 from pathlib import Path
 
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
 from ragg_runtime.base.errors import UserError
@@ -46,13 +44,3 @@ def test_texts_that_are_too_long_or_too_deep(tmp_path: Path) -> None:
     path.write_text('{"steps": [{"action": ' + "9" * 5000 + "}]}")
     with pytest.raises(UserError, match="history is damaged"):
         read_history(path)
-
-
-def test_an_array_in_parquet_is_not_unpickled(tmp_path: Path) -> None:
-    """What pandas or others put into metadata is not looked at; columns of objects are refused."""
-    table = pa.table({"time": pa.array([b"cos\nsystem\n(S'true'\ntR."])})
-    pq.write_table(
-        table.replace_schema_metadata({b"pandas": b"\x80\x04cos\nsystem\n"}), tmp_path / "f.parquet"
-    )
-    with pytest.raises(UserError, match="does not hold numbers"):
-        read_flight(tmp_path / "f.parquet", 9.8)
