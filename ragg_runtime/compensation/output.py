@@ -15,7 +15,7 @@ from ragg_runtime.compensation.compensate import Compensated
 from ragg_runtime.compensation.series import Series
 from ragg_runtime.flight.files import write_tables
 from ragg_runtime.flight.record import DEMODULATED
-from ragg_runtime.flight.source import Column, Written
+from ragg_runtime.flight.source import Heading, Written
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.signals.tensor import COMPONENTS, Tensor, tensor
 
@@ -108,4 +108,4 @@ def joined(
 def write_series(path: Path, series: Sequence[Mapping[str, NDArray[Any]]], units: Mapping[str, str]) -> None:
     """Write the series of all flights, one after the other, as CSV, Parquet or NetCDF; ``units`` names the columns."""
     whole = joined(series, list(units))
-    write_tables(path, [Written([(Column(n, unit), whole[n]) for n, unit in units.items()])])
+    write_tables(path, [Written([(Heading(n, unit), whole[n]) for n, unit in units.items()])])

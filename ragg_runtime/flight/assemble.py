@@ -26,7 +26,7 @@ from ragg_runtime.flight.record import (
     is_disc_angle,
 )
 from ragg_runtime.flight.sampling import Grid, uniform
-from ragg_runtime.flight.source import Column, Rows, passed_over
+from ragg_runtime.flight.source import Heading, Rows, passed_over
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
 from ragg_runtime.instrument.units import Units, units
@@ -50,7 +50,7 @@ class Layout:
     """The columns of one file with their SI units, checked once; :meth:`flight` turns rows into a flight."""
 
     path: Path
-    columns: tuple[Column, ...]
+    columns: tuple[Heading, ...]
     si_units: dict[str, str]
     known: Units
     need_output: bool
@@ -124,7 +124,7 @@ class Layout:
         grid = uniform(time[:HEAD], self.path)
         return planned([evenly(_placed(si[n][:HEAD], grid), grid) for n in ANGULAR_RATE], 1 / grid.step)
 
-    def converted(self, column: Column, values: Array) -> Array:
+    def converted(self, column: Heading, values: Array) -> Array:
         """Values of a column in SI; NaN for what is beyond all bounds."""
         where = at(self.path, f"column {column.name!r}")
         result = self.known.to_si(values, column.unit, self.si_units[column.name], where)
@@ -134,7 +134,7 @@ class Layout:
 
 def layout(
     path: Path,
-    columns: Sequence[Column],
+    columns: Sequence[Heading],
     g0: float,
     *,
     need_output: bool = True,

@@ -15,7 +15,7 @@ from ragg_runtime.flight.assemble import enough, layout
 from ragg_runtime.flight.formats import ending_of, writable
 from ragg_runtime.flight.mapping import Mapped
 from ragg_runtime.flight.record import SI_UNITS, Array, Flight
-from ragg_runtime.flight.source import Column, Source, Written
+from ragg_runtime.flight.source import Heading, Source, Written
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.layout import PAPER
 from ragg_runtime.instrument.layout import Layout as Accelerometers
@@ -156,7 +156,7 @@ def flight_name(path: Path) -> str:
     return one_line(f"{folder}/{stem}" if stem == "flight" and folder else stem)
 
 
-def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[tuple[Column, Array]]:
+def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> list[tuple[Heading, Array]]:
     known = units(1.0 if g0 is None else g0)
     ordered = [n for n in SI_UNITS if n in flight.channels]
     ordered += [n for n in flight.channels if n not in SI_UNITS]
@@ -171,7 +171,7 @@ def _columns(flight: Flight, units_of: Mapping[str, str], g0: float | None) -> l
         if g0 is None and known.uses_g(unit):
             raise ValueError(f"{name} in {unit}: g0 is needed")
         columns.append(
-            (Column(name, unit), known.from_si(values, flight.units[name], unit, f"column {name!r}"))
+            (Heading(name, unit), known.from_si(values, flight.units[name], unit, f"column {name!r}"))
         )
     return columns
 

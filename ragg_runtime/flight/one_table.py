@@ -10,12 +10,12 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from ragg_runtime.flight.record import Array
-from ragg_runtime.flight.source import Column, Rows, Written
+from ragg_runtime.flight.source import Heading, Rows, Written
 
-LINE = Column("line", "1")
+LINE = Heading("line", "1")
 
 
-def joined(tables: Sequence[Written]) -> tuple[list[Column], Rows]:
+def joined(tables: Sequence[Written]) -> tuple[list[Heading], Rows]:
     """The columns of all tables, and their rows one table after the other.
 
     Lines of several tables are told apart by a column ``line``: numbers if all are numbers, else text.
@@ -36,12 +36,12 @@ def joined(tables: Sequence[Written]) -> tuple[list[Column], Rows]:
             np.full(n, np.nan) if p is None else np.asarray(p) for p, n in zip(parts, lengths, strict=True)
         ]
         found[c.name] = np.concatenate(whole) if whole else np.empty(0)
-    return [*([LINE if numeric else Column("line", "")] if named else []), *columns], found
+    return [*([LINE if numeric else Heading("line", "")] if named else []), *columns], found
 
 
-def union(tables: Sequence[Written]) -> list[Column]:
+def union(tables: Sequence[Written]) -> list[Heading]:
     """Every column of any of the tables, in the order of first appearance."""
-    found: dict[str, Column] = {}
+    found: dict[str, Heading] = {}
     for table in tables:
         for c, _ in table.columns:
             found.setdefault(c.name, c)

@@ -24,14 +24,6 @@ _HEADER = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\]\s*)?")
 
 
 @dataclass(frozen=True)
-class Column:
-    """A column's name and the unit that the file gives it; ``""`` where it gives none."""
-
-    name: str
-    unit: str
-
-
-@dataclass(frozen=True)
 class Heading:
     """A column as it stands in a file: name, unit (``""``: none given), whether it holds text."""
 
@@ -104,7 +96,7 @@ class Source:
     """
 
     path: Path
-    columns: tuple[Column, ...]
+    columns: tuple[Heading, ...]
     rows: Callable[[], Rows]
     line: str | None = None
     origin: datetime | None = None
@@ -123,7 +115,7 @@ def passed_over(names: Sequence[str]) -> str:
 class Written:
     """A table to be written: columns (N,) with their units, and the name of the line, where there are several."""
 
-    columns: Sequence[tuple[Column, NDArray[Any]]]
+    columns: Sequence[tuple[Heading, NDArray[Any]]]
     line: str | None = None
 
 
@@ -221,8 +213,8 @@ def not_numbers(path: Path, name: str, found: object) -> UserError:
     )
 
 
-def columns_of(path: Path, headings: Sequence[Heading]) -> tuple[Column, ...]:
-    """Columns from headings; UserError where a unit is missing."""
+def check_units(path: Path, headings: Sequence[Heading]) -> None:
+    """UserError where a unit is missing."""
     for h in headings:
         if not h.unit:
             example = _EXAMPLES.get(h.name.split("_")[0], "K")
@@ -234,7 +226,6 @@ def columns_of(path: Path, headings: Sequence[Heading]) -> tuple[Column, ...]:
                 remedy="write the unit; a pure number has the unit 1; none is guessed. Or say once for all files "
                 "what their columns are: ragg map FLIGHT -o mapping.toml",
             )
-    return tuple(Column(h.name, h.unit) for h in headings)
 
 
 _EXAMPLES = {

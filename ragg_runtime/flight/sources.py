@@ -19,13 +19,12 @@ from ragg_runtime.flight.mapping import Entry, Mapped
 from ragg_runtime.flight.one_table import line_name
 from ragg_runtime.flight.record import SI_UNITS, Array
 from ragg_runtime.flight.source import (
-    Column,
     Heading,
     Look,
     Rows,
     Source,
     Table,
-    columns_of,
+    check_units,
     is_line,
     not_numbers,
     passed_over,
@@ -118,7 +117,8 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
             whole["time"], origin = seconds(way, [whole["time"]], where, origin)
             rows, dated = partial(dict, whole), way.dated
             kept = tuple(Heading("time", "s") if h.text else h for h in kept)
-        columns = tuple(Column(h.name, h.unit) for h in kept) if lenient else columns_of(table.path, kept)
+        if not lenient:
+            check_units(table.path, kept)
         notes = tuple(f"{h.name} holds text; it is left out" for h in dropped)
         there = {h.name for h in named}
         passed = tuple(one_line(h.name)[:80] for h in table.headings if h.name not in there)
@@ -127,7 +127,7 @@ def _plain(tables: Sequence[Table], lenient: bool) -> list[Source]:
         found.append(
             Source(
                 path=table.path,
-                columns=columns,
+                columns=kept,
                 rows=rows,
                 line=table.line,
                 origin=origin if dated else None,
@@ -176,7 +176,8 @@ def _mapped(tables: Sequence[Table], mapping: Mapped) -> list[Source]:
             )
         headings = [Heading("time", "s" if way else time.unit or units[time.columns[0]])]
         headings += [Heading(n, e.unit or units[e.column]) for n, e in mapping.channels.items()]
-        columns, rotation = _rotated(columns_of(table.path, headings), mapping)
+        check_units(table.path, headings)
+        columns, rotation = _rotated(tuple(headings), mapping)
         rows = partial(_mapped_rows, table.rows, mapping, rotation)
         if way is not None:
             raw = table.rows()
@@ -220,8 +221,8 @@ def _scaled(values: Array, entry: Entry) -> Array:
 
 
 def _rotated(
-    columns: tuple[Column, ...], mapping: Mapped
-) -> tuple[tuple[Column, ...], dict[str, tuple[str, float]]]:
+    columns: tuple[Heading, ...], mapping: Mapped
+) -> tuple[tuple[Heading, ...], dict[str, tuple[str, float]]]:
     """Columns in the measurement frame, and for each that changes: the recorder's one and its sign."""
     if mapping.axes is None:
         return columns, {}

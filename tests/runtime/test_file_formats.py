@@ -16,7 +16,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight.files import convert, write_tables
 from ragg_runtime.flight.formats import open_file
 from ragg_runtime.flight.netcdf_file import room
-from ragg_runtime.flight.source import Column, Look, Written
+from ragg_runtime.flight.source import Heading, Look, Written
 from ragg_runtime.flight.sources import open_sources
 from tests.runtime.foreign_files import ENDINGS, write
 
@@ -28,11 +28,11 @@ def made(n: int, lines: tuple[str, ...], seed: int = 0) -> list[Written]:
     rng = np.random.default_rng(seed)
     found = []
     for k, line in enumerate(lines or (None,)):
-        columns = [(Column("time", "s"), np.arange(n + k) / 3.0)]
+        columns = [(Heading("time", "s"), np.arange(n + k) / 3.0)]
         for name in ("a_x", "omega_y", "inline", "fuel"):
             values = np.round(rng.normal(size=n + k), 9) * 10.0 ** rng.integers(-12, 12)
             values[rng.integers(0, n + k)] = np.nan
-            columns.append((Column(name, UNITS[name]), values))
+            columns.append((Heading(name, UNITS[name]), values))
         found.append(Written(columns, line))
     return found
 

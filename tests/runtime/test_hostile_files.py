@@ -13,7 +13,7 @@ from scipy.io import savemat
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import read_flight
 from ragg_runtime.flight.mapping import parse_mapping
-from ragg_runtime.flight.source import Column, Written
+from ragg_runtime.flight.source import Heading, Written
 from ragg_runtime.flight.sources import open_sources
 from ragg_runtime.instrument.read_toml import parse_instrument
 from tests.runtime.foreign_files import ENDINGS, write
@@ -38,7 +38,7 @@ def good(path: Path, lines: tuple[str, ...] = ()) -> Path:
     rng = np.random.default_rng(1)
     tables = []
     for line in lines or (None,):
-        columns = [(Column(n, u), rng.normal(size=60)) for n, u in zip(NAMES, UNITS, strict=True)]
+        columns = [(Heading(n, u), rng.normal(size=60)) for n, u in zip(NAMES, UNITS, strict=True)]
         columns[0] = (columns[0][0], np.arange(60) / 16)
         tables.append(Written(columns, line))
     return write(path, tables)

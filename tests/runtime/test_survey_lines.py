@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ragg_runtime.flight.source import Column, Written
+from ragg_runtime.flight.source import Heading, Written
 from ragg_runtime.survey import journal
 from ragg_runtime.survey.run import distinct_names
 from ragg_runtime.survey.task import divided, examine, expanded, job
@@ -26,8 +26,8 @@ def made(tmp_path: Path) -> tuple[Path, str, Path]:
         columns = {**x.channels, **x.outputs}
         names = {n: f"C{k}" for k, n in enumerate(columns)}
         entries = [f'{n} = {{ column = "{c}", unit = "{x.units[n]}" }}' for n, c in names.items()]
-        rows = [(Column("T", ""), np.asarray(x.time))]
-        rows += [(Column(names[n], ""), np.asarray(v)) for n, v in columns.items()]
+        rows = [(Heading("T", ""), np.asarray(x.time))]
+        rows += [(Heading(names[n], ""), np.asarray(v)) for n, v in columns.items()]
         tables.append(Written(rows, str(10 * seed)))
     write(tmp_path / "s.h5", tables)
     return tmp_path / "s.h5", MAPPING + "\n".join(entries) + "\n", tmp_path / "model" / "model.toml"
