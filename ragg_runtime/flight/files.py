@@ -37,25 +37,9 @@ def read_flight(
     ``name [unit]``, elsewhere the unit is the column's attribute ``units``. Missing samples are filled in
     and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent; ``notes`` says so.
 
-    Parameters
-    ----------
-    path
-        The file; the ending of its name says the format.
-    g0
-        The g of the file's units, m/s^2.
-    need_output
-        False lets a file of motion alone pass.
-    accelerometers
-        Those of the instrument: which columns are its outputs.
-    mapping
-        What the columns are, where the file has names and units of its own.
-    line
-        Which line is meant, where the file has several.
-
-    Raises
-    ------
-    UserError
-        If the file cannot be read as one uniformly sampled flight: what is wrong, where, and what to do.
+    ``g0``: the g of the file's units, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers``
+    are the instrument's: which columns are outputs. ``mapping``: what the columns are, where the file has names of its
+    own. ``line``: which is meant, where the file has several. UserError if the file is no uniformly sampled flight.
     """
     path = Path(path)
     sources = open_sources(path, mapping)
