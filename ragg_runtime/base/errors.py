@@ -71,7 +71,7 @@ def did_you_mean(name: str, known: Iterable[str]) -> str | None:
     return f"did you mean {folded[near[0]]!r}?" if near else None
 
 
-def check_keys(keys: Iterable[object], known: Iterable[str], where: object = None) -> None:
+def check_keys(keys: Iterable[object], known: Iterable[str], where: str | Path | None = None) -> None:
     """UserError at the first key that is none of the known ones."""
     known = list(known)
     for key in keys:
