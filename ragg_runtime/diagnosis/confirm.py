@@ -70,14 +70,14 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     found = Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
-    if final is None or not rem.significant or rem.lines_alone:
+    if final is None or not rem.significant:
         return found
     for other in _others(field, choice):
         final = _derived(f, other.chosen, extend)
         if final is None or impossible(final, other.chosen):
             continue
         rem, random = _remainder(final, ())
-        if not rem.significant or rem.lines_alone:
+        if not rem.significant:
             return Confirmed(field=field, choice=other, final=final, remainder=rem, random=random)
     return found
 

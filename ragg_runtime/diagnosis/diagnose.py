@@ -146,7 +146,7 @@ class _Left:
     """What the chosen effects leave: a remainder, a line of the output, random effects; ``remains``: more than chance does.
 
     ``random_found`` are (log p, effect) of the significant ones, the surest first; ``steady`` are the chosen effects
-    that act as a constant term; ``aside`` are lines that the motion does not make, in words, where nothing else is left.
+    that act as a constant term.
     """
 
     remainder: Remainder
@@ -155,7 +155,6 @@ class _Left:
     random: Mapping[str, Test]
     random_found: Sequence[tuple[float, str]]
     remains: bool
-    aside: str | None
 
 
 def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
@@ -164,16 +163,14 @@ def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     rem = c.remainder
-    aside = rem.lines_alone and bool(steps or choice.chosen)
-    simpler = None if rem.significant and not aside else _simpler(last.fitted, field, choice)
-    aside = aside and simpler is None
+    simpler = None if rem.significant else _simpler(last.fitted, field, choice)
     rem = rem if simpler is None else simpler
     line, steady = line_rival(steps, replace(last, field=field, choice=choice))
     if line is not None and not line.better(rem, alone=simpler is not None):
         line = None
     rem = rem if line is None else line.within(rem)
     uneven = c.random[random_found[0][1]].uneven if random_found else 1.0
-    remains = line is not None or (rem.beside(uneven) and not aside and not _truncated(rem, steps))
+    remains = line is not None or (rem.beside(uneven) and not _truncated(rem, steps))
     if remains:
         random, random_found = {}, []
     return _Left(
@@ -183,18 +180,7 @@ def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
         random=random,
         random_found=random_found,
         remains=remains,
-        aside=_lines_in_words(rem, last.fitted.scales) if aside and not remains else None,
     )
-
-
-def _lines_in_words(rem: Remainder, scales: Sequence[float]) -> str:
-    said = {
-        f"{t.term.harmonic} of {t.coefficient / k:.3g} Eo": None
-        for s, k in zip(rem.searches, scales, strict=True)
-        for t in s.terms
-        if t.kind == "line"
-    }
-    return f"besides there is in the output what the motion does not make: {', '.join(said)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,8 +255,7 @@ def _remark(doubt: str | None, left: _Left, steady: Sequence[Steady], disturbed:
         return doubt
     if left.line is not None:
         return left.line.words
-    said = [*(s.words for s in steady), *(x for x in (left.aside, disturbed) if x is not None)]
-    return "; ".join(said) or None
+    return "; ".join([*(s.words for s in steady), *([] if disturbed is None else [disturbed])]) or None
 
 
 def _followed(

@@ -57,7 +57,7 @@ class LineRival:
         """Whether it also explains as much as the effect does together with the best generic term in a remainder; or as
         that term ``alone``, in the place of all that was chosen.
         """
-        if not rem.significant or rem.lines_alone:
+        if not rem.significant:
             return True
         best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
         gain = self.line.chi2 + self.beside if alone else self.line.chi2 - self.own

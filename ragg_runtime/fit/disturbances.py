@@ -25,8 +25,6 @@ red or white, stays below 6 in a day."""
 WINDOW = 10.0
 """Length of those windows, s."""
 
-SPANNED = 4
-"""Columns of a line (:meth:`Disturbance.columns`)."""
 
 MOST = 8
 """Most lines, and most jumps, of a stretch."""

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.fit import unknown_gradient
-from ragg_runtime.fit.disturbances import SPANNED
+
 from ragg_runtime.fit.noise import line_width
 from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS
-from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf, log_sf_t
+from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.spectral_line import Periodogram
 from ragg_runtime.lack_of_fit.time_varying import BlockScores
@@ -93,7 +93,7 @@ class Omnibus:
     """The search over one flight's dictionary.
 
     ``log_p`` belongs to the most significant finding of all tests; ``chi2`` is what the ``terms`` taken explain
-    of ``square``, the whitened residual's sum of squares. ``apart`` is that of all but the lines that were taken out.
+    of ``square``, the whitened residual's sum of squares.
     """
 
     log_p: float
@@ -101,7 +101,6 @@ class Omnibus:
     terms: tuple[Found, ...]
     chi2: float
     square: float
-    apart: float = 0.0
 
     @property
     def significant(self) -> bool:
@@ -252,16 +251,14 @@ def search(
 
 def choose(s: Scores) -> Omnibus:
     """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
-    steady, known = _steady(s), _known(s)
+    steady = _steady(s)
     others = [t for t in (_varying(s), _line(s)) if t is not None]
-    further = [*known, *others]
-    apart = min([steady.log_p, *(p for p, _ in others)])
-    log_p = min([apart, *(p for p, _ in known)])
-    significant = [(p, found) for p, found in further if p < np.log(FAMILY)]
+    log_p = min([steady.log_p, *(p for p, _ in others)])
+    significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
     if steady.terms or not significant:
-        return replace(steady, log_p=log_p, apart=apart)
+        return replace(steady, log_p=log_p)
     found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found), apart=apart)
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
 
 
 def _varying(s: Scores) -> tuple[float, Found] | None:
@@ -284,20 +281,6 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
         how=v.how,
     )
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
-
-
-def _known(s: Scores) -> list[tuple[float, Found]]:
-    """The lines that were taken out of the noise, the surest first, against the noise's own density and for all frequencies."""
-    noise, rate = s.prepared.noise, s.prepared.observation.record.rate
-    found = []
-    for q in noise.lines:
-        if q.amplitude:
-            mean_square = q.amplitude**2 / 2
-            density = float(noise.models[q.output].psd(np.array([q.frequency]))[0])
-            chi2 = s.sums.samples * mean_square / (density * rate / 2)
-            log_p = log_sf(chi2, SPANNED) + float(np.log(s.sums.samples / 2 / SHARES[2]))
-            found.append((min(0.0, log_p), _sinusoid(q.frequency, mean_square, chi2)))
-    return sorted(found, key=lambda x: x[0])
 
 
 def _line(s: Scores) -> tuple[float, Found] | None:

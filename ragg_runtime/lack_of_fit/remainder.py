@@ -29,12 +29,6 @@ class Remainder:
     def significant(self) -> bool:
         return bool(self.log_p < np.log(omnibus.FAMILY))
 
-    @property
-    def lines_alone(self) -> bool:
-        """Whether it is significant for lines that the motion does not make, and for nothing else."""
-        apart = min(s.apart for s in self.searches) + float(np.log(len(self.searches)))
-        return self.significant and not apart < np.log(omnibus.FAMILY)
-
     def beside(self, uneven: float) -> bool:
         """Whether it is significant beside a random effect that makes scores so many times as variable as they seem."""
         if uneven <= 1.0 or not self.significant:
