@@ -16,15 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.fit import unknown_gradient
 
-from ragg_runtime.fit.noise import line_width
-from ragg_runtime.fit.passes import Piece, flight_segments
+
+
+from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
-from ragg_runtime.lack_of_fit.spectral_line import Periodogram
+
 from ragg_runtime.lack_of_fit.time_varying import BlockScores
 from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
 
@@ -110,14 +110,14 @@ class Omnibus:
 class Sums:
     """What the search needs of every term: sums over segments."""
 
-    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
+    def __init__(self, terms: int, basis: int, blocks: BlockScores) -> None:
         self.dot = np.zeros(terms)
         self.along = np.zeros((terms, basis))
         self.norm2 = np.zeros(terms)
         self.raw = np.zeros((2, terms))
         self.samples = 0
         self.square = 0.0
-        self.blocks, self.spectrum = blocks, spectrum
+        self.blocks = blocks
 
     def join(self, other: Sums) -> None:
         """Count in the sums of further segments."""
@@ -126,7 +126,7 @@ class Sums:
         self.samples += other.samples
         self.square += other.square
         self.blocks.join(other.blocks)
-        self.spectrum.join(other.spectrum)
+
 
 
 class Scores:
@@ -134,16 +134,7 @@ class Scores:
 
     def __init__(self, prepared: PreparedFlight, projector: Projector) -> None:
         self.prepared, self.projector = prepared, projector
-        o = prepared.observation
-        self.dictionary = Dictionary(o.record)
-        self._excluded = None
-        if unknown_gradient.unknown(o):  # there nothing is left of the noise either
-            double = 2 * o.record.spin_frequency
-            self._excluded = (
-                double - 2 / unknown_gradient.KNOT_SECONDS,
-                double + 2 / unknown_gradient.KNOT_SECONDS,
-            )
-        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
+        self.dictionary = Dictionary(prepared.observation.record)
         self.sums = self._zero()
 
     def _zero(self) -> Sums:
@@ -151,7 +142,7 @@ class Scores:
             len(self.dictionary.terms),
             len(self.projector.along),
             BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
-            Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
+
         )
 
     def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
@@ -162,7 +153,7 @@ class Scores:
         right = np.column_stack([y, Q])
         ones = np.ones((len(piece.observation.record.time), 1))
         s.blocks.level(piece, y)
-        s.spectrum.add(piece, y)
+
         for at, x, inner, norm2, X in self._of_terms(
             Directions(self.prepared, self.dictionary, piece), right
         ):
@@ -251,14 +242,13 @@ def search(
 
 def choose(s: Scores) -> Omnibus:
     """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
-    steady = _steady(s)
-    others = [t for t in (_varying(s), _line(s)) if t is not None]
-    log_p = min([steady.log_p, *(p for p, _ in others)])
-    significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
-    if steady.terms or not significant:
+    steady, varying = _steady(s), _varying(s)
+    if varying is None:
+        return steady
+    log_p = min(steady.log_p, varying[0])
+    if steady.terms or varying[0] >= np.log(FAMILY):
         return replace(steady, log_p=log_p)
-    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
-    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+    return replace(steady, log_p=log_p, terms=(varying[1],), chi2=varying[1].chi2)
 
 
 def _varying(s: Scores) -> tuple[float, Found] | None:
@@ -281,34 +271,6 @@ def _varying(s: Scores) -> tuple[float, Found] | None:
         how=v.how,
     )
     return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
-
-
-def _line(s: Scores) -> tuple[float, Found] | None:
-    """The strongest line of what is left, if it is none beside those that were taken out (of one that wanders something stays)."""
-    if s.prepared.observation.recorded.demodulated:
-        return None  # their noise is only white within the demodulator's band
-    line = s.sums.spectrum.best()
-    width = line_width(s.prepared.observation)
-    if line is None or any(abs(line.frequency - q.frequency) < width for q in s.prepared.noise.lines):
-        return None
-    # back from the whitened residual: the noise's own density at the line
-    volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
-    mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
-    found = _sinusoid(line.frequency, mean_square, line.share * s.sums.square)
-    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
-
-
-def _sinusoid(frequency: float, mean_square: float, chi2: float) -> Found:
-    size = float(np.sqrt(2 * mean_square))
-    return Found(
-        term=Term(f"line {frequency:.5g} Hz", ()),
-        coefficient=size,
-        std=size / float(np.sqrt(max(chi2, 1.0))),
-        z=float(np.sqrt(chi2)),
-        chi2=chi2,
-        mean_square=mean_square,
-        kind="line",
-    )
 
 
 def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
