@@ -5,9 +5,9 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
 
     CATALOGUE   the effects that are columns, and steps: the least p-value times the number of effects tested
   + a random effect is tested besides, at CATALOGUE over the number of effects: one effect of thirty adds 0.001
-  + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
+  + REMAINDER   what no effect explains, all generic terms together
 
-which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
+which is 0.033. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
 SURVEY are remarks beside the verdict: each is the level of its own statement.
 
@@ -29,13 +29,9 @@ COMPANION = 0.005
 """Of each effect beside the first, of which there are three at most: six times stricter than the first, for a chance companion
 spoils a finding that is right, and true companions of the strength that counts (10 sigma) pass it all the same."""
 
-REMAINDER = 0.004
+REMAINDER = 0.002
 """Of everything that is looked for in what is left: some 2,000 terms are there only to withdraw a claim, and lose little
-power by it: the largest of 2,000 must be 4.9 sigma; at 0.03 it would be 4.5."""
-
-REMAINDER_SHARES = (0.5, 0.25, 0.25)
-"""How steady terms, terms that come and go, and lines in the spectrum divide :data:`REMAINDER`; half to the first, which are
-what a missing effect looks like."""
+power by it: the largest of 2,000 must be 4.9 sigma; at 0.03 it would be 4.3."""
 
 LEVEL = 1e-4
 """That the noise's level follows something, over all that is asked: it names nothing and withdraws no claim; a false one changes

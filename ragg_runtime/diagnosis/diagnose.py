@@ -287,7 +287,7 @@ def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
         return None
     joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
     rem = remainder_.remainder(f)
-    best = max((t.z**2 for s in rem.searches for t in s.terms[:1] if t.kind == "steady"), default=0.0)
+    best = max((t.z**2 for s in rem.searches for t in s.terms[:1]), default=0.0)
     margin = SIMPLER_THAN_ONE if len(blocks) < 2 else INDISTINGUISHABLE
     return rem if best > max(picked, joint - freedom) + margin else None
 

@@ -9,23 +9,18 @@ over the segments of a flight.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-
-
-
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
-
-from ragg_runtime.lack_of_fit.time_varying import BlockScores
 from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
 
 Array = NDArray[np.float64]
@@ -34,9 +29,6 @@ T = TypeVar("T")
 
 FAMILY = false_alarms.REMAINDER
 """Probability with which anything at all may seem left of an effect-free record."""
-
-SHARES = false_alarms.REMAINDER_SHARES
-"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
 OWN = 1e-6
 """Share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single
@@ -56,10 +48,7 @@ SHORTLIST = 400
 
 @dataclass(frozen=True)
 class Found:
-    """A generic term in a residual.
-
-    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of
-    time) or ``line`` (not of a multiple of the spin rate; the harmonic then names the frequency).
+    """A generic term in a residual, or a line (the harmonic then names the frequency).
 
     Attributes
     ----------
@@ -71,8 +60,6 @@ class Found:
         What it explained then.
     mean_square
         Of the term in the residual, V^2 (about its mean, for const terms).
-    how
-        In words, how a varying term varies.
     centre
         Means that its auxiliary channels enter less.
     """
@@ -83,8 +70,6 @@ class Found:
     z: float
     chi2: float
     mean_square: float
-    kind: str = "steady"
-    how: str = ""
     centre: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -110,14 +95,13 @@ class Omnibus:
 class Sums:
     """What the search needs of every term: sums over segments."""
 
-    def __init__(self, terms: int, basis: int, blocks: BlockScores) -> None:
+    def __init__(self, terms: int, basis: int) -> None:
         self.dot = np.zeros(terms)
         self.along = np.zeros((terms, basis))
         self.norm2 = np.zeros(terms)
         self.raw = np.zeros((2, terms))
         self.samples = 0
         self.square = 0.0
-        self.blocks = blocks
 
     def join(self, other: Sums) -> None:
         """Count in the sums of further segments."""
@@ -125,8 +109,6 @@ class Sums:
             getattr(self, name)[...] += getattr(other, name)
         self.samples += other.samples
         self.square += other.square
-        self.blocks.join(other.blocks)
-
 
 
 class Scores:
@@ -138,12 +120,7 @@ class Scores:
         self.sums = self._zero()
 
     def _zero(self) -> Sums:
-        return Sums(
-            len(self.dictionary.terms),
-            len(self.projector.along),
-            BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
-
-        )
+        return Sums(len(self.dictionary.terms), len(self.projector.along))
 
     def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
         """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
@@ -152,31 +129,23 @@ class Scores:
         s.samples = int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
         ones = np.ones((len(piece.observation.record.time), 1))
-        s.blocks.level(piece, y)
-
-        for at, x, inner, norm2, X in self._of_terms(
-            Directions(self.prepared, self.dictionary, piece), right
-        ):
+        for at, x, inner, norm2 in self._of_terms(Directions(self.prepared, self.dictionary, piece), right):
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
             s.norm2[at] = norm2
-            if X is not None:
-                s.blocks.add(piece, y, at, X)
             s.raw[0, at] = products(x, ones)[:, 0]
             s.raw[1, at] = squares(x)
         return s
 
-    def _of_terms(
-        self, d: Directions, right: Array
-    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
-        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
+    def _of_terms(self, d: Directions, right: Array) -> Iterator[tuple[slice, Singles, Array, Array]]:
+        """Places, series, inner products with ``right`` and squared norms of all terms."""
         terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
         singles = right.astype(np.float32)
         for at, x, X in d.whitened(terms[:slow]):
-            yield at, x, products(X, singles), squares(X), X
+            yield at, x, products(X, singles), squares(X)
         if slow is not None:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
-                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
+                yield slice(slow + at.start, slow + at.stop), x, inner, norm2
 
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
@@ -240,40 +209,7 @@ def search(
     return choose(scores), found
 
 
-def choose(s: Scores) -> Omnibus:
-    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
-    steady, varying = _steady(s), _varying(s)
-    if varying is None:
-        return steady
-    log_p = min(steady.log_p, varying[0])
-    if steady.terms or varying[0] >= np.log(FAMILY):
-        return replace(steady, log_p=log_p)
-    return replace(steady, log_p=log_p, terms=(varying[1],), chi2=varying[1].chi2)
-
-
-def _varying(s: Scores) -> tuple[float, Found] | None:
-    # Terms that the model has, with one coefficient for the whole flight, may vary as well as any other.
-    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
-    if v is None:
-        return None
-    term = s.dictionary.terms[v.place]
-    size = s.dictionary.size(term)
-    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
-    z = float(np.sqrt(v.chi2))
-    found = Found(
-        term=term,
-        coefficient=v.coefficient / size,
-        std=v.std / size,
-        z=z,
-        chi2=v.chi2,
-        mean_square=mean_square,
-        kind="varying",
-        how=v.how,
-    )
-    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
-
-
-def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
     left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
     good = left2 > OWN * s.sums.norm2
@@ -335,4 +271,4 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
 def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
     """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
     top = float(np.max(np.abs(z), initial=0.0))
-    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))
+    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1))))

@@ -61,8 +61,6 @@ def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
                 "unit": term_unit(t.term.channels),
                 "share": min(1.0, t.mean_square / power),
                 "z": t.z,
-                "kind": t.kind,
-                "how": t.how,
             }
             if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
                 best[key] = row

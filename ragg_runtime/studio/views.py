@@ -179,7 +179,7 @@ def _unexplained(d: Diagnosis) -> Json:
         "share": numbers.percent(d.remainder_share),
         "p": numbers.probability(d.remainder.log_p),
         "terms": [
-            {**shown, "harmonic": t["harmonic"], "product": t["term"], "how": t["how"]}
+            {**shown, "harmonic": t["harmonic"], "product": t["term"]}
             for shown, t in zip(panels.terms(d.terms(), d.after.rms_Eo), d.terms(), strict=True)
         ],
         "expression": d.expression(),

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import mpmath
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from ragg_runtime.fit import calibrate, observation
 from ragg_runtime.fit.left_over import left_over
-from ragg_runtime.fit.significance import log_sf, log_sf_t
+from ragg_runtime.fit.significance import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.fit.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.reference.scenario import scenario
@@ -183,3 +184,12 @@ def test_few_degrees_of_freedom_have_heavier_tails() -> None:
     assert log_sf(25.0, 1, 1e9) == pytest.approx(log_sf(25.0, 1), rel=1e-6)
     assert log_sf_t(5.0, 40.0) == pytest.approx(np.log(5.9e-6), abs=0.1)
     assert log_sf_t(5.0, np.inf) == pytest.approx(np.log(2.87e-7), abs=0.01)
+
+
+@pytest.mark.parametrize(("ratio", "d1", "d2"), [(9.0, 2.0, 400.0), (1e4, 24.0, 4800.0), (3e6, 576.0, 1.2e5)])
+def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -> None:
+    """Logarithm of the F distribution's tail, against the regularised incomplete beta function in 60 digits."""
+    with mpmath.workdps(60):
+        x = mpmath.mpf(d2) / (d2 + d1 * mpmath.mpf(ratio))
+        expected = mpmath.log(mpmath.betainc(mpmath.mpf(d2) / 2, mpmath.mpf(d1) / 2, 0, x, regularized=True))
+    assert log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)

@@ -104,7 +104,7 @@ export function unexplainedPane(box) {
       status,
       u && u.significant
         ? [h("p", {}, `The remainder is significant (p = ${u.p}); these terms hold ${u.share} of it:`),
-           h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: `${t.harmonic}|${t.product}`, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`, t.how ? `, ${t.how}` : "")))),
+           h("ul.terms", {}, u.terms.map((t) => h("li", {}, h("button", { type: "button", class: "term", onclick: () => look({ term: `${t.harmonic}|${t.product}`, low: null, high: null }) }, t.label), h("small", {}, ` ${t.z} σ`)))),
            u.expression ? h("button", { type: "button", onclick: () => form.put(u.expression) }, "Write the strongest as an expression") : null,
            u.needs.length ? h("p.note", {}, `The flight must have: ${u.needs.join("; ")}`) : null]
         : h("p.note", {}, u ? "Nothing that is left asks for an effect beyond the catalogue’s." : ""),
