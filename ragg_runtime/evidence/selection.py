@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import likelihood_ratio, sheet, uneven
+from ragg_runtime.evidence import likelihood_ratio, sheet
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
@@ -52,8 +52,6 @@ class Field:
         Whitened norm of every candidate column before projection.
     freedom
         Degrees of freedom from which the noise is known.
-    blocks
-        Triangles of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``).
     freed
         Effect id -> the field as if the sheet did not know the parameter that the effect is the common part of (``sheet``).
     within
@@ -66,7 +64,6 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
-    blocks: tuple[Array, ...] = ()
     freed: Mapping[str, Field] = field(default_factory=dict)
     within: Field | None = None
     norms: Array = field(init=False)
@@ -120,21 +117,8 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given and e not in known
         }
-        if self.blocks and any(map(self._raises, found.values())):
-            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
-            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
-            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
         found |= known
         return {e: found[e] for e in self.candidates if e in found}
-
-    def _raises(self, t: Test) -> bool:
-        """Whether a test says anything: those that do not stay as they are."""
-        return t.rank > 0 and t.log_p <= np.log(FAMILY)
-
-    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
-        """A test as sure as the scores in blocks of time are."""
-        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
-        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
     def plain(self, best: str, tests: Mapping[str, Test], given: Sequence[str], count: int) -> str:
         """The effect that tests put first, or one that says what it says in plain words: that a length of the sheet is wrong.
@@ -255,16 +239,13 @@ def field_of(
     candidates = grouped(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
-    blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
     T = f.whole if T is None else T
     common = [e for e in f.model.candidates if e.id in kept and e.common_of is not None]
     free = {
         e.id: Field(f.freed(str(e.common_of), range(f.size - f.n_base)), f.n_base, kept, f.calibration.rows)
         for e in common
     }
-    return Field(
-        T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, freed=free, within=within
-    )
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, freed=free, within=within)
 
 
 def testable_effects(f: Fitted) -> list[str]:
