@@ -16,7 +16,7 @@ from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import bursts, columns, convergence, fitted
+from ragg_runtime.fit import columns, convergence, fitted
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -265,7 +265,7 @@ def concluded(
 def loud(f: Fitted, scored: Scored, noise: float) -> bool:
     """Whether an error stands above the noise (rms, Eo), whatever the tests of what is left say.
 
-    Allowed for: what bursts and lines add, and three standard errors of a noise that few samples tell.
+    Allowed for: what lines add, and three standard errors of a noise that few samples tell.
     """
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
@@ -273,14 +273,11 @@ def loud(f: Fitted, scored: Scored, noise: float) -> bool:
 
 
 def disturbed(f: Fitted) -> str | None:
-    """Where the record is too loud to tell anything, or else which lines and jumps it holds, in words."""
-    found = [
-        bursts.in_words(x.noise.bursts, x.observation.record.time) or x.noise.disturbed for x in f.prepared
-    ]
+    """Which lines and jumps the record holds, and how its noise changes its level, in words."""
     said = [
-        text if len(f.prepared) == 1 else f"{x.observation.name}: {text}"
-        for x, text in zip(f.prepared, found, strict=True)
-        if text is not None
+        x.noise.disturbed if len(f.prepared) == 1 else f"{x.observation.name}: {x.noise.disturbed}"
+        for x in f.prepared
+        if x.noise.disturbed is not None
     ]
     return "; ".join(said) or None
 

@@ -185,7 +185,7 @@ class _Task:
         return [estimate_noise(everything, o) for o in self.observations]
 
     def size(self, noise: Sequence[Noise]) -> float:
-        """Root of the mean power of what no column explains, V, bursts and lines among it: where all samples weigh the same it is
+        """Root of the mean power of what no column explains, V, lines among it: where all samples weigh the same it is
         all noise.
         """
         floors = [float(np.mean([m.rms**2 for m in n.models])) for n in noise]

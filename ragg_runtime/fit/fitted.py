@@ -355,7 +355,7 @@ def about(
 
 
 def swell(f: Fitted) -> float:
-    """rms of all the noise over that of the floor: bursts are no part of it."""
+    """rms of all the noise over that of the floor."""
     return float(np.sqrt(np.mean([noise.swell(x.noise, x.observation.record) for x in f.prepared])))
 
 

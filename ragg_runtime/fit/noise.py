@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.fit import unknown_gradient
-from ragg_runtime.fit.bursts import quiet_estimate
 from ragg_runtime.fit.disturbances import Disturbance, in_words
 from ragg_runtime.fit.left_over import Left, left_over, placed
 from ragg_runtime.fit.linearise import Point
@@ -30,6 +29,7 @@ from ragg_runtime.signals.noise_spectrum import (
     Line,
     Noise,
     NoiseModel,
+    estimate,
     white_noise,
     without_lines,
 )
@@ -100,15 +100,12 @@ def estimate_noise(
         noise = _of_level(parts, o, level, means)
     said = (in_words(_disturbances(parts, o.record.rate)), noise_level.in_words(level))
     words = "; ".join(w for w in said if w is not None) or None
-    loud = noise_level.with_bursts(level, noise.bursts, o.record.time)
     free = sum(max(1.0, len(x.rest) - x.rank - p.taken) for p in parts for x in p.outputs)
-    return replace(
-        noise, disturbed=words, level=loud, freedom=free, combinations=apart, lines=_lines(parts, o)
-    )
+    return replace(noise, disturbed=words, freedom=free, combinations=apart, lines=_lines(parts, o))
 
 
 def swell(n: Noise, r: Record) -> float:
-    """Power of all noise of a record over that of the floor: bursts are no part of it."""
+    """Power of all noise of a record over that of the stretches that it was estimated from."""
     level = n.level.of(r.quantity)
     return float(np.mean(np.square(np.broadcast_to(level, r.valid.shape)[r.valid])))
 
@@ -166,25 +163,19 @@ def _has_lines(o: Observation, p: _Part) -> bool:
 def _of_level(
     parts: Sequence[_Part], o: Observation, level: Level, means: Sequence[Averages] | None
 ) -> Noise:
-    """The noise's spectra and bursts, given how its level changes."""
+    """The noise's spectra, given how its level changes."""
     rate, band = o.record.rate, unknown_gradient.band(o)
     loud = [level.of(quantities_of(o.record, p.rows)) for p in parts]
     mean = float(np.sqrt(np.mean([np.mean(np.square(x)) for x in loud])))
     models, filters = [], []
-    bursts: list[tuple[int, int, float]] = []
     for m in range(len(o.series)):
         rest = [p.rest(m) / x for p, x in zip(parts, loud, strict=True)]
         slow = None if means is None else replace(means[m], rest=means[m].rest / mean)
-        model, found = quiet_estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow)
-        bursts += [
-            (p.rows.start + b.start, p.rows.start + b.stop, b.factor)
-            for p, own in zip(parts, found, strict=True)
-            for b in own
-        ]
+        model = estimate(rest, rate, band, [p.outputs[m].kept for p in parts], slow)
         models.append(model)
         taps = TAPS if o.thin is None else TAPS // THINNER
         filters.append(model.whitening_filter(int(min(taps, len(o.record.time)))))
-    return Noise(models=tuple(models), filters=tuple(filters), bursts=tuple(sorted(bursts)), level=level)
+    return Noise(models=tuple(models), filters=tuple(filters), level=level)
 
 
 def _chosen(o: Observation, most: int, samples: int) -> list[Segment]:
@@ -269,28 +260,24 @@ def _disturbances(parts: Sequence[_Part], rate: float) -> list[Disturbance]:
 
 
 def _level(parts: Sequence[_Part], o: Observation, noise: Noise) -> Level:
-    """How loud the noise is from sample to sample, bursts left out: they have been said."""
+    """How loud the noise is from sample to sample."""
     names = ["time", *(f"abs({c})" for c in SPECIFIC_FORCE if c in o.record.wide)]
     names += [
         f"abs({c[0][:-2]})" for c in (ANGULAR_RATE, ANGULAR_ACCELERATION) if set(c) <= set(o.record.wide)
     ]
     names += ["phi"] if o.record.turning else []
     names += [] if o.record.valid.all() else ["gap"]
-    quiet = np.array(o.record.valid)
-    for start, stop, _ in noise.bursts:
-        quiet[start:stop] = False
     white: list[Array] = []
     quantities: dict[str, list[Array]] = {n: [] for n in names}
     rivals: dict[str, list[Array]] = {}
     for p in parts:
         r = o.record.part(p.rows)
-        heard = quiet[p.rows]
         for m, taps in enumerate(noise.filters):
-            white.append(filtered(p.rest(m)[None], taps)[0][heard])
+            white.append(filtered(p.rest(m)[None], taps)[0][p.valid])
             for n in names:
-                quantities[n].append(r.quantity(n)[heard])
+                quantities[n].append(r.quantity(n)[p.valid])
             for e, variance in p.random.items():
-                rivals.setdefault(e, []).append(variance[m][heard[p.valid]])
+                rivals.setdefault(e, []).append(variance[m])
     return noise_level.estimated(
         np.concatenate(white),
         {n: np.concatenate(x) for n, x in quantities.items()},

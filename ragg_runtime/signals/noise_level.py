@@ -9,8 +9,8 @@ against groups of samples, with their own fourth moment, so that heavy tails are
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -158,26 +158,6 @@ def _stretches(edges: Array, count: Array, power: Array, ratio: float) -> tuple[
         ends.append(int(last[ends[-1]]))
     cuts = np.array(ends[::-1])
     return np.asarray(edges[cuts[1:-1] - 1]), np.asarray(np.diff(S[cuts]) / np.diff(C[cuts]))
-
-
-def with_bursts(level: Level, bursts: Sequence[tuple[int, int, float]], time: Array) -> Level:
-    """The level with bursts in it: first and last sample of each and its power over the noise's; ``time`` (N,) s.
-
-    Its mean square is one outside of them.
-    """
-    if not bursts:
-        return level
-    edges: list[float] = []
-    values = [1.0]
-    for start, stop, factor in sorted(bursts):
-        if edges and edges[-1] == time[start]:
-            values[-1] = float(np.sqrt(factor))
-        else:
-            edges.append(float(time[start]))
-            values.append(float(np.sqrt(factor)))
-        edges.append(float(time[stop]) if stop < len(time) else np.inf)
-        values.append(1.0)
-    return replace(level, parts=(*level.parts, Part("time", np.array(edges), np.array(values))))
 
 
 def in_words(level: Level) -> str | None:

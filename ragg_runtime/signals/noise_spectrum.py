@@ -341,9 +341,8 @@ class Line:
 
 @dataclass(frozen=True)
 class Noise:
-    """Noise of each output of an observation, its whitening filters, and the bursts that are no part of it: first and last
-    sample of each and its power over the noise's. ``disturbed`` says which lines and jumps are no part of it either;
-    ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
+    """Noise of each output of an observation and its whitening filters. ``disturbed`` says which lines and jumps are no part of
+    it; ``level`` how loud the noise is from sample to sample; ``freedom`` the degrees of freedom from which it is known.
 
     ``lines``: those that are neither of the motion nor beside a multiple of the spin rate; what they span is taken out of data and
     columns alike. ``combinations`` (m, m), if there are any: models and filters are of these combinations of the m series, orthonormal rows
@@ -352,7 +351,6 @@ class Noise:
 
     models: tuple[NoiseModel, ...]
     filters: tuple[Array, ...]
-    bursts: tuple[tuple[int, int, float], ...] = ()
     disturbed: str | None = None
     level: Level = field(default_factory=Level)
     freedom: float = np.inf

@@ -16,7 +16,7 @@ from ragg_runtime.fit.unknown_gradient import splines
 from ragg_runtime.model import model
 from ragg_runtime.model.record import Record
 from ragg_runtime.reference.scenario import scenario
-from ragg_runtime.signals.noise_level import Level, estimated, in_words, with_bursts
+from ragg_runtime.signals.noise_level import estimated, in_words
 from ragg_runtime.signals.noise_spectrum import estimate
 
 Array = NDArray[np.float64]
@@ -81,23 +81,19 @@ def test_columns_of_other_accelerometers_change_nothing_where_they_are_zero() ->
             assert getattr(left, same) == pytest.approx(getattr(alone, same), abs=1e-9)
 
 
-@pytest.mark.parametrize("kind", ["line", "burst"])
-def test_where_all_samples_weigh_the_same_lines_and_bursts_are_noise(kind: str) -> None:
+def test_where_all_samples_weigh_the_same_lines_are_noise() -> None:
     """Held against the floor alone, a fit down to the noise passed for one that lacks an effect, and a sheet that was off
     could not be widened: effects that are none took up what its parameters were held from.
     """
     s = scenario(12, duration=320.0, rate=RATE)
     flight = s.simulate().flight()
     time, rms = flight.time, 4.0 * 1.6e-3
-    if kind == "line":
-        further = np.sqrt(2.0) * rms * np.sin(2 * np.pi * 5.1 * time)
-    else:
-        further = 4.0 * rms * np.random.default_rng(1).normal(size=len(time)) * (np.abs(time - 160.0) < 10.0)
+    further = np.sqrt(2.0) * rms * np.sin(2 * np.pi * 5.1 * time)
     flight = replace(flight, outputs={n: x + further for n, x in flight.outputs.items()})
     o = observation.observe(flight, s.sheet)
     c = calibrate.fit(model.packaged(), s.sheet, [o], unweighted=True)
     (noise,) = c.noise
-    assert bool(noise.lines) == (kind == "line") and bool(noise.bursts) == (kind == "burst")
+    assert noise.lines
     assert noise.models[0].rms < 0.6 * rms
     assert c.excess == pytest.approx(1.0, abs=0.15)
 
@@ -169,15 +165,6 @@ def test_what_a_random_effect_explains_best_is_left_to_its_test() -> None:
     x = quantities(4800, rng)
     share = (x["abs(a_x)"] * np.cos(x["phi"])) ** 2
     assert not estimated(np.sqrt(0.1 + share) * rng.normal(size=4800), x, {"jitter": share}).parts
-
-
-def test_bursts_are_weighed_down() -> None:
-    time = np.arange(1000) / RATE
-    level = with_bursts(Level(), [(100, 200, 16.0), (200, 300, 25.0), (900, 1000, 4.0)], time)
-    expected = np.ones(1000)
-    expected[100:200], expected[200:300], expected[900:] = 4.0, 5.0, 2.0
-    assert level.of({"time": time}.__getitem__) == pytest.approx(expected)
-    assert with_bursts(replace(level), [], time) is not None
 
 
 def test_few_degrees_of_freedom_have_heavier_tails() -> None:
