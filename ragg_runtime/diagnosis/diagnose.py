@@ -4,8 +4,7 @@
 2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
    Strong ones are derived into the model one after the other, and everything is done anew (``diagnosis.strong``).
 3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
-   nonlinear again; search the remainder for anything else. Several effects must do as well as
-   any one generic term.
+   nonlinear again; search the remainder for anything else.
 4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
    down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
 """
@@ -41,18 +40,15 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
-from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, Scored, fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import off_sheet
 from ragg_runtime.fit.score import Error
-from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.fit.thinning import thinned
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.lack_of_fit import remainder as remainder_
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model.model import Model, Recogniser
 
@@ -163,10 +159,8 @@ def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
     count = len(field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     rem = c.remainder
-    simpler = None if rem.significant else _simpler(last.fitted, field, choice)
-    rem = rem if simpler is None else simpler
     line, steady = line_rival(steps, replace(last, field=field, choice=choice))
-    if line is not None and not line.better(rem, alone=simpler is not None):
+    if line is not None and not line.better(rem):
         line = None
     rem = rem if line is None else line.within(rem)
     uneven = c.random[random_found[0][1]].uneven if random_found else 1.0
@@ -271,33 +265,6 @@ def _followed(
             change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
             return replace(followed, change=change)
     return followed
-
-
-def _simpler(f: Fitted, field: Field, choice: Choice) -> Remainder | None:
-    """What the model alone leaves, if there one generic term explains more than all that is chosen.
-
-    Asked of several effects and of one with many coefficients. Those that are really there could lose to one term only
-    if it were nearly the sum of their signatures and fitted the noise better besides.
-    """
-    blocks = [choice.blocks[e] for e in choice.chosen]
-    if not blocks or len(f.prepared) > 1:
-        return None
-    picked, rank = field.joint(blocks)
-    if len(blocks) < 2 and rank <= FEW:
-        return None
-    joint, freedom = field.joint([[n for n, _ in field.candidates[e]] for e in choice.chosen])
-    rem = remainder_.remainder(f)
-    best = max((t.z**2 for s in rem.searches for t in s.terms[:1]), default=0.0)
-    margin = SIMPLER_THAN_ONE if len(blocks) < 2 else INDISTINGUISHABLE
-    return rem if best > max(picked, joint - freedom) + margin else None
-
-
-FEW = 4
-"""Coefficients up to which one effect need not fear that a generic term stands in its place."""
-
-SIMPLER_THAN_ONE = 16.0
-"""Chi-square by which one generic term must be better than one effect to take its place (4 sigma): of single effects there
-are near copies among the terms. Of several it must be better by 3 sigma, and be all of them."""
 
 
 def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:

@@ -37,14 +37,13 @@ class LineRival:
     ----------
     line, effect
         Which, in the place of which.
-    own, beside
-        Chi-square that the effect explains beside the others that are chosen, and what these do.
+    own
+        Chi-square that the effect explains beside the others that are chosen.
     """
 
     line: NearLine
     effect: str
     own: float
-    beside: float
 
     @property
     def words(self) -> str:
@@ -53,15 +52,12 @@ class LineRival:
             f" as {self.effect} would, so that none is named"
         )
 
-    def better(self, rem: Remainder, alone: bool) -> bool:
-        """Whether it also explains as much as the effect does together with the best generic term in a remainder; or as
-        that term ``alone``, in the place of all that was chosen.
-        """
+    def better(self, rem: Remainder) -> bool:
+        """Whether it also explains as much as the effect does together with the best generic term in a remainder."""
         if not rem.significant:
             return True
         best = max((t.z**2 for s in rem.searches for t in s.terms), default=0.0)
-        gain = self.line.chi2 + self.beside if alone else self.line.chi2 - self.own
-        return gain > best - INDISTINGUISHABLE
+        return self.line.chi2 - self.own > best - INDISTINGUISHABLE
 
     def within(self, rem: Remainder) -> Remainder:
         """A remainder in which this line is what is left."""
@@ -124,7 +120,7 @@ def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, t
     for t in steps:
         line = near_lines.best(t.before, ())
         if _in_place(line, t.test.chi2):
-            return LineRival(line=line, effect=t.effect, own=t.test.chi2, beside=0.0), ()
+            return LineRival(line=line, effect=t.effect, own=t.test.chi2), ()
         steady += _steady(t.before, line, t.effect, t.test.chi2, t.rivals)
     field, choice = last.field, last.choice
     rivals = selection.rivals(field, choice)
@@ -133,7 +129,7 @@ def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, t
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
         line = near_lines.best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
         if _in_place(line, choice.chi2 - beside):
-            return LineRival(line=line, effect=e, own=choice.chi2 - beside, beside=beside), ()
+            return LineRival(line=line, effect=e, own=choice.chi2 - beside), ()
         steady += _steady(last.fitted, line, e, choice.chi2 - beside, rivals[e])
     return None, tuple(steady)
 

@@ -12,15 +12,12 @@ from scipy import stats
 
 from derive.expression import from_expression
 from ragg_runtime.diagnosis import comparison
-from ragg_runtime.diagnosis import diagnose as diagnose_module
 from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.diagnosis.result import Diagnosis
-from ragg_runtime.evidence import selection
-from ragg_runtime.evidence.selection import Choice, field_of
 from ragg_runtime.fit import fitted, observation, prepared_flight
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import EffectSetting
-from ragg_runtime.lack_of_fit import as_effect, features, omnibus, remainder
+from ragg_runtime.lack_of_fit import as_effect, features, omnibus
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.omnibus import Scores
 from ragg_runtime.model import model as load
@@ -280,25 +277,3 @@ def test_every_term_is_offered_as_an_expression_or_with_the_column_that_it_lacks
     assert as_effect.columns(term) == needs
     e = from_expression("my-effect", "transducer", text, {"K_x": {"unit": "m/s^2"}})
     assert set(e.channels) == {n.split()[0] for n in needs} | ({"temperature", "roll"} & set(channels))
-
-
-def test_one_term_that_explains_more_than_several_effects_takes_their_place() -> None:
-    s = scenario(72, duration=400.0)
-    run = s.simulate({})
-    pair = ("thermal-bias", "lag")
-
-    def simpler(flight: Flight) -> tuple[remainder.Remainder | None, float]:
-        f = fitted.fit(load.packaged(), s.sheet, [observation.observe(flight, s.sheet)])
-        field = field_of(f, selection.testable_effects(f))
-        blocks = {e: tuple(n for n, _ in field.candidates[e]) for e in pair}
-        together, _ = field.joint(list(blocks.values()))
-        choice = Choice(pair, blocks, {}, {}, together)
-        return diagnose_module._simpler(f, field, choice), together
-
-    wrong, _ = simpler(_transducer(run, s, CASES["fourth power"][0], 0))
-    assert wrong is not None
-    assert wrong.searches[0].terms[0].term.product == "f_i*f_i*f_i*f_i"
-    hidden = {"thermal-bias": {"dK0_dT": [3e-8, 0, 0, 0]}, "lag": {"tau": [4e-9, 0, 0, 0]}}
-    right, together = simpler(s.simulate(hidden).flight())
-    assert together > 200.0
-    assert right is None
