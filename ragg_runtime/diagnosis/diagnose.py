@@ -164,7 +164,7 @@ def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
         line = None
     rem = rem if line is None else line.within(rem)
     uneven = c.random[random_found[0][1]].uneven if random_found else 1.0
-    remains = line is not None or (rem.beside(uneven) and not _truncated(rem, steps))
+    remains = line is not None or rem.beside(uneven)
     if remains:
         random, random_found = {}, []
     return _Left(
@@ -265,12 +265,6 @@ def _followed(
             change = sequential.Change(flight=name, until=instant, log_evidence=followed.limit)
             return replace(followed, change=change)
     return followed
-
-
-def _truncated(rem: Remainder, steps: Sequence[Taken]) -> bool:
-    """Whether all that remains is small beside the strong effects that are in the model."""
-    strongest = max((abs(t.z) for s in rem.searches for t in s.terms), default=np.inf)
-    return bool(strongest**2 < strong.TRUNCATED**2 * sum(t.test.chi2 for t in steps))
 
 
 def _without_terms(rem: Remainder) -> Remainder:

@@ -56,9 +56,6 @@ TRUNCATED = 2e-3
 theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
 of a further one that is like it."""
 
-LIKE = 0.1
-"""Share of what a strong effect explains that another one explains alone, from which what is left of the first looks like it."""
-
 
 @dataclass(frozen=True)
 class Stage:
@@ -70,11 +67,10 @@ class Stage:
     choice: Choice
 
     @staticmethod
-    def of(f: Fitted, least: Mapping[str, float] | None = None) -> Stage:
-        """``least``, once effects were taken into the model: chi-square that these may leave of others like them."""
+    def of(f: Fitted, *, beside: bool = False) -> Stage:
+        """``beside``: of what is left beside effects that were taken into the model."""
         field, fitted, instants = with_steps(f)
-        choice = selection.choose(field, beside=least is not None, least=least or {})
-        return Stage(field, fitted, instants, choice)
+        return Stage(field, fitted, instants, selection.choose(field, beside=beside))
 
     def without_choice(self) -> Stage:
         """The same, none of the effects being what is missing."""
@@ -148,7 +144,7 @@ def _followed(
             return found, stage.without_choice()
         begin = ()
         found = _needed([*found, one], first.fitted, extend)
-        stage = Stage.of(found[-1].after, _may_be_left(found, first))
+        stage = Stage.of(found[-1].after, beside=True)
     return found, stage
 
 
@@ -230,18 +226,6 @@ def left_with(
 def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
     """Labels of an effect's columns that its test does not need."""
     return [c.label for n, c in field.candidates[effect] if n not in which]
-
-
-def _may_be_left(strong: Sequence[Taken], first: Stage) -> dict[str, float]:
-    """Chi-square of effects that are like strong ones that may be what is left of these."""
-    least: dict[str, float] = {}
-    for t in strong:
-        for alone in (first.choice.tests, t.stage.choice.tests):
-            whole = alone[t.effect].chi2
-            for e, own in alone.items():
-                if own.chi2 > LIKE * whole:
-                    least[e] = max(least.get(e, 0.0), TRUNCATED**2 * whole)
-    return least
 
 
 def _strongest(stage: Stage, extend: Extend) -> Taken | None:

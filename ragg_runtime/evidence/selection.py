@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -158,11 +157,10 @@ def significant(t: Test, count: int, family: float = FAMILY) -> bool:
     return t.rank > 0 and t.log_p + np.log(max(count, 1)) < np.log(family)
 
 
-def choose(f: Field, *, beside: bool = False, least: Mapping[str, float] = MappingProxyType({})) -> Choice:
+def choose(f: Field, *, beside: bool = False) -> Choice:
     """Forward selection; after each addition every chosen effect may be swapped for a better one.
 
-    ``beside``: of what is left beside effects that are in the model already, so that the first is a companion, too; ``least``:
-    chi-square of an effect that is no more than what these may leave, because they are known to an order only.
+    ``beside``: of what is left beside effects that are in the model already, so that the first is a companion, too.
     """
     first = f.tests()
     count = sum(t.rank > 0 for t in first.values())
@@ -172,7 +170,7 @@ def choose(f: Field, *, beside: bool = False, least: Mapping[str, float] = Mappi
     seen: set[frozenset[str]] = set()
     while len(chosen) < MOST and frozenset(chosen) not in seen:
         seen.add(frozenset(chosen))
-        ranked = sorted((t.log_p, e) for e, t in remaining.items() if t.chi2 >= least.get(e, 0.0))
+        ranked = sorted((t.log_p, e) for e, t in remaining.items())
         if not ranked or not significant(
             remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
         ):

@@ -19,9 +19,7 @@ from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.evidence.random_effects import Variance
-from ragg_runtime.evidence.selection import Field, choose
 from ragg_runtime.fit import calibrate
-from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight.files import write_flight
@@ -100,17 +98,6 @@ def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
     assert (d.verdict, d.found) == ("unexplained", ())
     first = d.remainder.searches[0].terms[0].term
     assert (first.harmonic, first.product) == ("const", "omega_z")
-
-
-def test_what_a_strong_effect_leaves_names_none_that_is_like_it() -> None:
-    T = np.diag([100.0, 100.0, 100.0, 20.0])  # base, lag, arm-stretch, residual
-    T[1:3, 3] = 30.0, 1.0
-    column = Column(name="lag.tau", accelerometer=1, scale=1.0, unit="s", unit_factor=1.0, effect="lag")
-    f = Field(T, 1, {"lag": ((0, column),), "arm-stretch": ((1, column),)}, rows=400)
-    chi2 = f.tests()["lag"].chi2
-    assert choose(f, beside=True).chosen == ("lag",)
-    assert choose(f, beside=True, least={"lag": 1.1 * chi2}).chosen == ()
-    assert choose(f, beside=True, least={"arm-stretch": 1.1 * chi2}).chosen == ("lag",)
 
 
 def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
