@@ -5,9 +5,6 @@ strong: enough to prefer a wrong effect, to name another one beside the right, a
 So the strongest effect is chosen among those that come near it with each of them derived into the model and fitted
 nonlinearly; with the best in the model everything is done anew: calibration, noise, tests of the rest. These fits begin at
 the sheet: parameters that had to absorb what was missing may be far from it, in a valley that is long and curved.
-
-Where the one that came next explains less by no more than what the chosen one leaves, an effect that is not in the model yet may
-have decided between them: then the other one is followed to its end, too, and the ends are compared.
 """
 
 from __future__ import annotations
@@ -25,7 +22,6 @@ from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
-from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.off_sheet import QUIET
@@ -46,15 +42,6 @@ the order of two."""
 
 CONTENDERS = 3
 """Most effects that are tried in the model at each stage."""
-
-OPEN = 4.0
-"""What a contender leaves more than the chosen effect does, over what that leaves beside noise, up to which an effect that is not
-in the model yet may have decided: of such an effect a twin may take four fifths."""
-
-TRUNCATED = 2e-3
-"""Share of a strong effect that is less than its model can be trusted to: it is kept to an order, and its couplings to
-theirs, which are angles of a milliradian or two. Of an effect of 10,000 sigma twenty sigma are left over so, and say nothing
-of a further one that is like it."""
 
 
 @dataclass(frozen=True)
@@ -97,10 +84,6 @@ class Taken:
         Effects that would have done as well, derived in its place.
     instant
         Of a step, s.
-    stage
-        The one at which it was taken.
-    open
-        Contenders that an effect not yet in the model may have decided against, the best of them first.
     """
 
     effect: str
@@ -109,100 +92,21 @@ class Taken:
     after: Fitted
     rivals: tuple[str, ...]
     instant: float | None
-    stage: Stage
-    open: tuple[str, ...] = ()
 
 
-End = tuple[list[Taken], Stage]
-"""The strong effects, and the stage at which nothing strong is left, or nothing of the catalogue is what is missing."""
-
-Block = tuple[Stage, str, tuple[int, ...]]
-"""An effect, the stage whose field has its columns, and those of them that its test needs."""
-
-
-def taken(first: Stage, extend: Extend | None) -> End:
-    """The strong effects in the order of their strength, and the stage at which nothing strong is left."""
-    if extend is None:
-        return [], first
-    end = _followed(first, [], first, extend)
-    for n, t in enumerate(end[0]):
-        if t.open and len(_blocks(end)) > n + 1:
-            other = _followed(first, end[0][:n], t.stage, extend, (*t.open, t.effect))
-            end = other if _better(other, end, first, extend) else end
-            break
-    return _with_rivals(end, first, extend)
-
-
-def _followed(
-    first: Stage, before: Sequence[Taken], stage: Stage, extend: Extend, begin: tuple[str, ...] = ()
-) -> End:
-    """One strong effect after the other from a stage on, the first of them that of ``begin``, whose others are open."""
-    found = list(before)
-    while stage.strong and len(found) < selection.MOST:
-        one = _in_model(stage, begin[0], begin[1:], extend) if begin else _strongest(stage, extend)
+def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
+    """The strong effects in the order of their strength, and the stage at which nothing strong is left, or nothing of the
+    catalogue is what is missing.
+    """
+    found: list[Taken] = []
+    stage = first
+    while extend is not None and stage.strong and len(found) < selection.MOST:
+        one = _strongest(stage, extend)
         if one is None:
             return found, stage.without_choice()
-        begin = ()
         found = _needed([*found, one], first.fitted, extend)
         stage = Stage.of(found[-1].after, beside=True)
     return found, stage
-
-
-def _better(a: End, b: End, first: Stage, extend: Extend) -> bool:
-    """Whether one end is better than another: less is left, as BIC counts it; or as little, by fewer effects.
-
-    As little is what differs by no more than the strongest effect can be trusted to.
-    """
-    sizes = [len(_blocks(end)) for end in (a, b)]
-    trusted = TRUNCATED**2 * max(t.test.chi2 for found, _ in (a, b) for t in found)
-    noise = min((last.fitted.calibration.noise for _, last in (a, b)), key=calibrate.loudness)
-    now = _left(b, _blocks(b), noise, first, extend)
-    other = _left(a, _blocks(a), noise, first, extend, now.ceiling)
-    room = max(trusted, INDISTINGUISHABLE) if sizes[0] < sizes[1] else -INDISTINGUISHABLE
-    return other.chi2 < now.chi2 + room
-
-
-def _with_rivals(end: End, first: Stage, extend: Extend) -> End:
-    """An end whose strong effects have those of their open contenders that do as well once all others are in the model."""
-    found, last = end
-    blocks, noise = _blocks(end), last.fitted.calibration.noise
-    inside = {e for _, e, _ in blocks}
-    undecided = [[e for e in t.open if e not in inside] for t in found]
-    if not any(undecided) or len(blocks) < 2:
-        return end
-    now = _left(end, blocks, noise, first, extend)
-
-    def equal(n: int, e: str) -> bool:
-        t = found[n]
-        swapped = [*blocks[:n], (t.stage, e, t.stage.choice.tests[e].which), *blocks[n + 1 :]]
-        return _left(end, swapped, noise, first, extend, now.ceiling).chi2 < now.chi2 + INDISTINGUISHABLE
-
-    rivals = [{e for e in some if equal(n, e)} for n, some in enumerate(undecided)]
-    return [
-        replace(t, rivals=tuple(sorted({*t.rivals, *own}))) for t, own in zip(found, rivals, strict=True)
-    ], last
-
-
-def _blocks(end: End) -> list[Block]:
-    """All effects of an end, the strong ones first."""
-    found, last = end
-    strong = [(t.stage, t.effect, t.test.which) for t in found]
-    return [*strong, *((last, e, last.choice.blocks[e]) for e in last.choice.chosen)]
-
-
-def _left(
-    end: End,
-    blocks: Sequence[Block],
-    noise: Sequence[Noise],
-    first: Stage,
-    extend: Extend,
-    ceiling: float = np.inf,
-) -> Left:
-    """Chi-square that is left with effects in the model, and what their coefficients are charged; steps begin as in an end."""
-    instants = dict(first.instants) | dict(end[1].instants)
-    instants |= {t.effect: t.instant for t in end[0] if t.instant is not None}
-    own = [(s.field, e, which) for s, e, which in blocks]
-    return left_with(first.fitted, own, noise, instants, extend, ceiling)
 
 
 def left_with(
@@ -242,23 +146,22 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
 
     contest = Contest(f, entered)
     while True:
-        effect, rivals, undecided = _best(stage, tests, contest.left)
+        effect, rivals = _best(stage, tests, contest.left)
         if not contest.arrived:
             return None
-        found = replace(_in_model(stage, effect, undecided, extend), rivals=rivals)
+        found = _in_model(stage, effect, rivals, extend)
         if len(tests) == 1 or not impossible(found.after, (effect,)):
             return found
-        if found.after.calibration.excess <= QUIET and not (rivals or undecided):
+        if found.after.calibration.excess <= QUIET and not rivals:
             return None
         tests.pop(effect)
 
 
 def _best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
-) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
-    """Of some effects the one that leaves least by its ``score``; of those that do equally well, the linear test's choice.
-
-    With it those that would have done as well, and those against which an effect not yet in the model may have decided.
+) -> tuple[str, tuple[str, ...]]:
+    """Of some effects the one that leaves least by its ``score``, of those that do equally well the linear test's choice; with
+    it those that would have done as well.
     """
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
@@ -277,15 +180,10 @@ def _best(
     as_near = [
         e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])
     ]
-    rivals = tuple(sorted({*equal, *as_near} - {effect}))
-    # what nothing explains, and a degree of freedom for each column that could
-    noise = float(stage.field.P[-1, -1] ** 2) + stage.field.P.shape[1]
-    far = {e: left[e] - left[effect] for e in tried if e not in (effect, *rivals)}
-    undecided = sorted((e for e in far if far[e] < OPEN * (left[effect] - noise)), key=lambda e: (far[e], e))
-    return effect, rivals, tuple(undecided)
+    return effect, tuple(sorted({*equal, *as_near} - {effect}))
 
 
-def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Extend) -> Taken:
+def _in_model(stage: Stage, effect: str, rivals: tuple[str, ...], extend: Extend) -> Taken:
     """An effect of a stage derived into the model, and everything fitted anew."""
     f = stage.fitted
     model, instrument = contenders.derived(f, [effect], stage.instants, extend, candidates=True)
@@ -296,10 +194,8 @@ def _in_model(stage: Stage, effect: str, undecided: tuple[str, ...], extend: Ext
         test=stage.choice.tests[effect],
         before=f,
         after=fit(model, instrument, f.observations),
-        rivals=(),
+        rivals=rivals,
         instant=stage.instants.get(effect),
-        stage=stage,
-        open=undecided,
     )
 
 
