@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.fit.fitted import Fitted, calibrated
-from ragg_runtime.fit.off_sheet import QUIET, as_said, room_taken
+from ragg_runtime.fit.off_sheet import as_said, room_taken
 from ragg_runtime.fit.passes import excerpt
 from ragg_runtime.fit.prepared_flight import to_nominal
 from ragg_runtime.fit.switching import certain
@@ -21,10 +21,6 @@ from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
-
-HOPELESS = 2.0
-"""Times the chi-square of a contender that leaves but noise, above which another one is given up."""
-
 
 APART = 100.0
 """Chi-square by which a contender must leave more than another one of an excerpt to be out of the contest (10 sigma): of two that
@@ -72,14 +68,11 @@ class Left:
     ----------
     chi2
         Chi-square, with what the parameters cost.
-    ceiling
-        The one that other contenders must come below; infinite unless but noise is left, with the sheet as sure as it says.
     arrived
         Whether the fit came to an optimum.
     """
 
     chi2: float
-    ceiling: float
     arrived: bool
 
 
@@ -88,18 +81,16 @@ def left(
     noise: Sequence[Noise],
     held: frozenset[str],
     extended: tuple[Model, Instrument],
-    ceiling: float = np.inf,
 ) -> Left:
     """What a nonlinear fit leaves with effects in the model, without what their coefficients are charged.
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
     the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
     which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
-    A fit that does not get below ``ceiling`` may have ended early.
     """
     model, sheet = extended
     observations = certain(model, sheet, f.observations)
-    instrument, c = calibrated(model, sheet, observations, noise=noise, ceiling=ceiling)
+    instrument, c = calibrated(model, sheet, observations, noise=noise)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     x = -to_nominal(model, instrument, c)
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
@@ -115,10 +106,8 @@ def left(
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
-    noise_alone = c.excess <= QUIET and instrument is sheet
     return Left(
         chi2=c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c),
-        ceiling=HOPELESS * c.chi2 if noise_alone else np.inf,
         arrived=c.converged,
     )
 
@@ -162,6 +151,5 @@ class Contest:
 
     def _fitted(self, e: str, f: Fitted, fits: dict[str, Left]) -> Left:
         if e not in fits:
-            ceiling = min((x.ceiling for x in fits.values()), default=np.inf)
-            fits[e] = left(f, f.calibration.noise, *self.entered(e), ceiling)
+            fits[e] = left(f, f.calibration.noise, *self.entered(e))
         return fits[e]

@@ -115,7 +115,6 @@ def left_with(
     noise: Sequence[Noise],
     instants: Mapping[str, float],
     extend: Extend,
-    ceiling: float = np.inf,
 ) -> Left:
     """What is left of flights with effects in the model, and what their coefficients are charged: of each the field that has its
     columns, and those of them that its test needs.
@@ -123,7 +122,7 @@ def left_with(
     charged = sum(contenders.charge(q.P[:, list(which)], f.calibration.rows) for q, _, which in blocks)
     held = frozenset(label for q, e, which in blocks for label in _unneeded(q, e, which))
     extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
-    found = contenders.left(f, noise, held, extended, ceiling)
+    found = contenders.left(f, noise, held, extended)
     return replace(found, chi2=found.chi2 + charged)
 
 

@@ -247,10 +247,8 @@ def fit(
     start: Array | None = None,
     noise: Sequence[Noise] | None = None,
     unweighted: bool = False,
-    ceiling: float = np.inf,
 ) -> Calibration:
-    """Least squares on all flights at once, from the nominal values or from ``start``; ``ceiling`` as for ``trust_region.minimise``,
-    where the noise is given.
+    """Least squares on all flights at once, from the nominal values or from ``start``.
 
     Fits from the nominal values begin on an excerpt of a long flight. First every sample weighs the same, as much as what a
     linear fit leaves says. Where that fit ends the noise is estimated from what nothing explains. Then the fit goes on with
@@ -268,7 +266,7 @@ def fit(
     if not loud:
         if start is None and some is not task:
             x = minimise(lambda at: some.at(at, noise), x).x
-        found = minimise(lambda at: task.at(at, noise), x, ceiling=ceiling)
+        found = minimise(lambda at: task.at(at, noise), x)
         return _calibration(task, found, noise)
     return _loud(whole, x, noise, fixed=unweighted)
 

@@ -275,20 +275,14 @@ def calibrated(
     noise: Sequence[Noise] | None = None,
     start: Array | None = None,
     unweighted: bool = False,
-    ceiling: float = np.inf,
 ) -> tuple[Instrument, Calibration]:
     """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``).
 
     A sheet that is held to be less sure than it says must bring what is left down to noise: where an effect is missing the
-    parameters would bend to that, the farther the wider they are, and another one would be taken for what they leave. Nor is it
-    asked for where a ``ceiling`` of chi-square was not reached with the sheet as it is.
+    parameters would bend to that, the farther the wider they are, and another one would be taken for what they leave.
     """
-    c = calibrate.fit(
-        model, instrument, observations, noise=noise, start=start, unweighted=unweighted, ceiling=ceiling
-    )
+    c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     found = instrument, c
-    if c.chi2 > ceiling:
-        return found
     for _ in range(WIDENED):
         wider = widened(model, instrument, c)
         if wider is None:

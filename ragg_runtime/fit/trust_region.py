@@ -45,10 +45,6 @@ ACCEPTED = 1e-4
 POOR, GOOD = 0.25, 0.75
 """Shares below which the radius shrinks, and above which it may grow (Moré's)."""
 
-HOPE = 10.0
-"""Times what the linearised problem promises that a search may still gain at the most: a curved valley goes on behind what can be
-seen of it. Asked only where a search must end below a ceiling."""
-
 CORRECTION = 0.5
 """Length of a step back to the floor of a valley over that of the step along it."""
 
@@ -175,13 +171,10 @@ def settled(at: Linear) -> bool:
     return at.decrement <= max(SETTLED, RELATIVE * at.cost)
 
 
-def minimise(
-    linearise: Callable[[Array], L], start: Array, most: int = MOST, ceiling: float = np.inf
-) -> Minimum[L]:
+def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) -> Minimum[L]:
     """Minimise a sum of squares from ``start`` (n,); chi-square never rises.
 
-    ``linearise`` gives the problem about a point; where its cost is not finite the point is out of the model's reach. A search that
-    would have to end below ``ceiling`` to be of use ends where it is not to be hoped for.
+    ``linearise`` gives the problem about a point; where its cost is not finite the point is out of the model's reach.
     """
     x = np.array(start, dtype=np.float64)
     at = linearise(x)
@@ -195,8 +188,6 @@ def minimise(
     while trials < most:
         if settled(at):
             return ended(True, "nothing is left to gain", faithful)
-        if at.cost - HOPE * at.decrement > ceiling:
-            return ended(False, "what is left stays far above what another model leaves")
         step = at.within(radius)
         length = float(np.linalg.norm(step))
         end, ahead, tried = _followed(linearise, at, x, step)

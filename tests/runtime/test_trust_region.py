@@ -57,23 +57,6 @@ def test_the_minimum_is_that_of_scipy_and_no_accepted_step_went_up(
     assert found.at.cost <= costs[0]
 
 
-def canyon(x: Array) -> Array:
-    """A narrow one in three dimensions, that falls slowly along its floor; 300 remain."""
-    return np.array([1e5 * (x[1] - np.sin(3.0 * x[0])), 1e5 * (x[2] - x[0] ** 2), 10.0 - x[0], 300.0])
-
-
-def test_below_a_ceiling_a_search_goes_on_to_its_end_and_far_above_it_ends() -> None:
-    start, costs, tried = np.array([-5.0, 0.5, 25.0]), list[float](), list[float]()
-    free = minimise(problem(canyon, costs), start)
-    within = minimise(problem(canyon, []), start, ceiling=2.0 * free.at.cost)
-    assert within.converged
-    np.testing.assert_array_equal(within.x, free.x)
-    beyond = minimise(problem(canyon, tried), start, ceiling=0.5 * free.at.cost)
-    assert not beyond.converged
-    assert "another model" in beyond.reason
-    assert len(tried) < len(costs)
-
-
 def test_the_step_within_a_radius_is_the_best_of_its_length() -> None:
     rng = np.random.default_rng(4)
     R = np.triu(rng.standard_normal((6, 6))) * np.logspace(0, -4, 6)[:, None]
