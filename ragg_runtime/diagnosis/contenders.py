@@ -36,17 +36,6 @@ class Extend(Protocol):
     def __call__(self, model: Model, ids: Sequence[str], /, *, candidates: bool = False) -> Model: ...
 
 
-def charge(columns: Array, rows: int) -> float:
-    """What the coefficients of columns (n, k) cost, in chi-square: BIC's logarithm of the number of rows for each direction that
-    the record sees; of one that it does not, by which the evidence with a prior of unit width is lower, ln(1 + s^2).
-
-    Otherwise an effect would lose to a twin for coefficients of which the record says nothing (the third angle of a turn,
-    weak combinations of four accelerometers).
-    """
-    s = np.linalg.svd(columns, compute_uv=False)
-    return float(np.sum(np.where(s < 1.0, np.log1p(s**2), np.log(rows))))
-
-
 def derived(
     f: Fitted, ids: Sequence[str], instants: Mapping[str, float], extend: Extend, candidates: bool = False
 ) -> tuple[Model, Instrument]:
@@ -82,7 +71,7 @@ def left(
     held: frozenset[str],
     extended: tuple[Model, Instrument],
 ) -> Left:
-    """What a nonlinear fit leaves with effects in the model, without what their coefficients are charged.
+    """What a nonlinear fit leaves with effects in the model.
 
     Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
     the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light

@@ -116,14 +116,12 @@ def left_with(
     instants: Mapping[str, float],
     extend: Extend,
 ) -> Left:
-    """What is left of flights with effects in the model, and what their coefficients are charged: of each the field that has its
-    columns, and those of them that its test needs.
+    """What is left of flights with effects in the model: of each the field that has its columns, and those of them that its test
+    needs.
     """
-    charged = sum(contenders.charge(q.P[:, list(which)], f.calibration.rows) for q, _, which in blocks)
     held = frozenset(label for q, e, which in blocks for label in _unneeded(q, e, which))
     extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
-    found = contenders.left(f, noise, held, extended)
-    return replace(found, chi2=found.chi2 + charged)
+    return contenders.left(f, noise, held, extended)
 
 
 def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
@@ -166,15 +164,13 @@ def _best(
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
     near = sorted(near, key=lambda e: (tests[e].log_p, e))
-    rows = stage.fitted.calibration.rows
-    charge = {e: contenders.charge(stage.field.P[:, list(tests[e].which)], rows) for e in near}
     tried = near[:CONTENDERS]
     left = score(tried) if len(tried) > 1 else dict.fromkeys(tried, 0.0)
-    best = min(tried, key=lambda e: (left[e] + charge[e], e))
+    best = min(tried, key=lambda e: (left[e], e))
     # effects with the same signature are all of its group, however many they are
     alike = [e for e in near[CONTENDERS:] if _alike(tests[e], tests[best])]
     left |= score(alike) if alike else {}
-    equal = [e for e in left if left[e] + charge[e] < left[best] + charge[best] + INDISTINGUISHABLE]
+    equal = [e for e in left if left[e] < left[best] + INDISTINGUISHABLE]
     effect = min(equal, key=near.index)
     as_near = [
         e for e in left if left[e] < left[effect] + INDISTINGUISHABLE and _as_sure(tests[e], tests[effect])

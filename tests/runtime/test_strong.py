@@ -100,12 +100,6 @@ def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
     assert (first.harmonic, first.product) == ("const", "omega_z")
 
 
-def test_a_coefficient_that_the_record_does_not_see_is_charged_what_it_tells_of_it() -> None:
-    columns = np.linalg.qr(np.random.default_rng(3).standard_normal((50, 3)))[0] * [1e6, 7.0, 0.1]
-    charge = contenders.charge(columns, 10_000)
-    assert charge == pytest.approx(2 * np.log(10_000) + np.log(1.01))  # of those that are seen BIC's
-
-
 @pytest.mark.parametrize("name", sorted(set(STRONG) - {"a converter's step"}))
 def test_the_calibrated_error_of_a_model_that_lacks_much_is_an_optimum(name: str) -> None:
     s = scenario(57, duration=400.0, rate=RATE)
