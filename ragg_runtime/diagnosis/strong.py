@@ -22,10 +22,9 @@ from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
-from ragg_runtime.fit.calibrate import Calibration
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.off_sheet import QUIET
-from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf
+from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
 from ragg_runtime.signals.noise_spectrum import Noise
@@ -104,8 +103,8 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
         one = _strongest(stage, extend)
         if one is None:
             return found, stage.without_choice()
-        found = _needed([*found, one], first.fitted, extend)
-        stage = Stage.of(found[-1].after, beside=True)
+        found.append(one)
+        stage = Stage.of(one.after, beside=True)
     return found, stage
 
 
@@ -202,27 +201,3 @@ def _alike(a: Test, b: Test) -> bool:
 def _as_sure(a: Test, b: Test) -> bool:
     """Whether the first is no less sure for its many coefficients."""
     return a.log_p < b.log_p + selection.AS_SURE
-
-
-def _needed(found: list[Taken], first: Fitted, extend: Extend) -> list[Taken]:
-    """Those taken without any that the later ones have made superfluous; the model is fitted anew without it."""
-    last = found[-1].after
-    for t in found[:-1]:
-        if significance(last.calibration, t.effect) > np.log(selection.FURTHER):
-            kept = [k for k in found if k is not t]
-            instants = {k.effect: k.instant for k in kept if k.instant is not None}
-            model, instrument = contenders.derived(
-                first, [k.effect for k in kept], instants, extend, candidates=True
-            )
-            fitted = fit(model, instrument, first.observations)
-            return _needed([*kept[:-1], replace(kept[-1], after=fitted)], first, extend)
-    return found
-
-
-def significance(c: Calibration, effect: str) -> float:
-    """Logarithm of the p-value of an effect that is in the model: what its absence would cost, linearised."""
-    own = [n for n, q in enumerate(c.columns) if q.effect == effect]
-    values = np.array([c.p[c.index[n]] / c.columns[n].scale for n in own])
-    information = np.linalg.inv(c.covariance[np.ix_(own, own)]) - np.eye(len(own))  # without the prior's
-    seen = int(np.sum(np.linalg.eigvalsh(information) > 1.0))
-    return log_sf(max(float(values @ information @ values), 0.0), seen)
