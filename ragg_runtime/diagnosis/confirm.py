@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.impossible import impossible
-from ragg_runtime.diagnosis.strong import Stage, left_with
+from ragg_runtime.diagnosis.strong import Stage
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
 from ragg_runtime.evidence.selection import Choice, Field
@@ -23,7 +23,6 @@ from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.passes import Piece
-from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model.evaluate import vector
@@ -62,11 +61,6 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
         field = _without(field, wrong)
         choice = selection.choose(field)
         final = _derived(f, choice.chosen, extend)
-    if final is not None and extend is not None:
-        kept = _needed(f, field, choice, final, extend)
-        if kept is not choice:
-            field = _without(field, set(choice.chosen) - set(kept.chosen))
-            choice, final = kept, _derived(f, kept.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
     found = Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
@@ -80,33 +74,6 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
         if not rem.significant:
             return Confirmed(field=field, choice=other, final=final, remainder=rem, random=random)
     return found
-
-
-def _needed(f: Fitted, field: Field, choice: Choice, final: Fitted, extend: Extend) -> Choice:
-    """The choice without effects that the model does as well without, where it leaves more than linear tests have promised.
-
-    They promise what an effect of any size explains; in the model it has the size that it may have, and all its orders.
-    """
-    promised = float(np.sum(field.P[:, -1] ** 2)) - choice.chi2
-    if final.calibration.chi2 < promised + INDISTINGUISHABLE:
-        return choice
-
-    def left(chosen: Sequence[str]) -> float:
-        blocks = [(field, e, choice.blocks[e]) for e in chosen]
-        return left_with(f, blocks, f.calibration.noise, {}, extend).chi2
-
-    chosen = list(choice.chosen)
-    now = left(chosen)
-    while chosen:
-        fewer = {e: left([o for o in chosen if o != e]) for e in chosen}
-        e = min(chosen, key=lambda e: (fewer[e], e))
-        if fewer[e] > now + INDISTINGUISHABLE:
-            break
-        chosen.remove(e)
-        now = fewer[e]
-    if len(chosen) == len(choice.chosen):
-        return choice
-    return _chosen(field, choice, chosen, {e: choice.blocks[e] for e in chosen})
 
 
 def _without(field: Field, effects: Container[str]) -> Field:

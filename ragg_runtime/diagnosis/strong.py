@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis import contenders
-from ragg_runtime.diagnosis.contenders import Contest, Extend, Left
+from ragg_runtime.diagnosis.contenders import Contest, Extend
 from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
@@ -27,7 +27,6 @@ from ragg_runtime.fit.off_sheet import QUIET
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
-from ragg_runtime.signals.noise_spectrum import Noise
 
 Array = NDArray[np.float64]
 
@@ -106,21 +105,6 @@ def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
         found.append(one)
         stage = Stage.of(one.after, beside=True)
     return found, stage
-
-
-def left_with(
-    f: Fitted,
-    blocks: Sequence[tuple[Field, str, Sequence[int]]],
-    noise: Sequence[Noise],
-    instants: Mapping[str, float],
-    extend: Extend,
-) -> Left:
-    """What is left of flights with effects in the model: of each the field that has its columns, and those of them that its test
-    needs.
-    """
-    held = frozenset(label for q, e, which in blocks for label in _unneeded(q, e, which))
-    extended = contenders.derived(f, [e for _, e, _ in blocks], instants, extend)
-    return contenders.left(f, noise, held, extended)
 
 
 def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
