@@ -1,9 +1,4 @@
-"""What was chosen by linear tests, derived into the model and fitted anew, and what that leaves.
-
-A linear test cannot tell effects apart whose signatures agree to first order. Where the chosen one, in the model, leaves
-something that stands out, and a rival that the tests hold to be as good leaves nothing, it is the rival. Nor does it know how large an
-effect may be: where the model leaves more than was promised, effects that it does as well without are none.
-"""
+"""What was chosen by linear tests, derived into the model and fitted anew, and what that leaves."""
 
 from __future__ import annotations
 
@@ -38,7 +33,7 @@ class Confirmed:
     Attributes
     ----------
     field, choice
-        Of the stage, without effects that turned out to be none, and with rivals in the place of what they beat.
+        Of the stage, without effects that turned out to be none.
     final
         The flights fitted with the chosen effects derived into the model; ``None`` if that cannot be done: then everything
         is linear.
@@ -54,7 +49,7 @@ class Confirmed:
 
 
 def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
-    """The chosen effects of the last stage, or rivals, fitted in the model."""
+    """The chosen effects of the last stage fitted in the model."""
     f, field, choice = last.fitted, last.field, last.choice
     final = _derived(f, choice.chosen, extend)
     while final is not None and (wrong := impossible(final, choice.chosen)):
@@ -63,42 +58,12 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
         final = _derived(f, choice.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
-    found = Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
-    if final is None or not rem.significant:
-        return found
-    for other in _others(field, choice):
-        final = _derived(f, other.chosen, extend)
-        if final is None or impossible(final, other.chosen):
-            continue
-        rem, random = _remainder(final, ())
-        if not rem.significant:
-            return Confirmed(field=field, choice=other, final=final, remainder=rem, random=random)
-    return found
+    return Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
 
 
 def _without(field: Field, effects: Container[str]) -> Field:
     """The field without some of its effects."""
     return replace(field, candidates={e: c for e, c in field.candidates.items() if e not in effects})
-
-
-def _chosen(
-    field: Field, choice: Choice, chosen: Sequence[str], blocks: Mapping[str, tuple[int, ...]]
-) -> Choice:
-    """The choice with other effects chosen, of each the columns that its test needs."""
-    chi2 = field.joint([blocks[e] for e in chosen])[0] if chosen else 0.0
-    return replace(choice, chosen=tuple(chosen), blocks=blocks, conditional=field.tests(chosen), chi2=chi2)
-
-
-def _others(field: Field, choice: Choice) -> list[Choice]:
-    """The choice with each rival in the place of the effect that it cannot be told from."""
-    found = []
-    for e, rivals in selection.rivals(field, choice).items():
-        tests = field.tests([o for o in choice.chosen if o != e])
-        for r in rivals:
-            chosen = tuple(r if o == e else o for o in choice.chosen)
-            blocks = {o: choice.blocks[o] for o in chosen if o != r} | {r: tests[r].which}
-            found.append(_chosen(field, choice, chosen, blocks))
-    return found
 
 
 def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
