@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis.contenders import Extend
-from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.strong import Stage
-from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.random_effects import Variance, pooled
-from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.fitted import Fitted, fit
@@ -28,12 +25,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Confirmed:
-    """The choice that stands, and what it leaves.
+    """What the chosen effects of the last stage leave.
 
     Attributes
     ----------
-    field, choice
-        Of the stage, without effects that turned out to be none.
     final
         The flights fitted with the chosen effects derived into the model; ``None`` if that cannot be done: then everything
         is linear.
@@ -41,8 +36,6 @@ class Confirmed:
         What is left, and the random effects in it.
     """
 
-    field: Field
-    choice: Choice
     final: Fitted | None
     remainder: Remainder
     random: Mapping[str, Variance]
@@ -52,18 +45,9 @@ def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
     """The chosen effects of the last stage fitted in the model."""
     f, field, choice = last.fitted, last.field, last.choice
     final = _derived(f, choice.chosen, extend)
-    while final is not None and (wrong := impossible(final, choice.chosen)):
-        field = _without(field, wrong)
-        choice = selection.choose(field)
-        final = _derived(f, choice.chosen, extend)
     given = [n for e in choice.chosen for n, _ in field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
-    return Confirmed(field=field, choice=choice, final=final, remainder=rem, random=random)
-
-
-def _without(field: Field, effects: Container[str]) -> Field:
-    """The field without some of its effects."""
-    return replace(field, candidates={e: c for e, c in field.candidates.items() if e not in effects})
+    return Confirmed(final=final, remainder=rem, random=random)
 
 
 def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:

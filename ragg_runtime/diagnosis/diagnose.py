@@ -95,14 +95,14 @@ def diagnose_fitted(
     ranked = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
     c = confirmed(last, extend)
-    chosen = [*(t.effect for t in steps), *c.choice.chosen]
+    chosen = [*(t.effect for t in steps), *last.choice.chosen]
     left = _left(steps, last, c)
-    end = _end(last.fitted, c, apart)
+    end = _end(last, c, apart)
     verdict, found = _verdict(left, end, chosen, output)
     by_terms = sum(s.chi2 for s in left.remainder.searches) if left.remains else 0.0
     whitened = sum(s.square for s in left.remainder.searches)
-    ranking = _ranked(*ranked, steps, last, c, end.target, left)
-    credence = weighed(c.field, steps)
+    ranking = _ranked(*ranked, steps, last, end.target, left)
+    credence = weighed(last.field, steps)
     rivals = selection.rivals(first.field, first.choice) if not steps else {t.effect: t.rivals for t in steps}
     steady = [s for s in left.steady if s.effect in found]
     return Diagnosis(
@@ -154,12 +154,11 @@ class _Left:
 
 
 def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
-    field, choice = c.field, c.choice
     random = {e: v.test() for e, v in c.random.items()}
-    count = len(field.candidates) + len(random)
+    count = len(last.field.candidates) + len(random)
     random_found = sorted((t.log_p, e) for e, t in random.items() if selection.significant(t, count))
     rem = c.remainder
-    line, steady = line_rival(steps, replace(last, field=field, choice=choice))
+    line, steady = line_rival(steps, last)
     if line is not None and not line.better(rem):
         line = None
     rem = rem if line is None else line.within(rem)
@@ -191,8 +190,9 @@ class _End:
     noisy: str | None
 
 
-def _end(f: Fitted, c: Confirmed, apart: str | None) -> _End:
-    given = [n for e in c.choice.chosen for n, _ in c.field.candidates[e]]
+def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
+    f = last.fitted
+    given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
     target = f if c.final is None else c.final
     v = f.vector(f.coefficients(given)[0], given) if c.final is None else np.zeros(target.size)
     extra = given if c.final is None else ()
@@ -230,15 +230,16 @@ def _ranked(
     before: Error,
     steps: Sequence[Taken],
     last: Stage,
-    c: Confirmed,
     target: Fitted,
     left: _Left,
 ) -> list[Ranked]:
     """The effects as they stand in the ranking; ``ranking`` is the first stage's, ``before`` the error without any."""
     ranking = [*ranking, *_ranked_random(last.fitted, left.random, before)]
     if steps:
-        chosen = c.choice.chosen
-        later = _ranking(last.fitted, c.field, c.choice, last.instants, only=chosen)[0] if chosen else []
+        chosen = last.choice.chosen
+        later = (
+            _ranking(last.fitted, last.field, last.choice, last.instants, only=chosen)[0] if chosen else []
+        )
         ranking = staged(steps, later, ranking, target)
     return ranking
 

@@ -17,13 +17,11 @@ from numpy.typing import NDArray
 
 from ragg_runtime.diagnosis import contenders
 from ragg_runtime.diagnosis.contenders import Contest, Extend
-from ragg_runtime.diagnosis.impossible import impossible
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit.fitted import Fitted, fit
-from ragg_runtime.fit.off_sheet import QUIET
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.model import Model
@@ -113,11 +111,7 @@ def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
 
 
 def _strongest(stage: Stage, extend: Extend) -> Taken | None:
-    """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
-
-    ``None`` where an impossible one leaves but noise and no other comes near it: what is missing acts as it does, and is none of
-    the catalogue. Nor is one of several of which none comes to an optimum.
-    """
+    """The effect that explains most once it is in the model; ``None`` of several of which none comes to an optimum."""
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
     def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
@@ -125,16 +119,8 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
         return held, contenders.derived(f, [e], stage.instants, extend)
 
     contest = Contest(f, entered)
-    while True:
-        effect, rivals = _best(stage, tests, contest.left)
-        if not contest.arrived:
-            return None
-        found = _in_model(stage, effect, rivals, extend)
-        if len(tests) == 1 or not impossible(found.after, (effect,)):
-            return found
-        if found.after.calibration.excess <= QUIET and not rivals:
-            return None
-        tests.pop(effect)
+    effect, rivals = _best(stage, tests, contest.left)
+    return _in_model(stage, effect, rivals, extend) if contest.arrived else None
 
 
 def _best(

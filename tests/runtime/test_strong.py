@@ -14,7 +14,6 @@ import pytest
 import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
-from ragg_runtime.diagnosis import contenders, strong
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.diagnosis.strong import Stage
@@ -74,30 +73,6 @@ def test_a_twin_that_takes_some_of_another_effect_does_not_displace_the_right_on
     first, second = d.ranking[:2]
     assert {first.effect, *first.indistinguishable_from} == {"gradient-offset", "vibration-rectification"}
     assert d.found == (first.effect, "imu-acceleration-scale") == (first.effect, second.effect)
-
-
-def test_a_term_like_an_effect_of_one_size_alone_is_searched_for_at_no_length(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    # V_1 feels the disc's spin through omega_z; at this size that is nothing of the catalogue, and nothing else comes near it
-    tried: list[list[str]] = []
-
-    def scored(*arguments: Any) -> contenders.Left:
-        tried.append([e.id for e in arguments[3][0].effects])
-        return left(*arguments)
-
-    left = contenders.left
-    monkeypatch.setattr(contenders, "left", scored)
-    s = scenario(57, duration=300.0, rate=RATE)
-    run = s.simulate()
-    flight = run.flight()
-    term = 0.02 * flight.channels["omega_z"] / np.std(flight.channels["omega_z"])
-    d = diagnosed(s, dataclasses.replace(flight, outputs={"G_out": flight.outputs["G_out"] + term}))
-    assert ["disc-spin"] in tried
-    assert len(tried) <= strong.CONTENDERS
-    assert (d.verdict, d.found) == ("unexplained", ())
-    first = d.remainder.searches[0].terms[0].term
-    assert (first.harmonic, first.product) == ("const", "omega_z")
 
 
 @pytest.mark.parametrize("name", sorted(set(STRONG) - {"a converter's step"}))
