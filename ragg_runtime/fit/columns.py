@@ -124,9 +124,7 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
         if not q.fitted:
             continue
         factor = unit_factor(q.unit, known)
-        scale = (
-            EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like) * instrument.widths.get(e.id, 1.0)
-        )
+        scale = EFFECT_PRIOR * q.plausible * factor * instrument.grade(q.like)
         for j in (None,) if q.shared else range(1, instrument.layout.size + 1):
             column = Column(
                 name=f"{e.id}.{q.name}",

@@ -39,7 +39,7 @@ FREE = 1e-3
 """Weight of a word of the sheet that is not taken: a thousand sigma off costs no more than one."""
 
 WIDENED = 3
-"""Most times that a sheet is taken to be less sure than it says, and that effects are given more room."""
+"""Most times that a sheet is taken to be less sure than it says."""
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from types import MappingProxyType
 import numpy as np
 
 from ragg_runtime.fit.calibrate import Calibration
-from ragg_runtime.fit.columns import Column, spelt
+from ragg_runtime.fit.columns import spelt
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.instrument.parameters import PARAMETER, PARAMETERS
+from ragg_runtime.instrument.parameters import PARAMETERS
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model
 
@@ -71,7 +71,7 @@ def off_sheet(model: Model, instrument: Instrument, c: Calibration) -> list[OffS
 
 WIDE = 2.0
 """Root mean square of the distances of one kind of parameter, in the sheet's sigmas, from which the sheet is less sure of this kind
-than it says (or than is plausible), by that factor. Of an effect, the largest distance."""
+than it says (or than is plausible), by that factor."""
 
 STATED = "stated"
 """The kind of all parameters of which the sheet says how sure it is."""
@@ -79,13 +79,8 @@ STATED = "stated"
 AGAIN = 1.5
 """Factor by which a width must have changed for the fit to be made again: the logarithm of a prior's width hardly matters."""
 
-MOST_ROOM = 3.0
-"""Factor by which the prior of an effect is widened at the most (thirty times its usual size): with more, a gyroscope's bias of
-7,000 deg/h passed for a term that no effect of the catalogue makes, to the noise."""
-
 QUIET = 2.0
-"""Excess of chi-square up to which the record says how far off the sheet parameters are and how large an effect in the model is; beyond
-it another one is missing."""
+"""Excess of chi-square up to which the record says how far off the sheet parameters are; beyond it an effect is missing."""
 
 HELD = 0.5
 """Share of what is left that must be the sheet's doing for a sheet that is less sure to be worth a fit: of what stays however wide it
@@ -97,27 +92,21 @@ def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument 
 
     The widths are those of which the record is likeliest (empirical Bayes; MacKay, Neural Computation 4, 1992): the square of the
     distances over the number of parameters that the record tells. A kind that it does not tell stays as it is, and one that a missing
-    effect had pushed away is given back its sheet once that is in the model. The same of the sizes that are usual of effects
-    in the model (:func:`with_room`). ``None`` if nothing changes, or if more than noise is left that no width takes.
+    effect had pushed away is given back its sheet once that is in the model. ``None`` if nothing changes, or if more than noise is
+    left that no width takes.
     """
     if c.unheld > max(QUIET, HELD * c.excess):
         return None
-    now = {n: w for n, w in instrument.widths.items() if n in PARAMETER}
-    then = _widths(model, instrument, c)
+    now, then = instrument.widths, _widths(model, instrument, c)
     changed = any(
         not 1 / AGAIN < then.get(n, 1.0) / now.get(n, 1.0) < AGAIN for n in dict.fromkeys((*now, *then))
     )
-    roomy = with_room(model, instrument, c)
-    if not changed:
-        return roomy
-    others = {n: w for n, w in (roomy or instrument).widths.items() if n not in PARAMETER}
-    return replace(instrument, widths=MappingProxyType({**others, **then}))
+    return replace(instrument, widths=MappingProxyType(then)) if changed else None
 
 
 def as_said(instrument: Instrument) -> Instrument:
     """The instrument with a sheet as sure as it says: its parameters' widths are given back."""
-    widths = {n: w for n, w in instrument.widths.items() if n not in PARAMETER}
-    return replace(instrument, widths=MappingProxyType(widths))
+    return replace(instrument, widths=MappingProxyType({}))
 
 
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
@@ -130,9 +119,11 @@ def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, f
     kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
     squares = dict.fromkeys(kinds.values(), 0.0)
     told = dict.fromkeys(kinds.values(), 0.0)
-    for (q, x), variance in zip(_off(model, instrument, c), np.diag(c.covariance), strict=True):
+    sheet = vector(model, instrument)
+    for q, k, variance in zip(c.columns, c.index, np.diag(c.covariance), strict=True):
         if q.effect is None:
-            squares[kinds[q.name]] += (x * instrument.widths.get(q.name, 1.0)) ** 2
+            x = float((c.p[k] - sheet[k]) / q.scale) * instrument.widths.get(q.name, 1.0)
+            squares[kinds[q.name]] += x**2
             told[kinds[q.name]] += max(0.0, 1.0 - float(variance))
     width = {k: float(np.sqrt(x / max(told[k], 1.0))) for k, x in squares.items()}
     wide = {k: w >= WIDE and squares[k] >= FAR**2 for k, w in width.items()}
@@ -144,27 +135,3 @@ def room_taken(instrument: Instrument, c: Calibration) -> float:
     """What wider priors cost, in chi-square: the logarithm of the volume that they add to, of every parameter that the record tells."""
     width = np.array([instrument.widths.get(q.name, 1.0) if q.effect is None else 1.0 for q in c.columns])
     return float(2.0 * np.log(width) @ np.maximum(0.0, 1.0 - np.diag(c.covariance)))
-
-
-def with_room(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
-    """The instrument with the prior of every effect in the model as wide as the record says its parameters are large.
-
-    Of a fault nothing is known but what size is usual: a prior that holds it there against the data would leave some of it in
-    the residual, and another one in its place would be taken for it. Beyond ``MOST_ROOM`` it is held: that is no such fault any
-    more. ``None`` if all are wide enough.
-    """
-    largest = {e.id: 0.0 for e in model.effects}
-    for q, x in _off(model, instrument, c):
-        if q.effect is not None:
-            largest[q.effect] = max(largest[q.effect], abs(x))
-    now = {e: instrument.widths.get(e, 1.0) for e in largest}
-    wider = {e: min(x * now[e], MOST_ROOM) for e, x in largest.items() if x >= WIDE and now[e] < MOST_ROOM}
-    if not wider or c.excess > QUIET:
-        return None
-    return replace(instrument, widths=MappingProxyType({**instrument.widths, **wider}))
-
-
-def _off(model: Model, instrument: Instrument, c: Calibration) -> list[tuple[Column, float]]:
-    """Every fitted parameter, and how far it is from its sheet, in scales."""
-    sheet = vector(model, instrument)
-    return [(q, float((c.p[k] - sheet[k]) / q.scale)) for q, k in zip(c.columns, c.index, strict=True)]

@@ -66,7 +66,7 @@ class Instrument:
     Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
     the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
     ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
-    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: name of a kind of parameter, or effect id ->
+    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: name of a kind of parameter ->
     how many times wider than the sheet says, or than is usual, the prior of its parameters is.
     """
 
