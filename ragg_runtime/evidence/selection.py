@@ -51,8 +51,6 @@ class Field:
         Whitened norm of every candidate column before projection.
     freedom
         Degrees of freedom from which the noise is known.
-    freed
-        Effect id -> the field as if the sheet did not know the parameter that the effect is the common part of (``sheet``).
     within
         A field of some of the effects on the same flights: what it says of them holds here.
     """
@@ -63,7 +61,6 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
-    freed: Mapping[str, Field] = field(default_factory=dict)
     within: Field | None = None
     norms: Array = field(init=False)
     P: Array = field(init=False)
@@ -119,19 +116,6 @@ class Field:
         found |= known
         return {e: found[e] for e in self.candidates if e in found}
 
-    def plain(self, best: str, tests: Mapping[str, Test], given: Sequence[str], count: int) -> str:
-        """The effect that tests put first, or one that says what it says in plain words: that a length of the sheet is wrong.
-
-        That is so if it is as sure, and the first nothing any more beside a sheet that does not know the length.
-        """
-        for e, free in self.freed.items():
-            t = tests.get(e)
-            if t is None or e == best or t.log_p > tests[best].log_p + AS_SURE:
-                continue
-            if significant(t, count) and not significant(free.tests(given)[best], count):
-                return e
-        return best
-
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
         return likelihood_ratio.explained(self.P, [n for b in blocks for n in b], self.floor)
@@ -175,7 +159,7 @@ def choose(f: Field, *, beside: bool = False) -> Choice:
             remaining[ranked[0][1]], count, FURTHER if chosen or beside else FAMILY
         ):
             break
-        best = f.plain(ranked[0][1], remaining, chosen, count)
+        best = ranked[0][1]
         chosen.append(best)
         blocks[best] = remaining[best].which
         if len(chosen) > 1:
@@ -193,7 +177,7 @@ def _swap(
         others = [e for e in chosen if e != old]
         conditional = f.tests(others)
         ranked = sorted((t.log_p, e) for e, t in conditional.items())
-        best = f.plain(ranked[0][1], conditional, others, count) if ranked else old
+        best = ranked[0][1] if ranked else old
         if best != old and ranked[0][0] < conditional[old].log_p - SWAPPED:
             chosen = [*others, best]
             blocks = {e: blocks[e] for e in others} | {best: conditional[best].which}
@@ -238,12 +222,7 @@ def field_of(
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
     T = f.whole if T is None else T
-    common = [e for e in f.model.candidates if e.id in kept and e.common_of is not None]
-    free = {
-        e.id: Field(f.freed(str(e.common_of), range(f.size - f.n_base)), f.n_base, kept, f.calibration.rows)
-        for e in common
-    }
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, freed=free, within=within)
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, within=within)
 
 
 def testable_effects(f: Fitted) -> list[str]:
