@@ -162,8 +162,7 @@ def _left(steps: Sequence[Taken], last: Stage, c: Confirmed) -> _Left:
     if line is not None and not line.better(rem):
         line = None
     rem = rem if line is None else line.within(rem)
-    uneven = c.random[random_found[0][1]].uneven if random_found else 1.0
-    remains = line is not None or rem.beside(uneven)
+    remains = line is not None or rem.significant
     if remains:
         random, random_found = {}, []
     return _Left(

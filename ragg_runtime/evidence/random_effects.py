@@ -37,14 +37,6 @@ class Variance:
         z = float(np.sqrt(self.count) * (s2e2 / e2 - s2) / np.sqrt(spread * ratio))
         return Test(max(z, 0.0) ** 2, 1, float(special.log_ndtr(-z)), (0,))
 
-    @property
-    def uneven(self) -> float:
-        """By how much the residual's power is larger where the effect shows: so much larger than it seems is the variance of
-        a score whose term is large there, too.
-        """
-        s2, e2, _, _, s2e2 = self.sums / max(self.count, 1)
-        return max(1.0, float(s2e2 / (s2 * e2))) if s2 * e2 > 0.0 else 1.0
-
 
 def pooled(parts: Sequence[Variance]) -> Variance:
     """The sums of several segments or flights together."""

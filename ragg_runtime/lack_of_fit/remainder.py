@@ -29,14 +29,6 @@ class Remainder:
     def significant(self) -> bool:
         return bool(self.log_p < np.log(omnibus.FAMILY))
 
-    def beside(self, uneven: float) -> bool:
-        """Whether it is significant beside a random effect that makes scores so many times as variable as they seem."""
-        if uneven <= 1.0 or not self.significant:
-            return self.significant
-        spared = 0.5 * (1.0 - 1.0 / uneven)  # of a normal tail, exp(-z^2 / 2)
-        left = (s.log_p + spared * max((t.z**2 for t in s.terms), default=0.0) for s in self.searches)
-        return bool(min(left) + np.log(len(self.searches)) < np.log(omnibus.FAMILY))
-
 
 def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     """Search what is left once base and ``given`` candidate columns are projected out."""

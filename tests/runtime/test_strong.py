@@ -17,14 +17,10 @@ from ragg_runtime.cli.terminal import added as added_text
 from ragg_runtime.diagnosis.comparison import compare
 from ragg_runtime.diagnosis.step_scan import with_steps
 from ragg_runtime.diagnosis.strong import Stage
-from ragg_runtime.evidence.random_effects import Variance
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.flight.files import write_flight
-from ragg_runtime.lack_of_fit.dictionary import Term
-from ragg_runtime.lack_of_fit.omnibus import Found, Omnibus
-from ragg_runtime.lack_of_fit.remainder import Remainder
 from ragg_runtime.model import model as load
 from ragg_runtime.reference.scenario import Scenario, scenario
 from tests.rate import RATE
@@ -224,21 +220,6 @@ def test_a_step_in_red_noise_is_placed_to_the_sample() -> None:
     assert (
         stage.instants["bias-step"] == 141.25
     )  # of samples a sixteenth of a second apart the first after it
-
-
-def test_beside_a_strong_random_effect_terms_are_less_sure_than_they_seem() -> None:
-    rng = np.random.default_rng(5)
-    slope, noise = rng.standard_normal(20_000), rng.standard_normal(20_000)
-    s2, e2 = (
-        slope**2,
-        (noise * slope) ** 2,
-    )  # nothing but the effect: the scores of terms like it vary three times as much
-    v = Variance(len(s2), np.array([np.sum(s2), np.sum(e2), s2 @ s2, e2 @ e2, s2 @ e2]))
-    assert v.uneven == pytest.approx(3.0, rel=0.1)
-    term = Found(Term("const", ("a_x",)), 1.0, 0.2, 5.5, 30.25, 0.0)
-    left = Remainder((Omnibus(-8.0, 2000, (term,), 30.25, 2e4),))
-    assert left.significant and left.beside(1.0)
-    assert not left.beside(v.uneven)
 
 
 def test_a_step_in_one_voltage_is_placed_to_the_sample() -> None:
