@@ -23,7 +23,7 @@ from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
 from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.contradiction import contradiction
 from ragg_runtime.diagnosis.credence import weighed, with_probability
-from ragg_runtime.diagnosis.doubts import spoiled, too_loud
+from ragg_runtime.diagnosis.doubts import spoiled
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.groups import groups
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
@@ -127,7 +127,7 @@ def diagnose_fitted(
             next_motion.proposals(first.fitted, first.field, next_motion.pairs_of(rivals), limits)
         ),
         complaint=end.complaint,
-        remark=_remark(end.doubt or end.noisy, left, steady, comparison.disturbed(end.target)),
+        remark=_remark(end.doubt, left, steady, comparison.disturbed(end.target)),
         explained=end.explained,
         groups=groups(found, ranking, steady),
         credible_set=credence.credible,
@@ -186,7 +186,6 @@ class _End:
     explained: Explained
     complaint: str | None
     doubt: str | None
-    noisy: str | None
 
 
 def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
@@ -206,7 +205,6 @@ def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
         explained=output_explained,
         complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
         doubt=apart or spoiled(target, output_explained),
-        noisy=too_loud(target),
     )
 
 
@@ -219,9 +217,7 @@ def _verdict(
     if end.complaint is not None or end.doubt is not None or left.remains or loud:
         return "unexplained", []
     found = [*chosen, *(e for _, e in left.random_found[:1]), *output]
-    if found:
-        return "missing-effect", found
-    return ("adequate" if end.noisy is None else "unexplained"), found
+    return ("missing-effect" if found else "adequate"), found
 
 
 def _ranked(

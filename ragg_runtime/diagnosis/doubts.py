@@ -1,4 +1,4 @@
-"""What a fit cannot vouch for, however quiet its residual: noise that no instrument has, channels that sampling may have spoiled."""
+"""What a fit cannot vouch for, however quiet its residual: channels that sampling may have spoiled."""
 
 from __future__ import annotations
 
@@ -9,16 +9,10 @@ from ragg_runtime.diagnosis.explained import Explained
 from ragg_runtime.diagnosis.vertical_force import misrecorded
 from ragg_runtime.fit.fitted import Fitted, estimated
 from ragg_runtime.fit.observation import Observation
-from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.model.demodulation import built
 from ragg_runtime.model.evaluate import output
 
 Array = NDArray[np.float64]
-
-LOUDEST = 1e-2
-"""Density of an accelerometer's noise, per root hertz, over what its sheet leaves open of its bias, from which it is none: of
-quartz-flexure ones 50 ng beside 50 ug or less (Honeywell, QA-3000 data sheet), of MEMS 20 to 400 ug beside 25 to 60 mg (Analog
-Devices, ADXL355; InvenSense, MPU-6050), that is 1e-3 to 7e-3."""
 
 AS_LARGE = 10.0
 """Most times that what sampling may spoil is larger than what is left: if it were more, the record would show it. On channels
@@ -44,33 +38,6 @@ LEAST_BINS = 8
 def spoiled(f: Fitted, e: Explained) -> str | None:
     """Why a fit confirms neither the model nor an effect, in words; ``None`` if nothing speaks against it."""
     return e.complaint or misrecorded(f) or thinned(f)
-
-
-def too_loud(f: Fitted) -> str | None:
-    """Noise that is more than accelerometers like the sheet's have, in words: a model that leaves it is not adequate.
-
-    It hides effects and feigns none: what is sure in spite of it may be claimed.
-    """
-    k = f.instrument.accelerometers
-    slope, bias = k["k_VI"] * k["K1"], f.instrument.sigma("K0")
-    for x, k_ggi in zip(f.prepared, f.scales, strict=True):
-        members = list(x.observation.output.members)
-        most = LOUDEST * float(np.linalg.norm((slope * bias)[members]))
-        density = _density(x)
-        if density > most:
-            return (
-                f"what is taken for noise, {density / k_ggi:.3g} Eo/sqrt(Hz) before demodulation, is more than"
-                f" accelerometers of this sheet can have, {most / k_ggi:.3g} Eo/sqrt(Hz): something in"
-                " the output is not explained; if they are that noisy, say so by the sigma of their K0 in model.toml"
-            )
-    return None
-
-
-def _density(x: PreparedFlight) -> float:
-    """V/sqrt(Hz) of an output's noise at its carriers; where nothing turns, over its band."""
-    r = x.observation.record
-    at = np.array([2 * abs(r.spin_frequency)]) if r.turning else np.linspace(r.rate / 32, r.rate / 2, 64)
-    return float(np.sqrt(np.mean(x.noise_psd(at))))
 
 
 def thinned(f: Fitted) -> str | None:
