@@ -23,7 +23,6 @@ from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
 from ragg_runtime.diagnosis.contenders import Extend
 from ragg_runtime.diagnosis.contradiction import contradiction
 from ragg_runtime.diagnosis.credence import weighed, with_probability
-from ragg_runtime.diagnosis.doubts import spoiled
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.groups import groups
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
@@ -38,6 +37,7 @@ from ragg_runtime.diagnosis.ranking import (
 )
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Stage, Taken
+from ragg_runtime.diagnosis.vertical_force import misrecorded
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import convergence
@@ -204,7 +204,7 @@ def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
         noise_floor=fitted_.noise_floor(target),
         explained=output_explained,
         complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
-        doubt=apart or spoiled(target, output_explained),
+        doubt=apart or output_explained.complaint or misrecorded(target),
     )
 
 

@@ -88,16 +88,6 @@ def test_the_sheet_counts_where_the_flight_says_nothing() -> None:
     assert record(replace(x, demodulation=how), replace(s.sheet, demodulation=other)).demodulation == how
 
 
-def test_channels_that_were_thinned_out_are_not_called_adequate() -> None:
-    """Motion goes on beyond 2 Hz; what sampling folds of it stands beside noise of one eotvos as a thousand."""
-    c = compared(channels(MADE["fir"][0], every=4))
-    assert not c.adequate
-    assert "thinned out to 4 Hz" in str(c.as_json()["reason"])
-    assert (
-        100.0 < c.calibrated.rms_Eo < 5000.0
-    )  # ten thousand while our low-pass was another one at each rate
-
-
 def test_channels_that_were_made_at_the_records_own_rate_are_adequate() -> None:
     s, x = flown("matched")
     every = slice(None, None, 4)
