@@ -13,7 +13,6 @@ from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
 from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
-from ragg_runtime.diagnosis.vertical_force import misrecorded
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
 from ragg_runtime.fit import columns, convergence, fitted
@@ -244,7 +243,7 @@ def concluded(
     complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
-    doubt = (output_explained.complaint or misrecorded(f)) if judged else None
+    doubt = output_explained.complaint if judged else None
     quiet = complaint is None and doubt is None and not loud(f, calibrated, noise)
     adequate = None if rem is None else quiet and not rem.significant and not (choice and choice.chosen)
     return Comparison(

@@ -37,7 +37,6 @@ from ragg_runtime.diagnosis.ranking import (
 )
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Stage, Taken
-from ragg_runtime.diagnosis.vertical_force import misrecorded
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit import convergence
@@ -204,7 +203,7 @@ def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
         noise_floor=fitted_.noise_floor(target),
         explained=output_explained,
         complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
-        doubt=apart or output_explained.complaint or misrecorded(target),
+        doubt=apart or output_explained.complaint,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -123,15 +123,6 @@ class Observation:
     def weights(self) -> Array:
         """(m,): how much of a common term of G_out each series sees (for voltages each is searched as one)."""
         return np.asarray(self.signs / len(self.signs))
-
-    def with_motion(self, change: Callable[[Mapping[str, Array]], Mapping[str, Array]]) -> Observation:
-        """The same along a motion that is recorded otherwise, and so is that of the whole of which it is a thinned one."""
-        record = replace(self.record, wide=change(self.record.wide))
-        thin = self.thin
-        if thin is not None:
-            rows = slice(0, len(self.record.time))
-            thin = replace(thin, whole=thin.source().with_motion(change), rows=rows, memo={}, taken={})
-        return replace(self, record=record, thin=thin, memo=[])
 
     def part(self, rows: slice, only: Container[str] | None = None) -> Observation:
         """Some of the samples; ``only`` some of their channels."""
