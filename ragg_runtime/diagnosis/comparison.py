@@ -15,7 +15,7 @@ from ragg_runtime.diagnosis.explained import Explained, explained
 from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, convergence, fitted
+from ragg_runtime.fit import columns, fitted
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
 from ragg_runtime.fit.observation import observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
@@ -240,7 +240,7 @@ def concluded(
     rem = remainder(f) if judged else None
     available = testable_effects(f) if judged else []
     choice = selection.choose(field_of(f, available)) if available else None
-    complaint = convergence.complaint(f.calibration, calibrated.held_out, holdout)
+    complaint = f.calibration.complaint
     noise = noise_floor(f)
     output_explained = explained(f, calibrated)
     doubt = output_explained.complaint if judged else None

@@ -39,7 +39,6 @@ from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection, sequential
 from ragg_runtime.evidence.likelihood_ratio import Test
-from ragg_runtime.fit import convergence
 from ragg_runtime.fit import fitted as fitted_
 from ragg_runtime.fit.fitted import Fitted, Scored, fit
 from ragg_runtime.fit.observation import observations_of
@@ -192,9 +191,7 @@ def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
     given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
     target = f if c.final is None else c.final
     v = f.vector(f.coefficients(given)[0], given) if c.final is None else np.zeros(target.size)
-    extra = given if c.final is None else ()
-    half = target.vector(target.coefficients(extra, held_out=True)[0], extra)
-    after, held_out = target.score([v, half])
+    (after,) = target.score([v])
     output_explained = explained(target, after)
     return _End(
         target=target,
@@ -202,7 +199,7 @@ def _end(last: Stage, c: Confirmed, apart: str | None) -> _End:
         scored=after,
         noise_floor=fitted_.noise_floor(target),
         explained=output_explained,
-        complaint=convergence.complaint(target.calibration, after.held_out, held_out.held_out),
+        complaint=target.calibration.complaint,
         doubt=apart or output_explained.complaint,
     )
 

@@ -83,6 +83,11 @@ class Calibration:
     converged: bool
     reason: str
 
+    @property
+    def complaint(self) -> str | None:
+        """Why it is not to be trusted, in words; ``None`` if it is."""
+        return None if self.converged else f"the calibration has not converged: {self.reason}"
+
 
 @dataclass(frozen=True)
 class _Fall(Linear):
