@@ -168,7 +168,7 @@ def _compensation(flight: Flight, folder: Path) -> list[Row]:
 def _preview() -> list[Row]:
     """An effect foreseen from triangles in memory."""
     from ragg_runtime.diagnosis.foresee import foreseen, unwhitened
-    from ragg_runtime.diagnosis.step_scan import with_steps
+    from ragg_runtime.diagnosis.strong import with_steps
     from ragg_runtime.fit.fitted import fit
     from ragg_runtime.fit.observation import observations_of
     from ragg_runtime.workflow import loop

@@ -43,8 +43,7 @@ from ragg_runtime.model.model import MANY, Model
 from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.signals.demodulators import Demodulator, demodulator
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.signals.noise_spectrum import Noise
-from ragg_runtime.signals.periodogram import periodogram
+from ragg_runtime.signals.noise_spectrum import Noise, periodogram
 
 Array = NDArray[np.float64]
 

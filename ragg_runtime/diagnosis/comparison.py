@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,20 +11,19 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import several_outputs
-from ragg_runtime.diagnosis.explained import Explained, explained
-from ragg_runtime.diagnosis.ladder import Rung
 from ragg_runtime.evidence import selection
 from ragg_runtime.evidence.selection import field_of, testable_effects
-from ragg_runtime.fit import columns, fitted
+from ragg_runtime.fit import columns, fitted, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted, Scored, fit, noise_floor, swell
-from ragg_runtime.fit.observation import observations_of
+from ragg_runtime.fit.observation import as_output, observations_of
 from ragg_runtime.fit.off_sheet import OffSheet, off_sheet
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error, channels
 from ragg_runtime.flight import Flight
+from ragg_runtime.instrument.form import Form
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.lack_of_fit.dictionary import carrier, harmonics
-from ragg_runtime.lack_of_fit.remainder import Remainder, remainder, terms_json
+from ragg_runtime.lack_of_fit.omnibus import Remainder, remainder, terms_json
 from ragg_runtime.model.evaluate import vector, voltages
 from ragg_runtime.model.lateness import about
 from ragg_runtime.model.model import Model
@@ -298,3 +297,132 @@ def demodulated_one(f: Fitted, flight: int, x: Array) -> tuple[Array, Array, Arr
     """(time, inline, cross) of any series of G_out of one flight, s and Eo."""
     r = f.prepared[flight].observation.record
     return channels(x, r, f.scales[flight], r.valid)
+
+
+STEPS: tuple[Form, ...] = (
+    Form(),
+    Form(kinematics="full"),
+    Form(kinematics="full", second_order_angles=True),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact"),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting=2),
+    Form(kinematics="full", second_order_angles=True, misalignment="exact", mounting="exact"),
+)
+"""From the paper's form to that which keeps everything, one simplification less at a time."""
+
+
+@dataclass(frozen=True)
+class Rung:
+    """A form of the model and how far it is from the flights.
+
+    Attributes
+    ----------
+    form
+        Of the model.
+    nominal, calibrated
+        Its errors with model.toml's values, and with parameters fitted to the flights.
+    step
+        By how much its prediction, with model.toml's values, differs from that of the form before; of the first
+        ``None``.
+    """
+
+    form: Form
+    nominal: Error
+    calibrated: Error
+    step: Error | None
+
+    def as_json(self) -> dict[str, object]:
+        return {
+            **self.form.as_json(),
+            "nominal": self.nominal.as_json(),
+            "calibrated": self.calibrated.as_json(),
+            "step": None if self.step is None else self.step.as_json(),
+        }
+
+
+def forms(own: Form) -> tuple[Form, ...]:
+    """The forms to try: the steps, and the model's own at the end if it is none of them."""
+    return STEPS if own in STEPS else (*STEPS, own)
+
+
+@one_thread
+def climb(
+    instrument: Instrument, flights: Sequence[Flight], model_in: Callable[[Form], Model]
+) -> tuple[Rung, ...]:
+    """Hold the flights against the model in every form; ``model_in`` derives it."""
+    observations = observations_of(flights, instrument)
+    rungs: list[Rung] = []
+    below: tuple[Model, Array] | None = None
+    for form in forms(instrument.form):
+        model = model_in(form)
+        of_form = replace(instrument, form=form)
+        p = vector(model, of_form)
+        rungs.append(_rung(fit(model, of_form, observations), p, below))
+        below = model, p
+    return tuple(rungs)
+
+
+def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
+    def further(piece: Piece) -> Array:
+        o = piece.observation
+        here = columns.observed(o, voltages(f.model.chain, o.record, p, o.output), None)
+        found = [o.data - here]
+        if below is not None:
+            found.append(
+                here - columns.observed(o, voltages(below[0].chain, o.record, below[1], o.output), None)
+            )
+        return piece.observed(np.stack([np.where(o.record.valid, x, 0.0) for x in found]))
+
+    count = 1 if below is None else 2
+    scored = f.score([f.vector(np.zeros(f.n_base))], further, count)
+    return Rung(
+        form=f.instrument.form,
+        nominal=scored[1].whole,
+        calibrated=scored[0].whole,
+        step=None if below is None else scored[2].whole,
+    )
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What a model explains of the output.
+
+    Attributes
+    ----------
+    share
+        Of the power of the output about its mean.
+    gain
+        By how much its description of the output is better than a constant, by the BIC (G. Schwarz, Ann. Stat. 6, 1978): twice
+        the gain in log likelihood less ln N for each of its parameters, of an unknown gradient's included.
+    """
+
+    share: float
+    gain: float
+
+    @property
+    def complaint(self) -> str | None:
+        """In words, that the model explains nothing; ``None`` if it explains something."""
+        if self.gain > 0.0:
+            return None
+        return (
+            f"nothing in the output follows the motion: the model explains {100 * self.share:.2g} % of it, no more than its"
+            " parameters would of noise; is it the output of this flight and this instrument?"
+        )
+
+
+def explained(f: Fitted, scored: Scored) -> Explained:
+    """What a fitted model that leaves a residual so large (``scored``) explains of the flights' outputs."""
+    power = left = rows = 0.0
+    parameters = float(f.n_base)
+    for o, mean_square in zip(f.observations, scored.mean_square, strict=True):
+        valid = o.record.valid
+        count = float(np.sum(valid))
+        G = as_output(o, o.data)[valid]
+        power += float(np.var(G)) * count
+        left += mean_square * count
+        rows += count
+        if unknown_gradient.unknown(o):
+            span = float(o.record.time[-1] - o.record.time[0])
+            parameters += 2 * (span / unknown_gradient.KNOT_SECONDS + 3)
+    ratio = left / power if power > 0.0 else 1.0
+    gain = -rows * float(np.log(max(ratio, 1e-300))) - parameters * float(np.log(max(rows, 1.0)))
+    return Explained(share=max(0.0, 1.0 - ratio), gain=gain)

@@ -19,12 +19,8 @@ from numpy.typing import NDArray
 
 from ragg_runtime.base.threads import one_thread
 from ragg_runtime.diagnosis import comparison, next_motion, strong
-from ragg_runtime.diagnosis.confirm import Confirmed, confirmed
+from ragg_runtime.diagnosis.comparison import Explained, explained
 from ragg_runtime.diagnosis.contenders import Extend
-from ragg_runtime.diagnosis.contradiction import contradiction
-from ragg_runtime.diagnosis.credence import weighed, with_probability
-from ragg_runtime.diagnosis.explained import Explained, explained
-from ragg_runtime.diagnosis.groups import groups
 from ragg_runtime.diagnosis.line_rival import LineRival, Steady, line_rival
 from ragg_runtime.diagnosis.ranking import (
     Ranked,
@@ -34,20 +30,27 @@ from ragg_runtime.diagnosis.ranking import (
     _ranking,
     _sizes,
     staged,
+    weighed,
+    with_probability,
 )
-from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.diagnosis.result import Diagnosis, groups
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection, sequential
-from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.likelihood_ratio import Test, Variance, pooled
+from ragg_runtime.fit import columns as design
 from ragg_runtime.fit import fitted as fitted_
-from ragg_runtime.fit.fitted import Fitted, Scored, fit
-from ragg_runtime.fit.observation import observations_of
-from ragg_runtime.fit.off_sheet import off_sheet
+from ragg_runtime.fit import prepared_flight
+from ragg_runtime.fit.fitted import Fitted, Scored, calibrated, fit
+from ragg_runtime.fit.observation import Observation, observations_of
+from ragg_runtime.fit.off_sheet import QUIET, off_sheet
+from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.score import Error
 from ragg_runtime.fit.thinning import thinned
 from ragg_runtime.flight import Flight
 from ragg_runtime.instrument.instrument import Instrument
-from ragg_runtime.lack_of_fit.remainder import Remainder
+from ragg_runtime.lack_of_fit import omnibus
+from ragg_runtime.lack_of_fit.omnibus import Remainder
+from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.model import Model, Recogniser
 
 Array = NDArray[np.float64]
@@ -282,3 +285,124 @@ def _output_effects(f: Fitted, flights: Sequence[Flight]) -> list[str]:
 def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) -> bool:
     """Whether an effect of the recorder shows in a column (N,), which is not kept in memory."""
     return r.present(c, np.isfinite(c) & valid, noise)
+
+
+UNEXPLAINED = 10.0
+"""Times the noise's chi-square that all effects of the catalogue together must leave, as far as linear tests tell, for flights to
+contradict each other: of one effect between flights, however strong, they leave the noise (0.95 to 1.0 in what was tried); of three
+instruments in place of one, ten million times as much."""
+
+
+def contradiction(first: Stage) -> str | None:
+    """That flights contradict each other, in words, and which of them agree; ``None`` if they do not.
+
+    ``first`` is the stage without any effect in the model. An effect that acts between flights alone (a temperature that is
+    another one in each) is none of this: its column tells it.
+    """
+    f = first.fitted
+    flights: dict[int, list[Observation]] = {}
+    for o in f.observations:
+        flights.setdefault(o.flight, []).append(o)
+    left = float(first.field.P[-1, -1] ** 2)
+    if len(flights) < 2 or left < UNEXPLAINED * f.calibration.rows:
+        return None
+    if not all(_quiet(f, x) for x in flights.values()):
+        return None
+    agree: list[list[Sequence[Observation]]] = []
+    for one in flights.values():
+        group = next((g for g in agree if _quiet(f, [*g[0], *one])), None)
+        if group is None:
+            agree.append([one])
+        else:
+            group.append(one)
+    names = "; ".join(", ".join(x[0].flight_name for x in g) for g in agree)
+    return (
+        f"each of the {len(flights)} flights alone is explained to its noise, but they contradict each other, and no effect of"
+        f" the catalogue acts so between flights. Those that agree: {names}. Was the instrument, its mounting, an axis or a unit"
+        " changed between them? ragg calibrate of each shows what differs; diagnose those together that agree"
+    )
+
+
+def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
+    """Whether the model leaves but noise of some of the observations."""
+    return calibrated(f.model, f.instrument, observations)[1].excess <= QUIET
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """What the chosen effects of the last stage leave.
+
+    Attributes
+    ----------
+    final
+        The flights fitted with the chosen effects derived into the model; ``None`` if that cannot be done: then everything
+        is linear.
+    remainder, random
+        What is left, and the random effects in it.
+    """
+
+    final: Fitted | None
+    remainder: Remainder
+    random: Mapping[str, Variance]
+
+
+def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
+    """The chosen effects of the last stage fitted in the model."""
+    f, field, choice = last.fitted, last.field, last.choice
+    final = _derived(f, choice.chosen, extend)
+    given = [n for e in choice.chosen for n, _ in field.candidates[e]]
+    rem, random = _remainder(f, given) if final is None else _remainder(final, ())
+    return Confirmed(final=final, remainder=rem, random=random)
+
+
+def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:
+    """The chosen effects derived into the model and everything fitted again, if that can be done."""
+    steps = {e.id for e in f.model.candidates if e.kind == "step"}
+    if not chosen or extend is None or (steps & set(chosen)):
+        return None
+    extended = extend(f.model, chosen)
+    start = _linear(f, chosen, extended)
+    return fit(extended, f.instrument, f.observations, f.calibration.noise, start)
+
+
+def _linear(f: Fitted, chosen: Sequence[str], extended: Model) -> Array:
+    """Parameter vector of the extended model as the linear fit has it, SI."""
+    own = [(n, c) for n, c in enumerate(f.candidates) if c.effect in chosen]
+    fitted, _ = f.coefficients([n for n, _ in own])
+    columns = (*f.calibration.columns, *(c for _, c in own))
+    before = (*f.calibration.p[f.calibration.index], *(0.0 for _ in own))
+    value = {c.label: b + x * c.scale for c, b, x in zip(columns, before, fitted, strict=True)}
+    p = vector(extended, f.instrument)
+    for c, place in design.base_columns(extended, f.instrument):
+        p[place] = value[c.label]
+    return p
+
+
+def _remainder(f: Fitted, given: Sequence[int]) -> tuple[Remainder, dict[str, Variance]]:
+    """What is left once ``given`` columns are projected out, and the sums of random effects, in one pass."""
+    random = _random_columns(f)
+    searches, counted = [], []
+    for x, triangles in zip(f.prepared, f.triangles, strict=True):
+        taken = prepared_flight.projector(triangles, f.n_base, given)
+        lean, projector, places = taken.lean(x, list(random.values()))
+
+        def variances(piece: Piece, y: Array, places: Sequence[int] = places) -> dict[str, Variance]:
+            return {e: Variance.of(piece, k, y) for e, k in zip(random, places, strict=True)}
+
+        found, more = omnibus.search(lean, projector, variances)
+        searches.append(found)
+        counted += more
+    return Remainder(tuple(searches)), {e: pooled([v[e] for v in counted]) for e in random}
+
+
+def _random_columns(f: Fitted) -> dict[str, int]:
+    """The place of every random effect's column."""
+    if any(o.recorded.demodulated for o in f.observations):
+        return {}  # neighbouring samples of a demodulated channel are not independent
+    columns = f.candidates
+    found = {}
+    for e in f.model.candidates:
+        own = [n for n, c in enumerate(columns) if c.effect == e.id]
+        if e.kind == "random" and own:
+            found[e.id] = f.n_base + own[0]
+    return found

@@ -7,17 +7,18 @@ from dataclasses import dataclass, replace
 from typing import TypeGuard
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
 from ragg_runtime.diagnosis.strong import Stage, Taken
 from ragg_runtime.evidence import selection
+from ragg_runtime.fit import prepared_flight, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted
+from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
-from ragg_runtime.lack_of_fit import near_lines
 from ragg_runtime.lack_of_fit.dictionary import Term
-from ragg_runtime.lack_of_fit.near_lines import NearLine
-from ragg_runtime.lack_of_fit.omnibus import Found
-from ragg_runtime.lack_of_fit.remainder import Remainder
+from ragg_runtime.lack_of_fit.omnibus import Found, Remainder
 
 SLIP = 6.6
 """Chi-square by which a line must be off the multiple: what keeps step with the disc is taken for the disc's, and seems as far
@@ -118,7 +119,7 @@ def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, t
     """
     steady = []
     for t in steps:
-        line = near_lines.best(t.before, ())
+        line = best(t.before, ())
         if _in_place(line, t.test.chi2):
             return LineRival(line=line, effect=t.effect, own=t.test.chi2), ()
         steady += _steady(t.before, line, t.effect, t.test.chi2, t.rivals)
@@ -127,7 +128,7 @@ def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, t
     for e in choice.chosen:
         others = [o for o in choice.chosen if o != e]
         beside = field.joint([choice.blocks[o] for o in others])[0] if others else 0.0
-        line = near_lines.best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
+        line = best(last.fitted, [n for o in others for n, _ in field.candidates[o]])
         if _in_place(line, choice.chi2 - beside):
             return LineRival(line=line, effect=e, own=choice.chi2 - beside), ()
         steady += _steady(last.fitted, line, e, choice.chi2 - beside, rivals[e])
@@ -164,3 +165,153 @@ def _steady(
             width=width if as_much else None,
         )
     ]
+
+
+Array = NDArray[np.float64]
+
+MULTIPLES = (1, 2, 3, 4)
+"""Of the spin rate: those up to which the sensors' signatures reach."""
+
+REACH = 4.0
+"""Widths of a line (one over the record's length) up to which one beside a multiple is sought; those farther off the search of
+the spectrum sees."""
+
+STEP = 0.25
+"""Width between the frequencies tried first; about the best of them others follow, so much finer again."""
+
+FINER = 8
+
+TOGETHER = 11
+"""Frequencies whose waves are made at a time: they stay in the cache."""
+
+DISTINCT = 1e-6
+"""Share of a wave that must be left by what is fitted for it to have a direction of its own."""
+
+
+@dataclass(frozen=True)
+class NearLine:
+    """A sinusoid in what is left of a record.
+
+    Attributes
+    ----------
+    frequency
+        Hz.
+    chi2
+        What it explains of the whitened residual, beside what is fitted.
+    amplitude
+        V.
+    slip
+        How much of ``chi2`` a sinusoid at the very multiple would not explain.
+    log_p
+        p-value of ``chi2``, as a logarithm, times the frequencies tried.
+    """
+
+    frequency: float
+    chi2: float
+    amplitude: float
+    slip: float
+    log_p: float
+
+
+def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
+    """The sinusoid beside a multiple of the spin rate that explains most, base and ``given`` candidate columns projected out.
+
+    ``None`` of several records or of channels, where no disc turns, or where none has a direction of its own.
+    """
+    if len(f.prepared) != 1 or f.observations[0].recorded.demodulated:
+        return None
+    x = f.prepared[0]
+    r = x.observation.record
+    if not r.turning:
+        return None
+    x, projector, _ = prepared_flight.projector(f.triangles[0], f.n_base, given).lean(x)
+    width = 1.0 / float(r.time[-1] - r.time[0])
+    offsets = np.arange(-REACH, REACH + STEP / 2, STEP) * width
+    found = np.concatenate([m * r.spin_frequency + offsets for m in MULTIPLES])
+    found = found[found < r.rate / 2 - width]
+    if not len(found):
+        return None
+    first = _explained(x, projector, found)
+    rough = float(found[int(np.argmax(first[0]))])
+    multiple = round(rough / r.spin_frequency) * r.spin_frequency
+    near = np.append(rough + np.linspace(-STEP, STEP, 2 * FINER + 1) * width, multiple)
+    chi2, size = _explained(x, projector, near)
+    k = int(np.argmax(chi2[:-1]))
+    if not chi2[k] > 0.0:
+        return None
+    volts2 = float(x.noise_psd(near[k : k + 1])[0]) * r.rate / 2
+    return NearLine(
+        frequency=float(near[k]),
+        chi2=float(chi2[k]),
+        amplitude=float(size[k] * np.sqrt(volts2)),
+        slip=float(chi2[k] - chi2[-1]),
+        log_p=min(0.0, float(np.log(len(found)) - chi2[k] / 2)),  # of two degrees of freedom
+    )
+
+
+def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
+    """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows.
+
+    The noise's filter turns and stretches a sinusoid, which spans the same as it did; where it starts from rest, and after
+    gaps, the direction is a little worse than the best.
+    """
+    n = len(frequencies)
+    dot, gram = np.zeros(2 * n), np.zeros((2 * n, 2))
+    along = np.zeros((2 * n, len(projector.along)))
+
+    def sums(piece: Piece) -> tuple[Array, Array, Array]:
+        Q = projector.basis(piece)
+        right = np.column_stack([projector.left(piece, Q), Q])
+        products, inner = np.empty((2 * n, right.shape[1])), np.empty((2 * n, 2))
+        for k in range(0, n, TOGETHER):
+            X = _waves(x, piece, frequencies[k : k + TOGETHER])
+            m = len(X) // 2
+            for half, partner, first in ((X[:m], X[m:], k), (X[m:], X[:m], n + k)):
+                products[first : first + m] = half @ right
+                inner[first : first + m, 0] = np.einsum("ij,ij->i", half, half)
+                inner[first : first + m, 1] = np.einsum("ij,ij->i", half, partner)
+        return products[:, 0], inner, products[:, 1:]
+
+    for d, g, a in x.each(sums):
+        dot += d
+        gram += g
+        along += a
+    whole = gram[:, 0].copy()
+    gram[:, 0] -= np.einsum("ij,ij->i", along, along)
+    gram[:, 1] -= np.einsum("ij,ij->i", along, np.concatenate([along[n:], along[:n]]))
+    G = np.array([[gram[:n, 0], gram[:n, 1]], [gram[n:, 1], gram[n:, 0]]]).transpose(2, 0, 1)
+    d = np.stack([dot[:n], dot[n:]], axis=1)
+    sizes, V = np.linalg.eigh(G)
+    seen = sizes > DISTINCT * np.maximum(whole[:n], whole[n:])[:, None]
+    c = np.einsum("nij,ni->nj", V, d) / np.where(seen, sizes, np.inf)
+    return np.sum(c**2 * np.where(seen, sizes, 0.0), axis=1), np.linalg.norm(c, axis=1)
+
+
+def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
+    """(2 n, rows): cosines, then sines, in whitened rows."""
+    r = piece.observation.record
+    X = _turning(2 * np.pi * frequencies, r.time[r.valid])
+    if x.noise.level.parts:
+        X /= np.asarray(x.noise.level.of(r.quantity))[r.valid]
+    weights = x.noise.weights(piece.observation.weights)
+    X = X if len(weights) == 1 else np.concatenate([w * X for w in weights], axis=1)
+    unknown_gradient.project(X, piece.windows)
+    return X
+
+
+def _turning(rates: Array, time: Array) -> Array:
+    """(2 n, N): cosines, then sines, of rates (n,), rad/s, times time (N,), s.
+
+    From one of evenly spaced rates to the next it is a product, a tenth of the work of a sine and a cosine.
+    """
+    n = len(rates)
+    X = np.empty((2 * n, len(time)))
+    steps = np.diff(rates, prepend=-np.inf)
+    wave = turn = np.empty(0, dtype=np.complex128)
+    for k, step in enumerate(steps):
+        even = k > 1 and abs(step - steps[k - 1]) < 1e-9 * abs(step)
+        if even and not (k > 2 and abs(steps[k - 1] - steps[k - 2]) < 1e-9 * abs(step)):
+            turn = np.exp(1j * step * time)
+        wave = wave * turn if even else np.exp(1j * rates[k] * time)
+        X[k], X[n + k] = wave.real, wave.imag
+    return X

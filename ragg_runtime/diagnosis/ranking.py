@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ragg_runtime.diagnosis.parameters import ParameterValue, parameter_values, visible_combinations
 from ragg_runtime.diagnosis.strong import Taken
-from ragg_runtime.evidence import likelihood_ratio, selection, sheet
+from ragg_runtime.evidence import likelihood_ratio, probability, selection, sheet
 from ragg_runtime.evidence.likelihood_ratio import Test
+from ragg_runtime.evidence.probability import Probabilities
 from ragg_runtime.evidence.selection import Choice, Field
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted
@@ -271,3 +273,26 @@ def other_accelerometers(
         if a not in mine and other and chi2(own) - chi2(other) < INDISTINGUISHABLE:
             found.append(other)
     return found
+
+
+def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
+    """The probabilities of what is left, and of what is in the model: there rivals that would do as well share alike."""
+    sets = probability.weighed(field)
+    for t in steps:
+        sets = sets.with_one_of((t.effect, *t.rivals))
+    return sets.probabilities()
+
+
+def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
+    """The row with its effect's probability.
+
+    Of an effect that has ``columns`` but is in none of the sets, the model has another one that explains the same, and better, or
+    does as well without it: none. Random effects and those of the output channel are no columns, and not enumerated: there it
+    is the largest that the p-value allows at even odds, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    """
+    if r.effect in found.of or r.effect in columns:
+        return replace(r, probability=found.of.get(r.effect, 0.0))
+    if r.log_p >= -1.0:
+        return replace(r, probability=0.5)
+    bound = -math.exp(1.0 + r.log_p) * r.log_p if r.log_p > -700.0 else 0.0
+    return replace(r, probability=1.0 / (1.0 + bound))

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.diagnosis.explained import Explained
-from ragg_runtime.diagnosis.groups import Group
+from ragg_runtime.diagnosis.comparison import Explained
+from ragg_runtime.diagnosis.line_rival import Steady
 from ragg_runtime.diagnosis.next_motion import Proposal
 from ragg_runtime.diagnosis.ranking import Detectable, NotTestable, Ranked
 from ragg_runtime.evidence.sequential import Change, Evidence
@@ -18,8 +19,7 @@ from ragg_runtime.fit.off_sheet import OffSheet
 from ragg_runtime.fit.score import Error
 from ragg_runtime.lack_of_fit import as_effect
 from ragg_runtime.lack_of_fit.features import channel_unit
-from ragg_runtime.lack_of_fit.omnibus import Found
-from ragg_runtime.lack_of_fit.remainder import Remainder, terms_json
+from ragg_runtime.lack_of_fit.omnibus import Found, Remainder, terms_json
 from ragg_runtime.wording import notebook
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ class Diagnosis:
         return self.target.residuals_of(self.coefficients)
 
     def terms(self) -> list[dict[str, object]]:
-        """Generic terms in what remains (see :func:`ragg_runtime.lack_of_fit.remainder.terms_json`)."""
+        """Generic terms in what remains (see :func:`ragg_runtime.lack_of_fit.omnibus.terms_json`)."""
         return terms_json(self.remainder, self.scored.mean_square)
 
     def expression(self) -> str | None:
@@ -144,3 +144,24 @@ class Diagnosis:
             "next_motion": [p.as_json() for p in self.next_motion],
             "detectable": [{"effect": s.effect, "three_sigma": str(s)} for s in self.sizes],
         }
+
+
+@dataclass(frozen=True)
+class Group:
+    """Effects that are one finding, the one that would be added first.
+
+    ``name`` says what they make, where that is all that the record shows: ``constant term at twice the spin rate``.
+    """
+
+    effects: tuple[str, ...]
+    name: str | None
+
+    def as_json(self) -> dict[str, object]:
+        return {"name": self.name, "effects": list(self.effects)}
+
+
+def groups(found: Sequence[str], ranking: Sequence[Ranked], steady: Sequence[Steady]) -> tuple[Group, ...]:
+    """One group of each effect that is found."""
+    others = {r.effect: r.indistinguishable_from for r in ranking}
+    names = {s.effect: s.name for s in steady}
+    return tuple(Group(effects=(e, *others.get(e, ())), name=names.get(e)) for e in found)

@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ragg_runtime.signals.noise_spectrum import LOWEST, without_lines
-from ragg_runtime.signals.periodogram import periodogram
+from ragg_runtime.signals.noise_spectrum import LOWEST, periodogram, without_lines
 
 Array = NDArray[np.float64]
 

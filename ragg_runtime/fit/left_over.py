@@ -14,8 +14,7 @@ from ragg_runtime.base.threads import stretches
 from ragg_runtime.fit.disturbances import Disturbance, disturbances
 from ragg_runtime.fit.square_root import triangle
 from ragg_runtime.signals.fir import GROUP, SPARSE, filtered, not_zero
-from ragg_runtime.signals.noise_spectrum import estimate
-from ragg_runtime.signals.periodogram import hann
+from ragg_runtime.signals.noise_spectrum import estimate, hann
 
 Array = NDArray[np.float64]
 

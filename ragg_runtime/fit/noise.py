@@ -30,10 +30,10 @@ from ragg_runtime.signals.noise_spectrum import (
     Noise,
     NoiseModel,
     estimate,
+    periodogram,
     white_noise,
     without_lines,
 )
-from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -115,7 +115,7 @@ RESOLVED = 4.0
 is left to the search beside those, for what is fitted to it would take of what turns with the disc."""
 
 TURNS = 4
-"""Multiples up to which that is so (``near_lines.MULTIPLES``)."""
+"""Multiples up to which that is so (``line_rival.MULTIPLES``)."""
 
 
 def line_width(o: Observation) -> float:

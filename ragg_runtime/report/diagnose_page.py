@@ -18,8 +18,7 @@ from ragg_runtime.diagnosis.parameters import own_name as _name
 from ragg_runtime.diagnosis.ranking import Ranked, other_accelerometers
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.posterior import Posterior, posterior
+from ragg_runtime.fit.fitted import Fitted, Posterior, posterior
 from ragg_runtime.report import figures, page, panels, parameters
 from ragg_runtime.report.figures import Bar
 from ragg_runtime.report.page import Origin

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from ragg_runtime.diagnosis import parameters as combinations
 from ragg_runtime.diagnosis.parameters import SEEN, UNSEEN
 from ragg_runtime.fit.columns import Column
-from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.posterior import posterior
+from ragg_runtime.fit.fitted import Fitted, posterior
 from ragg_runtime.wording import numbers
 
 Array = NDArray[np.float64]

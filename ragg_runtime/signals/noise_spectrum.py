@@ -17,10 +17,9 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import interpolate, optimize
+from scipy import fft, interpolate, optimize
 
 from ragg_runtime.signals.noise_level import Level
-from ragg_runtime.signals.periodogram import periodogram
 
 Array = NDArray[np.float64]
 
@@ -379,3 +378,18 @@ class Noise:
         """V^2, of that output."""
         weights = self.weights(signs) ** 2
         return float(sum(w * m.rms**2 for w, m in zip(weights, self.models, strict=True)))
+
+
+def hann(n: int) -> Array:
+    """(n,): the periodic Hann window."""
+    return np.asarray(0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, n + 1))[:-1])
+
+
+def periodogram(x: Array, rate: float) -> tuple[Array, Array]:
+    """Frequencies, Hz, and one-sided density of x (..., N) less its mean, seen through a Hann window."""
+    n = x.shape[-1]
+    window = hann(n)
+    wave = fft.rfft((x - np.mean(x, axis=-1, keepdims=True)) * window)
+    power = (wave.real**2 + wave.imag**2) * (1.0 / (rate * np.sum(window**2)))
+    power[..., 1 : n // 2 + 1 - (n % 2 == 0)] *= 2.0
+    return fft.rfftfreq(n, 1.0 / rate), power

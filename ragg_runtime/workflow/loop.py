@@ -24,8 +24,7 @@ from ragg_runtime.base.files import read_text
 from ragg_runtime.base.provenance import provenance
 from ragg_runtime.diagnosis import comparison as _compare
 from ragg_runtime.diagnosis import diagnose as _diagnose
-from ragg_runtime.diagnosis.comparison import Comparison
-from ragg_runtime.diagnosis.ladder import climb
+from ragg_runtime.diagnosis.comparison import Comparison, climb
 from ragg_runtime.diagnosis.next_motion import LIMITS
 from ragg_runtime.diagnosis.parameters import ParameterValue, calibrated
 from ragg_runtime.diagnosis.result import Diagnosis

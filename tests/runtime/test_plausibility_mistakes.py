@@ -13,7 +13,7 @@ from ragg_runtime.base.errors import UserError
 from ragg_runtime.flight import Flight
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import scale_factor, vector
-from ragg_runtime.plausibility import examined, identify, likely_mistake, mistakes, other_demodulator, timing
+from ragg_runtime.plausibility import examined, identify, likely_mistake, other_demodulator, timing
 from ragg_runtime.plausibility.quick_fit import explain, shrunken
 from ragg_runtime.plausibility.subsample import picker
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -119,7 +119,7 @@ DEFINITIONS = {
 
 def test_channels_that_are_defined_otherwise_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
     # of all mistakes these alone, and none of time: each is tried on 3,000 rows
-    monkeypatch.setattr(identify, "mistakes", lambda *_, **__: mistakes._definitions())
+    monkeypatch.setattr(identify, "mistakes", lambda *_, **__: identify._definitions())
     monkeypatch.setattr(identify, "searches", lambda *_: [])
     s, x = flown(13, gradient_rms=20e-9)
     good = demodulated(s, x)

@@ -7,8 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import stats
 
-from ragg_runtime.diagnosis.credence import with_probability
-from ragg_runtime.diagnosis.ranking import Ranked
+from ragg_runtime.diagnosis.ranking import Ranked, with_probability
 from ragg_runtime.evidence.probability import HELD, STRENGTHS, Probabilities, weighed
 from ragg_runtime.evidence.selection import Field
 from ragg_runtime.fit.columns import Column

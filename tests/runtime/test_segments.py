@@ -19,7 +19,7 @@ from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.segments import BLOCKS, beginnings, segments, spread
 from ragg_runtime.flight import Flight, files, read_flight, write_flight
-from ragg_runtime.lack_of_fit import remainder
+from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.reference.scenario import Scenario, scenario
@@ -80,7 +80,7 @@ def test_the_division_leaves_no_trace(
     np.testing.assert_allclose(
         parts.residuals(np.zeros(parts.n_base))[0], whole.residuals(zero[: whole.n_base])[0], atol=1e-9
     )
-    a, b = remainder.remainder(whole), remainder.remainder(parts)
+    a, b = omnibus.remainder(whole), omnibus.remainder(parts)
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
 

@@ -15,8 +15,7 @@ import ragg_runtime.workflow.loop as ragg
 from ragg_runtime.cli.main import main
 from ragg_runtime.cli.terminal import added as added_text
 from ragg_runtime.diagnosis.comparison import compare
-from ragg_runtime.diagnosis.step_scan import with_steps
-from ragg_runtime.diagnosis.strong import Stage
+from ragg_runtime.diagnosis.strong import Stage, with_steps
 from ragg_runtime.fit import calibrate
 from ragg_runtime.fit.fitted import fit
 from ragg_runtime.fit.observation import observations_of

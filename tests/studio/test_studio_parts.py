@@ -69,11 +69,11 @@ def test_a_signature_is_the_residual_that_goes(diagnosis: Diagnosis) -> None:
 
 
 def test_the_map_of_terms_has_the_search_s_own_best(diagnosis: Diagnosis) -> None:
-    from ragg_runtime.lack_of_fit import remainder
+    from ragg_runtime.lack_of_fit import omnibus
 
     f = diagnosis.fitted
     h = heat.heat(f.prepared[0], f.triangles[0], f.n_base)
-    best = remainder.remainder(f).searches[0].terms[0]
+    best = omnibus.remainder(f).searches[0].terms[0]
     at = h.harmonics.index(best.term.harmonic), h.products.index(best.term.product)
     assert h.z[at] == pytest.approx(best.z, rel=1e-6)
     assert abs(best.z) > h.level
