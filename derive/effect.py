@@ -132,6 +132,9 @@ class Effect:
         record tells it from them, whatever the sheet says.
     turning
         Whether it is one only where the disc turns: of one that stands still it is a constant that something else is, too.
+    switches
+        Whether it changes at once where an accelerometer's voltage passes zero: a fit then does without the samples of which
+        the sheet leaves the side open.
     moot
         (order, kinematics) -> whether a model of that kind holds it already, so that it is not offered.
     recogniser
@@ -158,6 +161,7 @@ class Effect:
     common_of: str | None = None
     told_from: tuple[str, ...] = ()
     turning: bool = False
+    switches: bool = False
     moot: Callable[[Order, Kinematics], bool] = lambda order, kinematics: False
     recogniser: str = ""
 

@@ -283,6 +283,7 @@ def manifest_of_effect(e: Effect) -> Mapping[str, object]:
         **({} if e.common_of is None else {"common_of": e.common_of}),
         **({"told_from": list(e.told_from)} if e.told_from else {}),
         **({"turning": True} if e.turning else {}),
+        **({"switches": True} if e.switches else {}),
         "kind": e.kind,
         "parameters": [
             {

@@ -14,6 +14,7 @@ from ragg_runtime.fit.fitted import Fitted, calibrated
 from ragg_runtime.fit.off_sheet import as_said, room_taken
 from ragg_runtime.fit.passes import excerpt
 from ragg_runtime.fit.prepared_flight import to_nominal
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.units import RawQuantity
 from ragg_runtime.model.model import Model
@@ -77,7 +78,8 @@ def left(
     which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
     """
     model, sheet = extended
-    instrument, c = calibrated(model, sheet, f.observations, noise=noise)
+    observations = certain(model, sheet, f.observations)
+    instrument, c = calibrated(model, sheet, observations, noise=noise)
     others = [n for n, q in enumerate(c.columns) if q.label in held]
     x = -to_nominal(model, instrument, c)
     cost, known = 0.0, len(c.columns) - float(np.trace(c.covariance))
@@ -88,12 +90,13 @@ def left(
         cost = float(x[others] @ np.linalg.solve(C[others], x[others]))
         x -= x[others] @ given
         known += float(np.sum(given * C.T)) - len(others)
+    left_out = f.calibration.rows - c.rows  # each would have its share of the noise
     own = x[[n for n, q in enumerate(c.columns) if q.effect is not None]]
     # Cauchy's tails for those of the prior: of two effects that explain the same, fifty and sixty times as large as usual,
     # Gaussian ones would exclude one, and of a fault nothing is known but what size is usual
     tails = float(np.sum(np.log1p(own**2) - own**2))
     return Left(
-        chi2=c.chi2 + cost + 2.0 * known + tails + room_taken(instrument, c),
+        chi2=c.chi2 + left_out + cost + 2.0 * known + tails + room_taken(instrument, c),
         arrived=c.converged,
     )
 

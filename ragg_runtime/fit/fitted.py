@@ -22,6 +22,7 @@ from ragg_runtime.fit.prepared_flight import PreparedFlight
 from ragg_runtime.fit.score import Error, Stretch, Tally, pooled
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.square_root import fold, prior, with_prior
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.fit.thinning import beyond
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import scale_factor, vector
@@ -307,6 +308,7 @@ def fit(
     The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
     ``unweighted``: all samples weigh the same in it. Without ``candidates`` nothing is prepared for tests of effects.
     """
+    observations = certain(model, instrument, observations)
     instrument, c = calibrated(
         model, instrument, observations, noise=noise, start=start, unweighted=unweighted
     )

@@ -69,7 +69,7 @@ class Effect:
     """What the runtime knows of a physical effect, from the manifest of the derivation.
 
     ``common_of``, ``told_from``: parameters of the accelerometers that the sheet knows; ``turning``: it is one only where the disc
-    turns (:mod:`ragg_runtime.evidence.sheet`).
+    turns (:mod:`ragg_runtime.evidence.sheet`); ``switches``: where a voltage passes zero.
     """
 
     id: str
@@ -85,6 +85,7 @@ class Effect:
     common_of: str | None = None
     told_from: tuple[str, ...] = ()
     turning: bool = False
+    switches: bool = False
 
     def missing(self, recorded: Container[str]) -> tuple[str, ...]:
         """The channels that it needs and a flight, which has those recorded, does not have."""

@@ -1,0 +1,62 @@
+"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is.
+
+An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
+is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
+outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ragg_runtime.fit import columns as design
+from ragg_runtime.fit.observation import Observation
+from ragg_runtime.fit.segments import segments
+from ragg_runtime.instrument.instrument import Instrument
+from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.model import Model
+
+Array = NDArray[np.float64]
+
+OPEN = 3.0
+"""Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
+
+MOST = 0.2
+"""Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
+
+
+def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
+    """The observations without the samples whose side of a switch is open."""
+    if not any(e.switches for e in model.effects):
+        return list(observations)
+    # a sample of channels is made of many: of those none is left out
+    return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
+
+
+def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:
+    valid = np.array(o.record.valid)
+    for s in segments(len(valid)):
+        valid[s.rows] &= ~_open(model, instrument, o.part(s.rows))
+    if np.sum(valid) < (1.0 - MOST) * np.sum(o.record.valid):
+        return o
+    return replace(o, record=replace(o.record, valid=valid), memo=[])
+
+
+def _open(model: Model, instrument: Instrument, o: Observation) -> NDArray[np.bool_]:
+    """(N,): whether the side of any of the output's accelerometers is open."""
+    chain, r, p = model.chain, o.record, vector(model, instrument)
+    x = r.inputs(chain)
+    rows = {name: k for k, (name, shared) in enumerate(chain.ROWS) if not shared}
+    base = [c for c, _ in design.base_columns(model, instrument) if c.effect is None]
+    found = np.zeros(len(r.time), dtype=np.bool_)
+    for j in o.output.members:
+        own = [c for c in base if c.accelerometer == j + 1]
+        case = (j, r.time, r.cos_phi, r.sin_phi, x, chain.values_of(j, p))
+        slopes = chain.derivatives(*case)
+        variance = sum((slopes[rows[c.name]] * c.scale) ** 2 for c in own)
+        found |= chain.accelerometer(*case) ** 2 < OPEN**2 * variance
+    return found
