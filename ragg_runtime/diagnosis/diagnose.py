@@ -95,7 +95,7 @@ def diagnose_fitted(
     # before strong effects, whose columns take the place of these
     ranked = _ranking(first.fitted, first.field, first.choice, first.instants, output)
     steps, last = ([], first.without_choice()) if apart else strong.taken(first, extend)
-    c = confirmed(last, extend)
+    last, c = confirmed(last, extend)
     chosen = [*(t.effect for t in steps), *last.choice.chosen]
     left = _left(steps, last, c)
     end = _end(last, c, apart)
@@ -346,13 +346,18 @@ class Confirmed:
     random: Mapping[str, Variance]
 
 
-def confirmed(last: Stage, extend: Extend | None) -> Confirmed:
-    """The chosen effects of the last stage fitted in the model."""
-    f, field, choice = last.fitted, last.field, last.choice
-    final = _derived(f, choice.chosen, extend)
-    given = [n for e in choice.chosen for n, _ in field.candidates[e]]
+def confirmed(last: Stage, extend: Extend | None) -> tuple[Stage, Confirmed]:
+    """The chosen effects of the last stage fitted in the model; and the stage without those that then have an impossible size."""
+    f = last.fitted
+    final = _derived(f, last.choice.chosen, extend)
+    while final is not None and (wrong := strong.impossible(final, last.choice.chosen)):
+        kept = {e: c for e, c in last.field.candidates.items() if e not in wrong}
+        field = replace(last.field, candidates=kept)
+        last = replace(last, field=field, choice=selection.choose(field))
+        final = _derived(f, last.choice.chosen, extend)
+    given = [n for e in last.choice.chosen for n, _ in last.field.candidates[e]]
     rem, random = _remainder(f, given) if final is None else _remainder(final, ())
-    return Confirmed(final=final, remainder=rem, random=random)
+    return last, Confirmed(final=final, remainder=rem, random=random)
 
 
 def _derived(f: Fitted, chosen: Sequence[str], extend: Extend | None) -> Fitted | None:

@@ -9,7 +9,7 @@ the sheet: parameters that had to absorb what was missing may be far from it, in
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -26,6 +26,7 @@ from ragg_runtime.fit import prepared_flight
 from ragg_runtime.fit.columns import Column
 from ragg_runtime.fit.fitted import Fitted, fit
 from ragg_runtime.fit.noise import estimate_noise
+from ragg_runtime.fit.off_sheet import QUIET
 from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.significance import INDISTINGUISHABLE
 from ragg_runtime.fit.square_root import below, fold, prior
@@ -117,7 +118,11 @@ def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
 
 
 def _strongest(stage: Stage, extend: Extend) -> Taken | None:
-    """The effect that explains most once it is in the model; ``None`` of several of which none comes to an optimum."""
+    """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
+
+    ``None`` where an impossible one leaves but noise and no other comes near it: what is missing acts as it does, and is none of
+    the catalogue. Nor is one of several of which none comes to an optimum.
+    """
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
     def entered(e: str) -> tuple[frozenset[str], tuple[Model, Instrument]]:
@@ -125,8 +130,40 @@ def _strongest(stage: Stage, extend: Extend) -> Taken | None:
         return held, contenders.derived(f, [e], stage.instants, extend)
 
     contest = Contest(f, entered)
-    effect, rivals = _best(stage, tests, contest.left)
-    return _in_model(stage, effect, rivals, extend) if contest.arrived else None
+    while True:
+        effect, rivals = _best(stage, tests, contest.left)
+        if not contest.arrived:
+            return None
+        found = _in_model(stage, effect, rivals, extend)
+        if len(tests) == 1 or not impossible(found.after, (effect,)):
+            return found
+        if found.after.calibration.excess <= QUIET and not rivals:
+            return None
+        tests.pop(effect)
+
+
+CERTAIN = 5.0
+"""Standard deviations from the only physical value at which an estimate excludes it."""
+
+ROOM = 0.1
+"""What an estimate may be off besides, as a share of that value: by what else the model leaves out."""
+
+
+def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
+    """Those of the effects, all in the fitted model, whose parameter has a size that it cannot have."""
+    c = f.calibration
+    found = []
+    for e in effects:
+        effect = f.model.effect(e)
+        for q in effect.parameters if effect is not None else ():
+            for n, column in enumerate(c.columns):
+                if q.physical is None or column.name != f"{e}.{q.name}":
+                    continue
+                true = q.physical * column.unit_factor
+                off = abs(float(c.p[c.index[n]]) - true)
+                if off > CERTAIN * column.scale * np.sqrt(c.covariance[n, n]) + ROOM * abs(true):
+                    found.append(e)
+    return tuple(dict.fromkeys(found))
 
 
 def _best(
