@@ -57,7 +57,7 @@ def quiet(*names: str) -> Kinds:
 
 @dataclass(frozen=True)
 class Patch:
-    """A name of the runtime (``diagnosis.confirm:_needed``), and what takes its place.
+    """A name of the runtime (``fit.noise:_level``), and what takes its place.
 
     ``neutral`` is called with what the function is called with; if ``after``, with what it returns; if ``constant``, it is the value.
     ``acts``: whether what the function returned is not neutral (default: it differs from what ``neutral`` returns).
@@ -119,24 +119,6 @@ def _false(*args: Any, **kwargs: Any) -> bool:
     return False
 
 
-def _some(x: Any) -> bool:
-    return x is not None and len(x) > 0
-
-
-def _significant(x: Any) -> bool:
-    from ragg_runtime.lack_of_fit import omnibus
-
-    return x is not None and x[0] < np.log(omnibus.FAMILY)
-
-
-def _without_bursts(
-    residual: Any, rate: float, without: Any = None, kept: Any = None, slow: Any = None
-) -> tuple[Any, list[list[Any]]]:
-    from ragg_runtime.signals.noise_spectrum import estimate
-
-    return estimate(residual, rate, without, kept, slow), [[] for _ in residual]
-
-
 def _level(*args: Any) -> Any:
     from ragg_runtime.signals.noise_level import Level
 
@@ -174,27 +156,14 @@ def _scipy(linearise: Callable[[Array], Any], start: Array, most: int = 150, cei
     return Minimum(x=got.x, at=end, converged=arrived, reason=got.message, trials=got.nfev, faithful=True)
 
 
-def _no_inflation(self: Any, places: Sequence[int]) -> Array:
-    return np.ones(len(places))
-
-
 # fmt: off
 RULES: tuple[Rule, ...] = (
     Rule("trust-region", "own trust region instead of scipy.optimize.least_squares",
          (*OFF, ("strong", "white"), ("pair", "red")), ("fit/trust_region.py",),
          (Patch("fit.calibrate:minimise", _scipy, constant=True),)),
     Rule("line-rival", "a line beside a multiple of the spin rate in the place of an effect",
-         (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")), ("diagnosis/line_rival.py", "lack_of_fit/near_lines.py"),
+         (*quiet("near-line"), ("ten", "white"), ("quiet", "spin-off")), ("diagnosis/line_rival.py",),
          (Patch("diagnosis.diagnose:line_rival", lambda *a: (None, ()), acts=lambda r: r[0] is not None or bool(r[1])),)),
-    Rule("confirm-needed", "effects that the model does as well without are dropped",
-         (*OFF, ("pair", "white")), ("diagnosis/confirm.py:_needed",),
-         (Patch("diagnosis.confirm:_needed", lambda f, field, choice, final, extend: choice),)),
-    Rule("confirm-rivals", "where the chosen effects leave something, their rivals are tried in the model",
-         (*WEAK, ("strong", "white")), ("diagnosis/confirm.py:_others",),
-         (Patch("diagnosis.confirm:_others", _empty),)),
-    Rule("bursts", "stretches that are far louder are no measure of the noise",
-         (*quiet("bursts", "louder-part"), ("ten", "bursts")), ("fit/bursts.py",),
-         (Patch("fit.noise:quiet_estimate", _without_bursts, acts=lambda r: any(r[1])),)),
     Rule("jumps", "jumps of the output are fitted beside the columns before the noise is estimated",
          (*quiet("jump"), ("ten", "red"), ("five", "white")),
          ("fit/disturbances.py:_jumps", "fit/left_over.py:_jump", "fit/left_over.py:_told", "fit/left_over.py:_and"),
@@ -206,67 +175,28 @@ RULES: tuple[Rule, ...] = (
          (*quiet("ramp", "along-axes", "with-ax", "with-size", "cyclic"), ("ten", "along-axes"), ("ten", "ramp")),
          ("signals/noise_level.py", "fit/noise.py:_level"),
          (Patch("fit.noise:_level", _level, acts=lambda r: bool(r.parts)),)),
-    Rule("uneven", "where the level changes, tests are tempered by the spread of scores in blocks of time",
-         (*quiet("ramp", "along-axes", "with-ax", "with-size"), ("ten", "along-axes"), ("five", "with-size")),
-         ("evidence/uneven.py", "lack_of_fit/omnibus.py:inflation"),
-         (Patch("evidence.selection:uneven.telling", lambda blocks: (), acts=_some),
-          Patch("lack_of_fit.omnibus:Scores.inflation", _no_inflation),)),
     Rule("off-sheet", "a sheet is taken to be less sure than it says where the record says so",
          (*OFF, ("ten", "elsewhere")), ("fit/off_sheet.py:widened", "fit/off_sheet.py:_widths"),
          (Patch("fit.fitted:widened", _nothing),)),
-    Rule("room", "the prior of an effect in the model widens as the record says",
-         STRONG, ("fit/off_sheet.py:with_room", "fit/off_sheet.py:room_taken"),
-         (Patch("fit.off_sheet:with_room", _nothing),)),
-    Rule("time-varying", "generic terms that come and go",
-         (*OUTSIDE, ("quiet", "ramp")), ("lack_of_fit/time_varying.py", "lack_of_fit/omnibus.py:_varying"),
-         (Patch("lack_of_fit.omnibus:_varying", _nothing, acts=_significant),)),
-    Rule("spectral-line", "a line in the spectrum of what is left",
-         (*OUTSIDE, *quiet("line", "mains")), ("lack_of_fit/spectral_line.py", "lack_of_fit/omnibus.py:_line"),
-         (Patch("lack_of_fit.omnibus:_line", _nothing, acts=_significant),)),
-    Rule("known-lines", "lines that were taken out of the noise count as something left",
-         (*quiet("line", "mains"), ("outside", "white")), ("lack_of_fit/omnibus.py:_known",),
-         (Patch("lack_of_fit.omnibus:_known", _empty),)),
-    Rule("simpler", "one generic term in the place of several effects",
-         (*OUTSIDE, ("pair", "white")), ("diagnosis/diagnose.py:_simpler",),
-         (Patch("diagnosis.diagnose:_simpler", _nothing),)),
     Rule("nonlinear-selection", "strong effects are derived into the model one after the other",
          STRONG, ("diagnosis/strong.py", "diagnosis/contenders.py"),
          (Patch("diagnosis.strong:STRONG", np.inf, constant=True, acts=_false),)),
     Rule("contenders", "of a strong effect up to three contenders are fitted in the model",
          STRONG, ("diagnosis/contenders.py:Contest", "diagnosis/strong.py:_best"),
          (Patch("diagnosis.strong:CONTENDERS", 1, constant=True),)),
-    Rule("open-ends", "a contender that an effect not yet in the model may have decided against is followed to its end",
-         STRONG, ("diagnosis/strong.py:_better", "diagnosis/strong.py:_with_rivals"),
-         (Patch("diagnosis.strong:_best", lambda r: (r[0], r[1], ()), after=True),)),
-    Rule("strong-needed", "a strong effect that later ones have made superfluous is dropped",
-         STRONG, ("diagnosis/strong.py:_needed", "diagnosis/strong.py:significance"),
-         (Patch("diagnosis.strong:_needed", _first),)),
-    Rule("charge", "contenders pay for their coefficients (BIC)",
-         STRONG, ("diagnosis/contenders.py:charge",),
-         (Patch("diagnosis.contenders:charge", lambda columns, rows: 0.0),)),
-    Rule("hopeless", "a contender that leaves twice what another one leaves is given up",
-         (("strong", "white"), ("strong", "elsewhere"), ("outside", "white"), ("off-sheet", "white")),
-         ("diagnosis/contenders.py:HOPELESS",),
-         (Patch("diagnosis.contenders:HOPELESS", np.inf, constant=True),)),
-    Rule("truncated", "what is small beside a strong effect may be left of it",
-         STRONG, ("diagnosis/diagnose.py:_truncated", "diagnosis/strong.py:_may_be_left"),
-         (Patch("diagnosis.diagnose:_truncated", _false, acts=bool), Patch("diagnosis.strong:_may_be_left", lambda *a: {}))),
     Rule("impossible", "an effect that nature knows at one size alone is excluded at another",
-         (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")), ("diagnosis/impossible.py",),
-         (Patch("diagnosis.strong:impossible", lambda *a: ()), Patch("diagnosis.confirm:impossible", lambda *a: ()))),
+         (*OUTSIDE, ("off-sheet", "white"), ("strong", "white")), ("diagnosis/strong.py:impossible",),
+         (Patch("diagnosis.strong:impossible", lambda *a: ()),)),
     Rule("swap", "after each addition a chosen effect may be swapped for a better one",
          (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")), ("evidence/selection.py:_swap",),
          (Patch("evidence.selection:_swap", lambda f, chosen, blocks, count: (chosen, blocks)),)),
     Rule("drop", "after each addition a chosen effect that is not significant any more is dropped",
          (("pair", "white"), ("pair", "red"), ("pair", "elsewhere"), ("outside", "white")), ("evidence/selection.py:_drop",),
          (Patch("evidence.selection:_drop", lambda f, chosen, blocks, count: (chosen, blocks)),)),
-    Rule("plain", "an effect that says in plain words that a length of the sheet is wrong goes before others",
-         (("ten", "elsewhere"), *OFF), ("evidence/selection.py:plain", "fit/fitted.py:freed"),
-         (Patch("evidence.selection:Field.plain", lambda self, best, *a: best),)),
     Rule("doubtful", "effects that are an error of the sheet in disguise are not offered",
          (("ten", "elsewhere"), *OFF), ("evidence/sheet.py",),
          (Patch("evidence.sheet:doubtful", _nothing),)),
-    Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
+    Rule("switching", "samples at which a switch's side is open are left out",
          (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("fit/switching.py",),
          (Patch("fit.fitted:certain", lambda m, i, o: o), Patch("diagnosis.contenders:certain", lambda m, i, o: o))),
     Rule("loud-fit", "where more is left than noise all samples weigh the same",
@@ -279,38 +209,20 @@ RULES: tuple[Rule, ...] = (
     Rule("shared-noise", "noise that all voltages share stands in a combination of its own",
          (("ten", "voltages"), ("quiet", "voltages"), ("pair", "voltages")), ("signals/combinations.py",),
          (Patch("fit.noise:combinations.telling", _nothing),)),
-    Rule("beside-random", "beside a random effect terms are not taken for more than its uneven noise",
-         (("ten", "white"), ("strong", "white"), ("quiet", "heavy-tails")), ("lack_of_fit/remainder.py:beside",),
-         (Patch("lack_of_fit.remainder:Remainder.beside", lambda self, uneven: self.significant),)),
-    Rule("too-loud", "noise that no accelerometer of the sheet has is not adequate",
-         quiet("shuffled", "pure-noise", "sensors-1-mg", "elsewhere"), ("diagnosis/doubts.py:too_loud",),
-         (Patch("diagnosis.diagnose:too_loud", _nothing),)),
     Rule("loud", "a residual that is louder than its noise is unexplained",
          (*OUTSIDE, *quiet("sensors-1-mg", "clock-set")), ("diagnosis/comparison.py:loud",),
          (Patch("diagnosis.comparison:loud", _false, acts=bool),)),
     Rule("explains-nothing", "a model that explains no more than its parameters would of noise",
-         quiet("shuffled", "pure-noise"), ("diagnosis/explained.py",),
-         (Patch("diagnosis.diagnose:spoiled", lambda target, e: spoiled_but(target, e)),)),
-    Rule("vertical-force", "a_z of the wrong sign, or with gravity, is tried in a fit of its own",
-         (*OFF, ("quiet", "sensors-1-mg"), ("outside", "white")), ("diagnosis/vertical_force.py",),
-         (Patch("diagnosis.doubts:misrecorded", _nothing),)),
-    Rule("thinned-channels", "channels that may have been made at a higher rate",
-         quiet("channels"), ("diagnosis/doubts.py:thinned", "diagnosis/doubts.py:_spoiled", "diagnosis/doubts.py:_folded"),
-         (Patch("diagnosis.doubts:thinned", _nothing),)),
-    Rule("rounding", "what the digits of a file make counts as its own noise",
-         quiet("digits", "noiseless", "sensors-1-mg"), ("fit/rounding.py",),
-         (Patch("fit.rounding:Rounding.prevails", _false, acts=bool),)),
-    Rule("convergence", "a calibration that has not arrived, or whose halves contradict each other, confirms nothing",
-         (*OFF, ("outside", "white"), ("strong", "white")), ("fit/convergence.py",),
-         (Patch("fit.convergence:complaint", _nothing),)),
+         quiet("shuffled", "pure-noise"), ("diagnosis/comparison.py:Explained", "diagnosis/comparison.py:explained"),
+         (Patch("diagnosis.comparison:Explained.complaint", None, constant=True),)),
     Rule("filled-in", "values that were filled in between recorded ones are taken out",
          quiet("stuck", "coarse", "digits"), ("plausibility/filled_in.py",),
          (Patch("plausibility.examine:without_filling", lambda flight: (flight, []), acts=lambda r: bool(r[1])),)),
     Rule("clock", "uneven stamps are replaced by even ones, the disc's angle counted from another origin, if that fits better",
-         quiet("rounded-stamps", "uneven-stamps", "clock-set", "from-2-s", "from-10-s"), ("plausibility/clock.py",),
+         quiet("rounded-stamps", "uneven-stamps", "clock-set", "from-2-s", "from-10-s"), ("plausibility/examine.py:steadied",),
          (Patch("plausibility.examine:steadied", _nothing),)),
     Rule("mistakes", "mistakes of units, signs, axes and order are tried",
-         (*quiet("clock-set", "codes", "stuck", "from-10-s"), *OFF), ("plausibility/identify.py", "plausibility/mistakes.py"),
+         (*quiet("clock-set", "codes", "stuck", "from-10-s"), *OFF), ("plausibility/identify.py",),
          (Patch("plausibility.examine:likely_mistake", _nothing),)),
     Rule("timing-search", "a spin rate, a phase or a shift in time is searched for as a mistake",
          (*quiet("clock-set", "clock-50-ppm", "from-10-s"), ("strong", "white")), ("plausibility/timing.py",),
@@ -324,13 +236,6 @@ RULES: tuple[Rule, ...] = (
          (Patch("plausibility.examine:_without_motion_spikes", _first),)),
 )
 # fmt: on
-
-
-def spoiled_but(target: Any, e: Any) -> Any:
-    """Doubts about a fit, but for the one that it explains nothing."""
-    from ragg_runtime.diagnosis import doubts
-
-    return doubts.misrecorded(target) or doubts.thinned(target)
 
 
 def flights(rule: Rule) -> list[Spec]:
