@@ -196,7 +196,7 @@ RULES: tuple[Rule, ...] = (
     Rule("doubtful", "effects that are an error of the sheet in disguise are not offered",
          (("ten", "elsewhere"), *OFF), ("evidence/sheet.py",),
          (Patch("evidence.sheet:doubtful", _nothing),)),
-    Rule("switching", "samples at which a switch's side is open are left out",
+    Rule("switching", "samples at which a switch's side is open, and the ends of late motion, are left out",
          (("strong", "white"), ("ten", "white"), ("pair", "elsewhere")), ("fit/switching.py",),
          (Patch("fit.fitted:certain", lambda m, i, o: o), Patch("diagnosis.contenders:certain", lambda m, i, o: o))),
     Rule("loud-fit", "where more is left than noise all samples weigh the same",

@@ -1,8 +1,11 @@
-"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is.
+"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
+a record, where motion that is late is not in it.
 
 An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
 is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
 outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
+
+What stood in the record before it began or after it ended no fit can move to where it belongs.
 """
 
 from __future__ import annotations
@@ -18,6 +21,7 @@ from ragg_runtime.fit.observation import Observation
 from ragg_runtime.fit.segments import segments
 from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.model.evaluate import vector
+from ragg_runtime.model.lateness import late
 from ragg_runtime.model.model import Model
 
 Array = NDArray[np.float64]
@@ -25,16 +29,40 @@ Array = NDArray[np.float64]
 OPEN = 3.0
 """Standard deviations of a voltage, as the sheet knows it, from zero up to which the side is open."""
 
+LATEST = 3.0
+"""Times the prior's width of a delay by which motion may be late."""
+
 MOST = 0.2
 """Share of the samples beyond which none is left out: a sheet that knows so little of the switch cannot help."""
 
 
 def certain(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """The observations without the samples whose side of a switch is open."""
+    """The observations without the samples of which the model says nothing: sides of a switch, ends of the motion."""
+    observations = [_inside(model, instrument, o) for o in observations]
     if not any(e.switches for e in model.effects):
-        return list(observations)
+        return observations
     # a sample of channels is made of many: of those none is left out
     return [o if o.recorded.demodulated else _certain(model, instrument, o) for o in observations]
+
+
+def _inside(model: Model, instrument: Instrument, o: Observation) -> Observation:
+    """Without as much of either end as motion may be late."""
+    moving = dict(late(model))
+    if not moving:
+        return o
+    r = o.record
+    most = [
+        c.scale * (r.time[-1] if moving[k].growing else 1.0) * r.rate
+        for c, k in design.base_columns(model, instrument)
+        if k in moving
+    ]
+    n = int(np.ceil(LATEST * max(most, default=0.0)))
+    inside = np.zeros(len(r.valid), dtype=np.bool_)
+    inside[n : len(inside) - n] = True
+    kept = r.valid & inside
+    if np.array_equal(kept, r.valid) or np.sum(kept) < (1.0 - MOST) * np.sum(r.valid):
+        return o
+    return replace(o, record=replace(r, valid=kept), memo=[])
 
 
 def _certain(model: Model, instrument: Instrument, o: Observation) -> Observation:

@@ -7,6 +7,7 @@ import pytest
 
 from ragg_runtime.fit import fitted
 from ragg_runtime.fit.observation import observe
+from ragg_runtime.fit.switching import certain
 from ragg_runtime.model import model as load
 from ragg_runtime.model.evaluate import vector
 from ragg_runtime.model.lateness import STEP, about, late
@@ -64,6 +65,18 @@ def test_a_drift_of_half_a_sample_and_more_is_fitted_down_to_noise() -> None:
     o = observe(sim.flight(), s.sheet)
     f = fitted.fit(model, s.sheet, [o], candidates=False)
     noise = float(np.std(sim.G_out - sim.G_out_noise_free))
-    assert np.std(f.residuals(np.zeros(f.n_base))[0]) < 1.02 * noise
+    kept = f.observations[0].record.valid
+    assert 0 < np.sum(~kept) < 10
+    assert np.std(f.residuals(np.zeros(f.n_base))[0][kept]) < 1.02 * noise
     ((k, _),) = late(model)
     assert f.calibration.p[k] == pytest.approx(4e-4, rel=1e-3)
+
+
+def test_the_ends_are_left_out_where_motion_is_late(world: tuple[Scenario, load.Model]) -> None:
+    s, model = world
+    o = observe(s.simulate().flight(), s.sheet)
+    assert certain(load.packaged(), s.sheet, [o])[0] is o
+    (kept,) = certain(model, s.sheet, [o])
+    assert np.flatnonzero(~kept.record.valid).tolist() == [0, len(o.record.time) - 1]
+    short = o.part(slice(0, 8))
+    assert certain(model, s.sheet, [short])[0] is short
