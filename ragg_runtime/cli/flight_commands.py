@@ -11,11 +11,13 @@ import click
 from ragg_runtime.base import progress
 from ragg_runtime.base.errors import UserError, printable
 from ragg_runtime.cli import shared
-from ragg_runtime.cli.outputs import Command, OutputFile, asked
 from ragg_runtime.cli.shared import (
     DIRECTORY,
+    Command,
     Finite,
+    OutputFile,
     about,
+    asked,
     command_line,
     emit,
     json_option,

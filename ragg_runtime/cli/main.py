@@ -120,6 +120,6 @@ def hold_streams() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, flags)  # the lowest free number, which is this one
-    # Python has none where it found them closed. Without stdout no result can be told: commands say so (cli.outputs).
+    # Python has none where it found them closed. Without stdout no result can be told: commands say so (cli.shared).
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115

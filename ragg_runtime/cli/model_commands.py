@@ -10,10 +10,12 @@ import click
 
 from ragg_runtime.base.errors import UserError, one_line, printable
 from ragg_runtime.cli import shared
-from ragg_runtime.cli.outputs import Command, OutputFile, asked
 from ragg_runtime.cli.shared import (
     DIRECTORY,
+    Command,
     Finite,
+    OutputFile,
+    asked,
     command_line,
     emit,
     json_option,
@@ -170,7 +172,7 @@ def simulate(
 ) -> None:
     """A flight from the numerical reference, with hidden effects on request."""
     from ragg_runtime.flight import write_flight
-    from ragg_runtime.workflow.loaded import mapping_of
+    from ragg_runtime.workflow.loop import mapping_of
     from ragg_runtime.workflow.simulate import simulated
 
     m = load(model_dir)

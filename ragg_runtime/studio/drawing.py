@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ragg_runtime.base.errors import UserError
 from ragg_runtime.diagnosis import series as reported
 from ragg_runtime.flight.record import DEMODULATED
-from ragg_runtime.studio import apply
+from ragg_runtime.studio import tracks
 from ragg_runtime.studio.session import State
 from ragg_runtime.studio.tracks import HEAD, Pyramid, pyramid
 from ragg_runtime.wording import numbers
@@ -53,7 +53,7 @@ def series(s: State, a: Asked) -> bytes:
         c, what = s.compensated, a.what.partition(":")[2]
         how = () if c is None else (c.result["calibration"], c.result["demodulator"]["name"])
         key = ("compensated", *how, what, a.flight)
-        made = s.tracks.cache.get(key, lambda: apply.curve(c, what, a.flight))
+        made = s.tracks.cache.get(key, lambda: tracks.curve(c, what, a.flight))
         assert isinstance(made, Pyramid)
         return made.window(a.first, a.last, a.points)
     window, n = (a.first, a.last), s.tracks.place(a.flight, a.output)

@@ -22,7 +22,7 @@ from ragg_runtime.flight.record import ANGULAR_RATE, SI_UNITS, SPECIFIC_FORCE
 from ragg_runtime.flight.source import Heading, Look
 from ragg_runtime.studio.session import State, safe_name
 from ragg_runtime.wording import numbers
-from ragg_runtime.workflow.loaded import Loaded, keep_mapping, mapping_of
+from ragg_runtime.workflow.loop import Loaded, keep_mapping, mapping_of
 
 Json = dict[str, Any]
 

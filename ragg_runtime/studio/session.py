@@ -24,8 +24,7 @@ from ragg_runtime.diagnosis.foresee import Unwhitened
 from ragg_runtime.diagnosis.result import Diagnosis
 from ragg_runtime.flight import Flight
 from ragg_runtime.flight.formats import ENDINGS, ending_of
-from ragg_runtime.studio import apply
-from ragg_runtime.studio.tracks import Tracks
+from ragg_runtime.studio.tracks import Tracks, compensated
 from ragg_runtime.workflow import after, loop, versions
 from ragg_runtime.workflow.after import Compensation
 from ragg_runtime.workflow.loop import Added, Loaded
@@ -284,7 +283,7 @@ class Session:
         def work(part: Part) -> None:
             s = self.state
             part("compensating", PASSES["compare"] * s.samples)
-            self._put(compensated=apply.compensated(s.model, s.flights, kind, demodulator))
+            self._put(compensated=compensated(s.model, s.flights, kind, demodulator))
 
         self.jobs.start("compensating", work)
 

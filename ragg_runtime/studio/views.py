@@ -26,7 +26,7 @@ from ragg_runtime.report.compare_page import compare_html
 from ragg_runtime.report.diagnose_page import diagnose_html
 from ragg_runtime.report.parameters import Piece, Row, Symbol
 from ragg_runtime.signals.derivative import runs
-from ragg_runtime.studio import apply
+from ragg_runtime.studio import tracks
 from ragg_runtime.studio.session import State
 from ragg_runtime.wording import numbers
 from ragg_runtime.workflow import after, loop, versions
@@ -51,7 +51,7 @@ def overview(s: State, version: str) -> Json:
         "parameters": None if s.compared is None else _parameters(s.compared),
         "sheet": None if s.loaded is None else versions.shown_sheet(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
-        "compensated": None if s.compensated is None else apply.shown_compensation(s.compensated),
+        "compensated": None if s.compensated is None else tracks.shown_compensation(s.compensated),
         "beside": None if s.beside is None else _beside(*s.beside),
         "trial": None if s.trial is None else _trial(s),
         "before": s.previous is not None and s.compared is not None,
@@ -64,7 +64,7 @@ def _model(s: State) -> Json:
         "name": m.name,
         "path": str(m.directory.path),
         "notes": list(m.notes),
-        "calibrated": apply.kept(m),
+        "calibrated": tracks.kept(m),
         "effects": [_about(e) for e in m.model.effects],
         "spin_Hz": m.instrument.spin_frequency,
     }
@@ -478,7 +478,7 @@ def _compensated(s: State, name: str) -> File:
     if s.compensated is None:
         raise UserError("nothing is compensated yet", remedy="do it under Apply")
     kind = "text/csv" if name.endswith(".csv") else "application/vnd.apache.parquet"
-    return name, kind, apply.file_of(s.compensated, name)
+    return name, kind, tracks.file_of(s.compensated, name)
 
 
 def _model_file(s: State) -> File:

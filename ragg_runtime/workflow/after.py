@@ -41,7 +41,7 @@ from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import CALIBRATION, replace_model_dir
 from ragg_runtime.model_dir.history import Step
 from ragg_runtime.wording import notebook
-from ragg_runtime.workflow.loaded import Loaded, mapping_text, read_flights
+from ragg_runtime.workflow.loop import Loaded, mapping_text, read_flights
 
 
 @dataclass(frozen=True)

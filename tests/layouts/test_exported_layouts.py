@@ -23,7 +23,7 @@ from ragg_runtime.model.record import record
 from ragg_runtime.model_dir import derive
 from ragg_runtime.model_dir.directory import ModelDir
 from ragg_runtime.workflow import after
-from ragg_runtime.workflow.loaded import Loaded
+from ragg_runtime.workflow.loop import Loaded
 from tests.layouts import sheets
 from tests.layouts.flown import flown_by
 from tests.layouts.test_layouts_physics import instrument

@@ -2,11 +2,34 @@
 
 from __future__ import annotations
 
+import dataclasses
+import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
-from bad_input_table import TABLE, ran
+from bad_input_table import (
+    TABLE,
+    Row,
+    blank,
+    flown,
+    inside,
+    jittered,
+    kept,
+    motion,
+    outputs,
+    ran,
+    same,
+    stage,
+    struck,
+    timed,
+)
+
+from ragg_runtime.diagnosis.result import Diagnosis
+from ragg_runtime.flight import Flight
+from ragg_runtime.workflow import loop
 
 
 @pytest.mark.parametrize("name", TABLE)
@@ -23,3 +46,80 @@ def test_bad_input(name: str, tmp_path: Path) -> None:
         assert r.out == ""
         assert len(re.findall(r"^(ragg: |Usage: )", r.message, re.MULTILINE)) == 1, r.message
         assert len(r.message) < 3000
+
+
+NOTE = "samples stand far off the neighbours"
+
+
+@pytest.mark.parametrize(
+    "command", [("compare", "model"), ("diagnose", "model"), ("add", "model", "thermal-scale")]
+)
+def test_the_notes_are_everywhere(command: tuple[str, ...], tmp_path: Path) -> None:
+    row = Row(
+        flown(outputs(struck), hidden=True),
+        (NOTE,),
+        (*command, "flight.csv", "--json", "x.json", "--report", "x.html"),
+        0,
+    )
+    r = ran(row, tmp_path)
+    assert r.status == 0, r.err
+    assert NOTE in r.message
+    assert any(NOTE in note for note in json.loads((tmp_path / "x.json").read_text())["notes"])
+    page = (tmp_path / "x.html").read_text("utf-8")
+    assert "What was done to the record" in page
+    assert NOTE in page
+
+
+AWKWARD: dict[str, Callable[[Flight], Flight]] = {
+    "clean": same,
+    "1 % spikes": outputs(struck),
+    "blanks in the output": outputs(blank),
+    "blanks in the motion": motion(blank),
+    "gaps": kept(lambda k: k[(k // 100) % 12 != 5]),
+    "jittering stamps": timed(jittered(0.2)),
+    "cut out of a longer file": kept(lambda k: k[37:]),
+}
+
+
+def diagnosed(change: Callable[[Flight], Flight], place: Path, hidden: bool) -> Diagnosis:
+    stage(place)
+    with inside(place):
+        flown(change, "flight.parquet", hidden=hidden, derived=True)()
+        m = loop.load("model")
+        return loop.diagnose(m, loop.read_flights(m, ["flight.parquet"]))
+
+
+@pytest.mark.parametrize("name", sorted(AWKWARD))
+def test_the_hidden_effect_is_found_all_the_same(name: str, tmp_path: Path) -> None:
+    d = diagnosed(AWKWARD[name], tmp_path, True)
+    assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
+    assert d.after.rms_Eo == pytest.approx(4.04, rel=0.02)  # the noise, as on the clean record
+    value = {p.accelerometer: p.value for p in d.ranking[0].parameters}
+    assert value[3] - value[4] == pytest.approx(2e-7, rel=0.02)  # what G_out sees of A3 and A4
+
+
+@pytest.mark.parametrize("name", ["1 % spikes", "gaps", "jittering stamps"])
+def test_an_adequate_model_stays_adequate(name: str, tmp_path: Path) -> None:
+    d = diagnosed(AWKWARD[name], tmp_path, False)
+    assert (d.verdict, d.found) == ("adequate", ())
+
+
+def test_spikes_and_gaps_together(tmp_path: Path) -> None:
+    def change(x: Flight) -> Flight:
+        return kept(lambda k: k[(k // 100) % 12 != 5])(outputs(struck)(x))
+
+    d = diagnosed(change, tmp_path, True)
+    assert (d.verdict, d.found) == ("missing-effect", ("thermal-scale",))
+
+
+def test_what_was_done_stands_in_the_notes_and_in_the_mask(tmp_path: Path) -> None:
+    stage(tmp_path)
+    with inside(tmp_path):
+        flown(outputs(struck), "flight.parquet")()
+        m = loop.load("model")
+        (x,) = loop.read_flights(m, ["flight.parquet"])
+        clean = dataclasses.replace(x, notes=())
+    struck_at = np.flatnonzero(struck(np.arange(len(x)) * 1.0) != np.arange(len(x)))
+    assert np.flatnonzero(~x.valid).tolist() == struck_at.tolist()
+    assert any(f"{len(struck_at)} samples stand far off" in note for note in x.notes)
+    assert clean.outputs["G_out"].tobytes() == x.outputs["G_out"].tobytes()  # nothing is made up

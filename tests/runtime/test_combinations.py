@@ -12,7 +12,7 @@ from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.fit.fitted import estimated
 from ragg_runtime.model_dir import derive
 from ragg_runtime.signals.combinations import basis, telling
-from ragg_runtime.workflow.loaded import example
+from ragg_runtime.workflow.loop import example
 from ragg_runtime.workflow.simulate import simulated
 
 SIGNS = np.array([1.0, 1.0, -1.0, -1.0])
