@@ -21,7 +21,6 @@ from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.passes import Piece
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
-from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.features import term_unit
 from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
@@ -262,7 +261,7 @@ class Remainder:
 
     @property
     def significant(self) -> bool:
-        return bool(self.log_p < np.log(omnibus.FAMILY))
+        return bool(self.log_p < np.log(FAMILY))
 
 
 def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
@@ -270,7 +269,7 @@ def remainder(f: Fitted, given: Sequence[int] = ()) -> Remainder:
     found = []
     for x, triangles in zip(f.prepared, f.triangles, strict=True):
         lean, projector, _ = prepared_flight.projector(triangles, f.n_base, given).lean(x)
-        found.append(omnibus.search(lean, projector, lambda piece, y: None)[0])
+        found.append(search(lean, projector, lambda piece, y: None)[0])
     return Remainder(tuple(found))
 
 
