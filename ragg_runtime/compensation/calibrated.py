@@ -92,10 +92,7 @@ def information(f: Fitted) -> Array:
 
 
 def inverse(R: Array) -> Array:
-    """(n, n): the root R^-1 of the covariance of a square root R of the information, the diagonal made positive.
-
-    So it is unique, and changes smoothly with the data.
-    """
+    """(n, n): the root R^-1 of the covariance of a square root R of the information, with a positive diagonal."""
     return np.asarray(linalg.solve_triangular(R, np.diag(np.sign(np.diag(R)))))
 
 

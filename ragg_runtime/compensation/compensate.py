@@ -201,10 +201,7 @@ def seeing(instrument: Instrument, observations: Sequence[Observation]) -> tuple
 
 
 class Compensated:
-    """One output of a flight being compensated, observation k of what was prepared.
-
-    Its series come from :meth:`segments`, once; then :meth:`as_json` tells of them.
-    """
+    """One output of a flight being compensated: its series come from :meth:`segments`, once."""
 
     def __init__(self, p: Prepared, k: int, name: str) -> None:
         o = p.observations[k]

@@ -124,10 +124,7 @@ def root(saved: Saved, model: Model, instrument: Instrument) -> Array:
 
 
 def information(saved: Saved, model: Model, instrument: Instrument) -> Array:
-    """(n, n) square root of the information of the calibration, in the present scales of the fitted columns.
-
-    Of a parameter that was not fitted then the sheet alone speaks.
-    """
+    """(n, n) square root of the information of the calibration, in the present scales of the fitted columns."""
     columns = base_columns(model, instrument)
     place = {int(k): n for n, k in enumerate(saved.index)}
     rows = np.zeros((len(saved.information), len(columns)))
@@ -166,14 +163,8 @@ def calibration(
 class Change:
     """The step from the frozen to the free fit.
 
-    Attributes
-    ----------
-    z
-        (k,): its components, each of unit variance if nothing has changed.
-    signatures
-        (k, n): what a change of each fitted parameter, by its scale, would make of them.
-    squares
-        Sums of squares of the whitened residual, frozen and free.
+    ``z`` (k,): components, each of unit variance if nothing has changed; ``signatures`` (k, n): what a change of each
+    parameter, by its scale, makes of them; ``squares``: sums of the whitened residual, frozen and free.
     """
 
     z: Array
@@ -205,18 +196,9 @@ class Change:
 class Held:
     """How a frozen calibration holds on flights.
 
-    Attributes
-    ----------
-    comparison
-        Model and flights, everything about the frozen parameters: ``calibrated`` and ``holdout`` are the frozen error.
-    root
-        (n, k): of the covariance of the calibration, in the scales of the fitted columns.
-    saved
-        The calibration.
-    free, free_holdout
-        The errors if the model's parameters were fitted to these flights.
-    change
-        The step from the frozen to the free fit, tested.
+    In ``comparison``, ``calibrated`` and ``holdout`` are the frozen error. ``root`` (n, k): of the covariance of the
+    calibration, in the scales of the fitted columns. ``free``, ``free_holdout``: errors if parameters were fitted to
+    these flights.
     """
 
     comparison: Comparison
@@ -323,10 +305,7 @@ def hold(model: Model, instrument: Instrument, flights: Sequence[Flight], saved:
 def looked(
     model: Model, instrument: Instrument, observations: Sequence[Observation], saved: Saved, c: Calibration
 ) -> Change:
-    """The step from frozen parameters to what observations say, of long ones to what some stretches of them say.
-
-    ``c`` is the saved calibration with the noise of these observations.
-    """
+    """The step from frozen parameters to what observations say, of long ones to what some stretches of them say."""
     stretches, noise = [], []
     for o, own in zip(observations, c.noise, strict=True):
         # of the observation, not of the flight: the disc's angle counts from its beginning
@@ -344,11 +323,7 @@ def _stretches(samples: int) -> list[slice]:
 
 
 def changed(f: Fitted, root: Array) -> Change:
-    """Test the step from frozen parameters to what flights say; ``root`` (n, k) of the calibration's covariance.
-
-    In directions in which the calibration has unit variance, a flight that has s^-2 of its own moves by a step of
-    variance 1 + s^-2.
-    """
+    """Test the step from frozen parameters to what flights say; ``root`` (n, k) of the calibration's covariance."""
     n = f.n_base
     T = join([t[:, [*range(n), -1]] for x in f.triangles for t in x])
     U, s, _ = np.linalg.svd(T[:n, :n] @ root, full_matrices=False)

@@ -26,17 +26,9 @@ Array = NDArray[np.float64]
 class Table:
     """The columns of one flight, by its outputs that see a gradient.
 
-    Of an instrument with one output they are ``inline``, ``cross``, their standard uncertainties and ``quality``; with
-    several each has the output's own ending (``inline_A`` of ``G_out_A``). Three discs add the tensor and ``closure``.
-
-    Attributes
-    ----------
-    endings
-        Of every output; empty of an only one.
-    tensor
-        (6 + checks, 2 outputs): the tensor's components and the closure, by the channels; ``None``: not determined.
-    several
-        Whether there are several flights: then ``flight`` counts them from 1.
+    ``endings`` of every output (``inline_A`` of ``G_out_A``), empty of an only one. ``tensor`` (6 + checks, 2 outputs):
+    its components and the closure, by the channels; ``None``: not determined. ``several``: then ``flight`` counts
+    flights from 1.
     """
 
     endings: tuple[str, ...]

@@ -1,10 +1,8 @@
 """Calibrate and compensate sample by sample: a square-root information filter of the parameters and of the gradient.
 
-A filter is of one output. The states are the fitted parameters of its accelerometers (steps from a point p, in their
-scales) and the two channels of the gradient, inline and cross, which wander: a random walk of so many Eo per root second. What is
-kept is the triangle R and the right-hand side z of R x = z, so that a sample is one more row, turned into them; nothing is ever
-inverted or squared. Parameters forget: what flights said fades with a time constant, what the sheet says does not. The exported
-C is the same filter to rounding, a sample at a time.
+A filter is of one output. Its states are the fitted parameters (steps from a point p, in their scales) and the channels
+inline and cross, a random walk. What is kept is the triangle R and the right-hand side z of R x = z; a sample is one
+more row.
 """
 
 from __future__ import annotations
@@ -56,15 +54,9 @@ UNKNOWN_EO = 1e4
 class Tuning:
     """How an online filter works.
 
-    Attributes
-    ----------
-    noise
-        Standard deviation of a sample of G_out, V.
-    walk
-        Of the cross channel, Eo/sqrt(s), the inline one twice as much; 0: they are constant. The filter follows both with a
-        time constant, s, of the noise's density, Eo/sqrt(Hz) of the cross channel, over sqrt(2) times the walk.
-    forget
-        Time constant, s, with which parameters forget the flight; a drift is followed with this lag. Infinite: never.
+    ``noise``: standard deviation of a sample of G_out, V. ``walk``: of the cross channel, Eo/sqrt(s), the inline one
+    twice as much; 0: they are constant. ``forget``: time constant, s, with which parameters forget the flight.
+    Infinite: never.
     """
 
     noise: float
@@ -219,10 +211,7 @@ CHANNELS = ("inline", "cross", "inline_std", "cross_std")
 def followed(
     model: Model, instrument: Instrument, x: Flight, saved: Saved | None, asked: Tuning
 ) -> tuple[dict[str, NDArray[Any]], list[dict[str, Any]]]:
-    """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density.
-
-    It begins from the calibration that was ``saved``, without one from the test sheet.
-    """
+    """The series of a flight, and what the filter of each output says at its end; ``asked.noise`` is a density."""
     x = without_gradients(x)
     endings = column_endings(instrument.layout.output_names)
     root = None if saved is None else information(saved, model, instrument)

@@ -29,29 +29,12 @@ _REMEDY = "restore the file, or calibrate again: ragg calibrate MODEL FLIGHT... 
 class Saved:
     """A calibration as it was kept.
 
-    Attributes
-    ----------
-    time
-        When it was made, UTC, ISO 8601.
-    effects, form, derivation
-        Ids of the effects in the model, kinematics and order in words, and the digest of its derivation.
-    layout
-        The parameters of the model's chain and how many values each has.
-    p, sheet
-        (size,) SI: calibrated values, and those of model.toml at that time.
-    columns, index
-        The fitted parameters and their places in ``p``.
-    information
-        (n, n) upper triangular R, in units of the scales, prior included: the covariance is R^-1 R^-T. Its variances
-        span sixteen decades or more: written out, a covariance would lose what the record sees best to rounding.
-    converged
-        Whether the fit had settled.
-    validity
-        Channel -> least and largest value, SI, in the flights; ``time`` is since the flight's first sample.
-    flights
-        Name -> SHA-256 of the flights' files.
-    error
-        The errors (nominal, calibrated, holdout) on them.
+    ``time``: UTC, ISO 8601. ``effects``, ``form``, ``derivation``: of the model, with the digest of its derivation.
+    ``layout``: the chain's parameters and how many values each has. ``p``, ``sheet`` (size,) SI: calibrated, and of
+    model.toml then. ``columns``, ``index``: the fitted parameters and their places in ``p``. ``information`` (n, n):
+    upper triangular R in units of the scales, prior included (variances span sixteen decades: a covariance would round
+    them away). ``validity``: channel -> least and largest value, SI. ``flights``: name -> SHA-256. ``error``: nominal,
+    calibrated, holdout.
     """
 
     time: str

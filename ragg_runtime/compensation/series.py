@@ -71,10 +71,7 @@ def whole(c: Calibration, root: Array, samples: int) -> tuple[Stretch, ...]:
 
 
 def crossed(f: Fitted) -> list[tuple[Stretch, ...]]:
-    """Of every observation: each block of time with the calibration on everything else.
-
-    Of that block none of the outputs of the observation's flight counts.
-    """
+    """Of every observation: each block of time with the calibration on everything else."""
     c = f.calibration
     scale = np.array([q.scale for q in c.columns])
     all_of = [base(x, f.n_base) for x in f.triangles]
@@ -156,24 +153,10 @@ MEANING = {
 class Setting:
     """What is the same for all segments of a flight.
 
-    Attributes
-    ----------
-    model, evaluator
-        The model.
-    demodulator
-        The low-pass.
-    observation
-        The whole flight, without recorded gradients, and one of its outputs.
-    recorded
-        inline + i cross (N,), Eo, if the flight was demodulated by its recorder; then only the model is low-passed.
-    stretches
-        The parameters.
-    noise
-        Standard deviations of inline and cross that the noise causes, Eo.
-    validity
-        Channel -> range, SI, that the calibration knows; empty: not flagged.
-    rest
-        Variance of inline and cross, Eo^2, by directions of the parameters that are not followed, on the average.
+    ``observation``: the whole flight, without recorded gradients, and one of its outputs. ``recorded``: inline + i
+    cross (N,), Eo, if the flight was demodulated by its recorder. ``noise``: standard deviations of inline and cross
+    that the noise causes, Eo. ``validity``: channel -> range, SI; empty: not flagged. ``rest``: variance, Eo^2, by
+    directions that are not followed.
     """
 
     model: Model
@@ -201,20 +184,9 @@ class Setting:
 class Series:
     """Compensated samples.
 
-    Attributes
-    ----------
-    rows
-        Which samples of the flight.
-    gradient
-        (n,) inline + i cross, Eo, compensated; NaN where there is none.
-    raw
-        (n / every,) as it is without that, at the first sample and every so many further (:attr:`Setting.every`).
-    parameters
-        (2, n): standard deviation of inline and cross by the parameters, Eo.
-    std
-        (2, n): by parameters and noise together, Eo.
-    quality
-        (n,): bits of :class:`Quality`.
+    ``gradient`` (n,): inline + i cross, Eo, NaN where there is none. ``raw`` (n / every,): without compensation, at
+    every so many samples (:attr:`Setting.every`). ``parameters`` (2, n): standard deviations by the parameters, Eo;
+    ``std`` (2, n): with the noise. ``quality`` (n,): bits of :class:`Quality`.
     """
 
     rows: slice
@@ -315,10 +287,7 @@ class Segment:
         return g
 
     def gradient(self) -> Complex:
-        """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input.
-
-        What is put right, a few eotvos, is filtered in single precision.
-        """
+        """(N,) Eo: the gradient as this instrument sees it; the model is left with it as its input."""
         g = self.first_estimate()
         self.put(g)
         off = self.mixed(self.output() - self.bare - self.carried(g)).astype(np.complex64)
@@ -328,11 +297,8 @@ class Segment:
         return len(self.parts[0][1].directions)
 
     def by_parameters(self) -> NDArray[np.complex64]:
-        """(directions, N / few): how the gradient changes, to first order, a standard deviation along each direction of the
-        parameters, Eo.
-
-        Of every so many samples the mean enters (:data:`FINE`), for the centres of these; how sure a value is, is no
-        matter of its last digits.
+        """(directions, N / few): how the gradient changes, to first order, a standard deviation along each direction,
+        Eo; means over :data:`FINE` samples.
         """
         few, d = self.fewer
         count = len(self.k) // few
@@ -434,12 +400,8 @@ def series(s: Setting, rows: slice, *, holes: bool) -> Series:
 
 
 def basis(s: Setting, samples: Sequence[slice], neglected: float) -> tuple[Array, tuple[float, float]]:
-    """(k, r): the directions of the parameters that matter, found on some stretches of a flight; and what the others add
-    on the average to the variance of inline and cross, Eo^2.
-
-    Of the variance that all k directions cause, what the others add is below ``neglected`` of the noise's wherever there
-    is a value. (At the ends of a record, where there is none, the low-pass has not settled and three times as many
-    directions would seem to matter.)
+    """(k, r): the directions of the parameters that matter, found on some stretches of a flight; and what the others
+    add on the average to the variance of inline and cross, Eo^2: less than ``neglected`` of the noise's.
     """
     inline, cross = [], []
     for some in samples:

@@ -1,8 +1,6 @@
 """Section III.B: the imperfect instrument of Table V in the regular motion of Table VI.
 
-The paper leaves open the sampling rate and length (here: 16 Hz, 64 turns; the motion repeats with the disc,
-so neither matters), vartheta_x (here: 0, as if Table V were complete), and whether the test mass stands by
-(here: none; Tables V and VI have none).
+Left open by the paper: sampling (here 16 Hz, 64 turns), vartheta_x (here 0), and a test mass (here none).
 """
 
 from __future__ import annotations
@@ -183,11 +181,7 @@ def regular_run(
     rate: float = 16.0,
     turns: int = 1,
 ) -> Simulation:
-    """The numerical model in the motion of Table VI.
-
-    Means over one turn are exact at 16 Hz: no product of the motion goes beyond the 8th harmonic of the disc,
-    and there are 64 samples to a turn.
-    """
+    """The numerical model in the motion of Table VI; means over one turn are exact at 16 Hz."""
     known = table_v() if instrument is None else instrument
     return simulate(
         known,

@@ -56,11 +56,7 @@ def output(name: str, run: Simulation) -> Array:
 
 
 def error(name: str, run: Simulation) -> Array:
-    """Model error, (N,) V: output of the numerical model *minus* that of a derived one.
-
-    The paper says "the differences between the analytical model and the numerical model". With this sign
-    all of its model errors in Section III.B have the signs of ours, with the other none.
-    """
+    """Model error, (N,) V: output of the numerical model *minus* that of a derived one, which gives the paper's signs."""
     difference: Array = run.G_out - output(name, run)
     return difference
 

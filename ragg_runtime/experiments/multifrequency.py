@@ -1,7 +1,6 @@
 """Section III.A: a point mass circles a perfect instrument; who measures the gradient at the centre?
 
-The paper leaves open the sampling rate, the length and the demodulator's low-pass. Here: 16 Hz, one round of
-the mass (370 s) within the filter's reach, and the project's low-pass (0.2 Hz, 100 dB).
+Left open by the paper: sampling (here 16 Hz, one round of the mass, 370 s) and the low-pass (here 0.2 Hz, 100 dB).
 """
 
 from __future__ import annotations

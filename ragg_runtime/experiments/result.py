@@ -17,18 +17,8 @@ Json = dict[str, object]
 
 @dataclass(frozen=True)
 class Printed:
-    """A number as the paper prints it.
-
-    Attributes
-    ----------
-    text
-        Its digits.
-    unit
-        Empty for a pure number.
-    where
-        Section or table.
-    order
-        The paper says only "of the order of".
+    """A number as the paper prints it: its digits, ``unit`` (empty for a pure number), section or table; ``order``: of
+    magnitude only.
     """
 
     text: str
@@ -42,10 +32,7 @@ class Printed:
         return float(self.text)
 
     def matches(self, ours: float) -> bool:
-        """Whether ``ours`` has the printed digits, or the printed order of magnitude.
-
-        An order of magnitude is met from a third of it up to ten times.
-        """
+        """Whether ``ours`` has the printed digits, or the printed order of magnitude (a third of it up to ten times)."""
         if self.order:
             return math.copysign(1, ours) == math.copysign(1, self.value) and (
                 -0.5 <= math.log10(abs(ours / self.value)) < 1
@@ -57,18 +44,10 @@ class Printed:
 
 @dataclass(frozen=True)
 class Row:
-    """One printed number beside ours.
+    """One printed number beside ours, in the printed unit (the mean of several runs, ``spread`` their least and
+    greatest).
 
-    Attributes
-    ----------
-    quantity, printed
-        What it is, and the paper's number.
-    ours
-        In the printed unit; the mean where there are several runs.
-    spread
-        Least and greatest of several runs; ``None`` for a single one.
-    verdict, reason
-        ``reason`` is empty only where the numbers agree.
+    ``reason`` is empty only where the numbers agree.
     """
 
     quantity: str
@@ -105,17 +84,8 @@ def judge(
 ) -> Row:
     """Compare, by the same rule for every number.
 
-    Parameters
-    ----------
-    quantity, printed, ours
-        Name, the paper's number, and ours in its unit.
-    spread
-        Least and greatest of several runs: a printed number between them agrees.
-    reach
-        Least and greatest of our number over an input that the paper leaves open; without it, a disagreement
-        is unexplained.
-    open_input, unexplained
-        The reason to give in either case.
+    ``spread``: least and greatest of several runs, a printed number between them agrees. ``reach``: the same over an
+    input that the paper leaves open. ``open_input``, ``unexplained``: the reason to give in either case.
     """
     verdict: Verdict
     inside = spread is not None and spread[0] <= printed.value <= spread[1]

@@ -1,8 +1,7 @@
 """Section III.C: the imperfect instrument of Table V in the turbulence of Table VII.
 
-The paper leaves open the sampling rate, the length, the difference formula for the angular acceleration, the
-random numbers and vartheta_x. Here: records of 600 s, several seeds, vartheta_x = 0, and 20 Hz with central
-differences: a choice made *after* looking at Table VIII, see :func:`sampling`.
+Left open by the paper: here records of 600 s, several seeds, vartheta_x = 0, and 20 Hz with central differences, a
+choice made *after* looking at Table VIII, see :func:`sampling`.
 """
 
 from __future__ import annotations
@@ -63,15 +62,7 @@ def statistics(run: Simulation) -> dict[str, float]:
 
 
 def turbulence(*, seeds: Sequence[int] = SEEDS, rate: float = RATE, duration: float = DURATION) -> Result:
-    """Repeat the three experiments.
-
-    Parameters
-    ----------
-    seeds
-        One record of each experiment for each; the spread of our numbers is over them.
-    rate, duration
-        Hz and s.
-    """
+    """Repeat the three experiments: one record of each for each of ``seeds``, at ``rate`` Hz, for ``duration`` s."""
     if not seeds:
         raise UserError("the turbulence experiments need a seed", found="none", expected="at least one")
     values: dict[tuple[int, str], Array] = {}
@@ -294,10 +285,7 @@ def turbulent_motion(
     rate: float,
     derivative: Derivative = "central",
 ) -> Motion:
-    """A row of Table VII. Components are independent of each other.
-
-    The horizontal accelerations have 15 percent of the vertical one's mean and of its standard deviation.
-    """
+    """A row of Table VII. The horizontal accelerations have 15 percent of the vertical one's mean and standard deviation."""
     size, milli_g = round(duration * rate), 1e-3 * table_v().g0
 
     def draw(mean: float, std: float, unit: float) -> Samples:
@@ -320,11 +308,7 @@ def turbulent_run(
     derivative: Derivative = "central",
     effects: EffectValues | None = None,
 ) -> Simulation:
-    """The numerical model in turbulence experiment 1, 2 or 3.
-
-    With one seed the three experiments have the same random numbers, so that only what Table VII changes
-    changes.
-    """
+    """The numerical model in turbulence experiment 1, 2 or 3; one seed gives all three the same random numbers."""
     if experiment not in (1, 2, 3):
         raise UserError("the paper has three turbulence experiments", found=experiment, expected="1, 2 or 3")
     instants(duration, rate)  # refuses what is no record, before numbers are drawn for it

@@ -1,9 +1,6 @@
 """The angular acceleration as the derivative of a recorded angular rate, and where it can be relied upon.
 
-Motion has power up to the Nyquist frequency, if little. A derivative that is wrong there by a percent is wrong by
-more than the noise of an instrument whose accelerometers are not matched, in a narrow band and beside every gap; so
-the window is long and the band wide. (A band that ends where the rate holds only the noise of the gyroscope would
-be quieter, but noise that falls by decades beside it gives the frequencies above it all the weight in a fit.)
+Motion has power up to the Nyquist frequency, so the window is long and the band wide.
 """
 
 from __future__ import annotations
@@ -40,13 +37,7 @@ HEAD = 32768
 
 @dataclass(frozen=True)
 class Derivative:
-    """How a record's angular rates are differentiated.
-
-    Attributes
-    ----------
-    unsure
-        Samples next to an end or a gap that are not relied upon (an eighth of a short run at most).
-    """
+    """How a record's angular rates are differentiated; ``unsure`` samples next to an end or a gap are not relied upon."""
 
     unsure: int = 0
 
@@ -73,11 +64,7 @@ class Derivative:
 
 
 def planned(omegas: Sequence[Array], rate: float) -> Derivative:
-    """How to differentiate these rates (N,): the runs without a gap of the first HEAD samples decide.
-
-    Those that are long enough to tell what the short windows do; where none is, the short windows' one-sided ends are not
-    relied upon.
-    """
+    """How to differentiate these rates (N,): the runs without a gap of the first HEAD samples decide."""
     omegas = [x[:HEAD] for x in omegas]
     whole = np.asarray(np.isfinite(omegas).all(axis=0))
     longest = max((r.stop - r.start for r in runs(whole)), default=0)
@@ -114,10 +101,7 @@ def _unsure(series: Sequence[Array]) -> int:
 
 @cache
 def wide_weights() -> Array:
-    """Weights (2 REACH + 1,) of a derivative, per sample, at the middle one.
-
-    Least squares of the relative error of the response in the band, exact for polynomials up to the fourth degree.
-    """
+    """Weights (2 REACH + 1,) of a derivative, per sample, at the middle one; exact for polynomials up to the fourth degree."""
     m = np.arange(1, REACH + 1)
     theta = (np.arange(4000) + 0.5) / 4000 * BAND * np.pi
     scale = 1 / np.maximum(theta, 0.05 * np.pi) / np.sqrt(len(theta))

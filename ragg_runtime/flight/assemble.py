@@ -33,8 +33,7 @@ from ragg_runtime.instrument.units import Units, units
 from ragg_runtime.signals.derivative import runs
 
 BRIDGED = 2.0
-"""Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded: such
-channels are often sampled more slowly than the motion, with blanks between."""
+"""Longest stretch, s, over which an auxiliary channel is interpolated as if it had been recorded."""
 
 ENDLESS = 1e100  # in SI: beyond it a value counts as missing, as infinity does
 _TRACE_NOTED = 1e-9  # s^-2: above it Gamma_xx + Gamma_yy + Gamma_zz = 0 (Laplace) is plainly violated
@@ -420,11 +419,7 @@ class Slow:
 
 
 def judged(time: Array, values: Array) -> Slow | str:
-    """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated, in words.
-
-    It is, linearly, if it was sampled regularly and is slow: left out one at a time, its values must follow from their
-    neighbours.
-    """
+    """The channel, from its values (n,) and their instants, s; or why it cannot be interpolated linearly, in words."""
     if len(values) < FEWEST_VALUES:
         return f"it has {len(values)} value{'s' * (len(values) != 1)}"
     steps = np.diff(time)

@@ -1,8 +1,7 @@
 """A first ``mapping.toml`` from what a file says: names and units. What it does not say is marked, not guessed.
 
-Every line carries how sure it is: *certain* (the contract's own name), *likely* (a name that is usual for it),
-*guess* (a name that may stand for several things). Units come from the file alone; where it gives none, the
-numbers themselves are looked at only for a remark beside the question mark.
+Every line carries how sure it is: *certain* (the contract's own name), *likely* or *guess*. Units come from the file
+alone.
 """
 
 from __future__ import annotations
@@ -36,18 +35,8 @@ NEAR_G = 0.1
 
 @dataclass(frozen=True)
 class Draft:
-    """A mapping to begin with.
-
-    Attributes
-    ----------
-    text
-        The file.
-    questions
-        What has to be answered.
-    unused
-        Columns that nothing is made of.
-    sure
-        Channel -> ``certain``, ``likely`` or ``guess``.
+    """A mapping to begin with: its ``text``, the ``questions`` to be answered, the columns that are ``unused``, and
+    channel -> ``certain``, ``likely`` or ``guess``.
     """
 
     text: str
@@ -278,20 +267,8 @@ _RANKS = ("certain", "likely", "guess")
 class Role:
     """A channel that a column may be.
 
-    Attributes
-    ----------
-    name
-        Of the channel.
-    pattern
-        Regular expression that the column's whole name must match, in small letters, divided by ``_``.
-    sure
-        ``likely`` or ``guess``; the channel's own name is ``certain``.
-    scale
-        Factor between the column and the channel, where the name tells it.
-    why
-        A remark for whoever looks the mapping over.
-    unit
-        The only unit that it can have (of a number that counts), where there is just one.
+    ``pattern`` must match the column's whole name, in small letters, divided by ``_``. ``sure``: ``likely`` or
+    ``guess``. ``scale``: between column and channel, where the name tells it. ``unit``: the only one that it can have.
     """
 
     name: str

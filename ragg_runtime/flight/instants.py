@@ -145,10 +145,7 @@ WAYS: Mapping[str, Way] = MappingProxyType(
 def seconds(
     way: Way, columns: Sequence[NDArray[Any]], where: str, origin: datetime | None = None
 ) -> tuple[Array, datetime | None]:
-    """(N,) s, NaN where nothing stands, and where they begin: ``origin``, or the midnight before the first instant.
-
-    Of times of the day alone they count from midnight, on over any midnight that is passed.
-    """
+    """(N,) s, NaN where nothing stands, and where they begin: ``origin``, or the midnight before the first instant."""
     total = way.read(*columns, where)
     there = total != _NONE
     if way.dated:

@@ -16,10 +16,7 @@ LINE = Heading("line", "1")
 
 
 def joined(tables: Sequence[Written]) -> tuple[list[Heading], Rows]:
-    """The columns of all tables, and their rows one table after the other.
-
-    Lines of several tables are told apart by a column ``line``: numbers if all are numbers, else text.
-    """
+    """The columns of all tables, and their rows one table after the other; a column ``line`` tells them apart."""
     columns = union(tables)
     lengths = [len(t.columns[0][1]) if t.columns else 0 for t in tables]
     found: dict[str, NDArray[Any]] = {}

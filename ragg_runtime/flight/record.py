@@ -70,28 +70,11 @@ def is_disc_angle(name: str) -> bool:
 class Flight:
     """A uniformly sampled record of motion, auxiliary channels and output, in SI, float64.
 
-    Attributes
-    ----------
-    time
-        (N,) s, increasing, one sample every 1/rate; samples that the file lacks have been put in.
-    channels
-        Name -> (N,): motion (m/s^2, rad/s, rad/s^2), gradients (s^-2), ``spin_angle`` (rad), auxiliaries.
-        Where the file has none, interpolated, so that filters may run through.
-    outputs
-        Name -> (N,): ``G_out`` and ``V_1`` ... ``V_4`` in V, ``inline`` and ``cross`` in s^-2; NaN where the
-        file has none.
-    valid
-        (N,) bool: False where a sample is missing or incomplete. All True if not given.
-    units
-        Name -> SI unit of every column.
-    digest
-        SHA-256 of the file, hexadecimal; empty if the flight comes from no file.
-    written
-        Name -> unit that the file gives, of every column of the file; empty if the flight comes from none.
-    notes
-        What was derived, filled in or looks odd, in sentences.
-    demodulation
-        How ``inline`` and ``cross`` were made, if the mapping of the file says so.
+    ``time`` (N,) s has a sample every 1/rate. ``channels``: name -> (N,), motion (m/s^2, rad/s, rad/s^2), gradients
+    (s^-2), ``spin_angle`` (rad), auxiliaries; interpolated where the file has none. ``outputs``: name -> (N,),
+    ``G_out`` and ``V_1`` ... in V, ``inline`` and ``cross`` in s^-2; NaN where the file has none. ``valid`` (N,): False
+    where a sample is missing or incomplete. ``units``: SI, of every column; ``written``: those of the file. ``digest``:
+    SHA-256 of the file. ``demodulation``: how ``inline`` and ``cross`` were made, if the mapping says so.
     """
 
     time: Array

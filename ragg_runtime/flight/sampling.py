@@ -33,18 +33,9 @@ STEADY_FROM = 512
 class Grid:
     """Where the file's samples stand on the uniform grid.
 
-    Attributes
-    ----------
-    index
-        (n,) places of the file's samples, increasing from 0.
-    time
-        (N,) instants of the whole grid, s: the file's own where it has a sample, interpolated elsewhere.
-    step
-        Sampling interval, s.
-    notes
-        Gaps and jitter, in sentences.
-    jitters
-        Whether the instants leave the uniform grid by more than ``JITTER_NOTED``.
+    ``index`` (n,): places of the file's samples, increasing from 0. ``time`` (N,) s: the whole grid, the file's own
+    instants where it has a sample. ``step``: s. ``jitters``: whether instants leave the grid by more than
+    ``JITTER_NOTED``.
     """
 
     index: NDArray[np.int64]
@@ -56,10 +47,7 @@ class Grid:
 
 @np.errstate(over="ignore", invalid="ignore")  # absurd times: what comes of them is refused
 def uniform(time: Array, path: Path | None) -> Grid:
-    """The grid of a record's instants (n,), s.
-
-    Raises UserError where there are fewer than two samples, or time is missing, stands still, runs back or is not uniform.
-    """
+    """The grid of a record's instants (n,), s; UserError where they make none."""
     where = at(path, "column 'time'")
     steps = _steps(time, path, where)
     step = _step(steps)
@@ -132,9 +120,8 @@ def _steps(time: Array, path: Path | None, where: str) -> Array:
 
 
 def _tracked(time: Array, step: float) -> tuple[NDArray[np.int64], Array] | None:
-    """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,).
-
-    A line through the first instants is carried on, half as far again each time; ``None`` if they do not follow one.
+    """Places of samples that jitter by less than half a step about a steady clock, and by how much (n - 1,); ``None``:
+    they do not.
     """
     size = 128
     whole = (time[-1] - time[0]) / (len(time) - 1)

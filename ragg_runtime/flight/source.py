@@ -36,18 +36,8 @@ class Heading:
 class Table:
     """One table of a file, in the file's own names and units.
 
-    Attributes
-    ----------
-    path
-        The file.
-    headings
-        Its columns.
-    rows
-        A function that reads exactly these columns.
-    line
-        Name of the flight line that the table is, where the file has several.
-    place
-        The group, structure or sheet of the file that it is.
+    ``rows`` reads exactly the columns that it is given. ``line`` is the flight line, where the file has several,
+    ``place`` the group, structure or sheet.
     """
 
     path: Path
@@ -61,17 +51,8 @@ class Table:
 class Look:
     """What is wanted of a file.
 
-    Attributes
-    ----------
-    only
-        Names of the columns that are needed; ``None``: all of them.
-    text
-        Whether columns of text may pass. Otherwise what is no number is an error, except for instants in a
-        column ``time``, names in a column ``line``, and columns that are passed over for their names.
-    part
-        The group (HDF5), structure (MATLAB) or sheet (Excel) that is meant, where a file has several.
-    leave
-        Names of columns that are not to be read.
+    ``only``: the columns that are needed; ``None``: all. ``text``: whether columns of text may pass. ``part``: the
+    group (HDF5), structure (MATLAB) or sheet (Excel) that is meant. ``leave``: columns that are not to be read.
     """
 
     only: frozenset[str] | None = None

@@ -254,10 +254,7 @@ MOST_LINES = 20_000
 
 
 def split(table: Table, column: str) -> list[Table]:
-    """A table for each line, in the order in which they begin; the rows of one need not stand together.
-
-    A column with a single value gives one table without a line. Rows without a line's name are left out.
-    """
+    """A table for each line, in the order in which they begin; the rows of one need not stand together."""
     import pandas as pd  # slow to import, and only files with lines need it
 
     headings = tuple(h for h in table.headings if h.name != column)

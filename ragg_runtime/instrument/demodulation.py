@@ -37,17 +37,7 @@ _KEYS = ("kind", "cutoff", "order", "length", "delay", "rate")
 
 @dataclass(frozen=True)
 class Demodulation:
-    """A low-pass of the mixed output; what a kind does not have is ``None``, and see the module's text for the rest.
-
-    Attributes
-    ----------
-    kind
-        One of :data:`KINDS`.
-    cutoff, rate
-        Hz; ``rate`` of ``None``: that of the record.
-    length, delay
-        s.
-    """
+    """A low-pass of the mixed output; what a kind does not have is ``None``. ``cutoff``, ``rate``: Hz; ``length``, ``delay``: s."""
 
     kind: str = "fir"
     cutoff: float | None = None

@@ -18,16 +18,9 @@ MISALIGNMENT: tuple[int | str, ...] = (1, "exact")
 class Form:
     """The table ``[model]``; what it leaves out is the paper's.
 
-    Attributes
-    ----------
-    kinematics
-        ``platform``: Eq. 9, the rate of the platform alone; ``full``: of the disc, which turns against it.
-    mounting
-        Power to which rotations by beta_x and beta_z are kept, or ``exact``.
-    misalignment
-        1: C of Eq. 2; or ``exact``.
-    second_order_angles
-        Whether second-order terms see the force along the axes as they are; the paper puts them along nominal ones.
+    ``kinematics``: ``platform`` (Eq. 9) or ``full`` (of the disc, which turns). ``mounting``: power to which rotations
+    are kept, or ``exact``. ``misalignment``: 1 (C of Eq. 2) or ``exact``. ``second_order_angles``: whether second-order
+    terms see the force along the axes as they are.
     """
 
     kinematics: str = "platform"

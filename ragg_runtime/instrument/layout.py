@@ -1,12 +1,10 @@
-"""Where the accelerometers are: discs, places, signs and outputs. The paper's four are one such layout.
+"""Where the accelerometers are: discs, places, signs and outputs, as in model.toml. The paper's four are one such
+layout.
 
-A layout is data and nothing else: positions, directions and signs as they are written in model.toml. The derived
-models take their :func:`constants` from it, the numerical reference makes its own.
-
-Conventions, said once. A disc spins about its ``axis`` (measurement frame); its angle 0 lies along ``zero``. At the
-angle of an accelerometer e_r points outward, e_t along the turn, e_a along the axis. The nominal triad of the paper is
-(e_t, e_r, -e_a); a ``direction`` of the input axis other than e_t turns that triad by the smallest rotation that takes
-e_t there (from e_t to -e_t: half a turn about e_a).
+A disc spins about its ``axis`` (measurement frame); its angle 0 lies along ``zero``. At an accelerometer e_r points
+outward, e_t along the turn, e_a along the axis. The nominal triad of the paper is (e_t, e_r, -e_a); a ``direction`` of
+the input axis other than e_t turns it by the smallest rotation that takes e_t there (from e_t to -e_t: half a turn
+about e_a).
 """
 
 from __future__ import annotations
@@ -40,16 +38,8 @@ HIGHEST_HARMONIC = 4
 class Disc:
     """A disc, turning or standing still.
 
-    Attributes
-    ----------
-    name
-        As in model.toml; empty for the paper's one.
-    spin_frequency
-        Hz; 0: it stands still unless its angle is recorded.
-    axis, zero
-        Unit vectors in the measurement frame, perpendicular: the axis of the spin, and where angle 0 points.
-    angle_column
-        Column of a flight with its encoder's angle.
+    ``spin_frequency``: Hz; 0: it stands still unless its angle is recorded. ``axis``, ``zero``: perpendicular unit
+    vectors in the measurement frame, of the spin and of angle 0. ``angle_column``: of its encoder.
     """
 
     name: str
@@ -74,20 +64,9 @@ class Disc:
 class Place:
     """Where an accelerometer sits, and how it counts.
 
-    Attributes
-    ----------
-    name
-        As in model.toml (A1 ...).
-    disc, output
-        Which, counted from 0.
-    angle
-        On the disc, rad, from its angle 0 in the sense of the turn.
-    radius, height
-        Distance from the axis, and along it from the disc's centre, m.
-    direction
-        Unit vector of the input axis in (e_r, e_t, e_a).
-    sign
-        Of its voltage in the output, 1 or -1.
+    ``disc``, ``output``: counted from 0. ``angle``: on the disc, rad, in the sense of the turn. ``radius``, ``height``:
+    from the axis, and along it from the disc's centre, m. ``direction``: of the input axis in (e_r, e_t, e_a).
+    ``sign``: 1 or -1.
     """
 
     name: str
@@ -284,11 +263,7 @@ def sees(o: Output, k1: Array, R: Array) -> bool:
 
 
 def scale(o: Output, k1: Array, R: Array) -> float:
-    """k_ggi of an output, V s^2: volts per s^-2 of gradient (Eq. 30), the measure in which its errors are told in eotvos.
-
-    Of an output that cancels that gradient, as a sum of opposite accelerometers does, what one gradient would make
-    of all its accelerometers together.
-    """
+    """k_ggi of an output, V s^2: volts per s^-2 of gradient (Eq. 30). Of an output that cancels it: of all members together."""
     members, seen = list(o.members), _seen(o)
     if not np.any(seen.imag):
         total = float(np.sum(k1[members] * R[members] * seen.real))

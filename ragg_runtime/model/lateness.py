@@ -1,9 +1,6 @@
 """Motion that stands late in a record, taken from where it stands.
 
-An effect that makes motion late is derived as a Taylor series in its lateness, which says nothing once that reaches the time
-scale of the motion: half a sample, say. So the series is taken about the lateness that a fit has come to: the motion is
-interpolated there, and only what is left of the parameter enters the series. Which parameters make what late, the effects'
-own files say.
+A Taylor series in a lateness fails at half a sample: so it is taken about the lateness that a fit has come to.
 """
 
 from __future__ import annotations

@@ -116,28 +116,10 @@ MANY = 200_000
 class Model:
     """A derived model.
 
-    Attributes
-    ----------
-    effects
-        Effects in the model beyond the paper's instrument.
-    candidates
-        Effects known but not in the model; their signatures are in ``signatures`` (none: no signatures).
-    chain, signatures
-        Generated modules.
-    digest
-        Digest of the derivation.
-    sources
-        The model in C: file name -> text, as derived.
-    folded
-        The generated module of the folded form, which models without further effects have.
-    layout
-        Whose accelerometers the chain is.
-    fitting
-        The C of chain and signatures: of what fits evaluate.
-    own_recognisers
-        Those of a model directory's own effects of the output channel, by their ids.
-    lasting
-        Whether it comes with the program and is compiled once for all flights, with all effort.
+    ``effects``: in the model beyond the paper's instrument; ``candidates``: not in it, with ``signatures``. ``chain``,
+    ``signatures``, ``folded``: generated modules. ``sources``, ``fitting``: C, file name -> text; the latter of what
+    fits evaluate. ``layout``: whose accelerometers the chain is. ``own_recognisers``: of a model directory's effects,
+    by id. ``lasting``: it comes with the program and is compiled once for all flights.
     """
 
     effects: tuple[Effect, ...]

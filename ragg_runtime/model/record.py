@@ -40,9 +40,7 @@ SPIN = ("d_spin_angle", "d2_spin_angle")
 """Rate and acceleration of the disc angle: in every record, with an encoder or without."""
 
 SPIN_WINDOW = 0.6
-"""Half the stretch, s, over which the encoder's angle is smoothed for its rate: its steps of some microradians, twice
-differentiated, would be noise of many eotvos, and a disc does not swing faster than a few times a turn. How closely the
-smooth angle follows is chosen by the record itself (``best_degree``)."""
+"""Half the stretch, s, over which the encoder's angle is smoothed for its rate."""
 
 CHUNK = 1 << 16
 """Samples of a long record's encoder that are looked at at a time."""
@@ -52,33 +50,11 @@ CHUNK = 1 << 16
 class Record:
     """What of a flight enters a model: the whole of it, or a part.
 
-    Attributes
-    ----------
-    time
-        (N,) s since the first sample of the flight.
-    wide
-        Name -> (before + N + after,), SI: the channels, of a part with ``halo`` = (before, after) further
-        samples.
-    rate
-        Sampling rate, Hz.
-    valid
-        (N,) bool: False where a sample must not be used.
-    spin_frequency
-        Hz: the disc angle is 2 pi spin_frequency time where there is no encoder (``angle_column``).
-    angle_column
-        Channel with the angle of the disc that the output belongs to.
-    phase
-        rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase); 0 of the paper's layout.
-    turning
-        Whether the disc turns at all.
-    axes
-        First two axes of the disc at rest in the measurement frame; ``None``: x and y.
-    demodulation
-        How inline and cross were made, where they are what was recorded.
-    every
-        Samples from one at which they were recorded to the next.
-    whole
-        What this is a part of; ``None``: it is the whole record.
+    ``time`` (N,) s since the first sample of the flight. ``wide``: name -> (before + N + after,), SI, of a part with
+    ``halo`` = (before, after) further samples. ``rate``, ``spin_frequency``: Hz. ``angle_column``: of the disc that the
+    output belongs to. ``phase``, rad: a gradient shows as T_1 sin(2 phi + phase) + T_2 cos(2 phi + phase). ``axes``:
+    first two of the disc at rest in the measurement frame; ``None``: x and y. ``every``: samples from one recorded
+    inline and cross to the next. ``whole``: what this is a part of.
     """
 
     time: Array
@@ -125,9 +101,8 @@ class Record:
 
     @cached_property
     def carriers(self) -> tuple[Array, Array]:
-        """Those on which inline and cross are put to be one series: the gradient's, or ones that turn by a quarter from sample
-        to sample where they were recorded more seldom (of a disc that turns twice a second, say, recorded every second, one
-        of them would always be zero).
+        """Those on which inline and cross are put to be one series: the gradient's, or, where they were recorded more
+        seldom, ones that turn by a quarter from sample to sample.
         """
         return self.quadratures if self.every == 1 else self._quarters(self.time)
 
@@ -202,10 +177,7 @@ class Record:
         return replace(self, time=time, wide=wide, valid=valid, halo=halo, whole=self.whole or self)
 
     def moved(self, moves: Mapping[str, tuple[float, float]]) -> Record:
-        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second.
-
-        Beyond the ends of the record it is what the spline makes of it for a sample, and then stays.
-        """
+        """The record with motion taken from later in it: quantity (``a`` ...) -> lateness, s, at time 0 and per second."""
         key = tuple(sorted(moves.items()))
         found = self._moved.get(key)
         if found is None:

@@ -17,19 +17,8 @@ Array = NDArray[np.float64]
 class Noise:
     """Red and white noise of one accelerometer: Phi(f) = alpha f^-b + omega_T (Eq. 53).
 
-    Attributes
-    ----------
-    alpha
-        One-sided density of the red part at 1 Hz, (m/s^2)^2/Hz.
-    b
-        Growth of the red part towards low frequency, 0 <= b < 4.
-    omega_T
-        One-sided density of the white part, (m/s^2)^2/Hz.
-
-    Raises
-    ------
-    UserError
-        If a density is negative or not finite, or b is out of range.
+    ``alpha``: one-sided density of the red part at 1 Hz, ``omega_T`` of the white one, (m/s^2)^2/Hz; 0 <= b < 4, else
+    UserError.
     """
 
     alpha: float = 0.0
@@ -52,23 +41,9 @@ class Noise:
         return np.asarray(self.alpha * f**-self.b + self.omega_T, dtype=np.float64)
 
     def sample(self, rng: np.random.Generator, size: int, rate: float) -> Array:
-        """Draw a record.
+        """Draw a record, (size,) m/s^2, at ``rate`` Hz.
 
-        The red part is half of a periodic record twice as long, so that its ends do not match; it holds
-        no power below rate/(2 size), where the formula has no finite integral.
-
-        Parameters
-        ----------
-        rng
-            Source of the random numbers; the same state gives the same record.
-        size
-            Number of samples.
-        rate
-            Sampling rate, Hz.
-
-        Returns
-        -------
-        (size,) m/s^2.
+        The red part is half of a periodic record twice as long; it holds no power below rate/(2 size).
         """
         record: Array = np.sqrt(self.omega_T * rate / 2) * rng.standard_normal(size)
         if self.alpha == 0 or size == 0:
@@ -88,16 +63,9 @@ class Noise:
 
 
 def eotvos_noise(density: float, radius: float) -> Noise:
-    """White accelerometer noise that gives the demodulated cross channel a density in s^-2/sqrt(Hz).
+    """White accelerometer noise that gives the demodulated cross channel a ``density`` in s^-2/sqrt(Hz), ``radius`` in
+    m.
 
-    Four independent accelerometers of density n (m/s^2/sqrt(Hz)) make 2 n k_1 in G_out, k_ggi is 4 R k_1, and
-    demodulation doubles the power: n = sqrt(2) R density. The inline channel, a difference, has twice it.
-
-    Parameters
-    ----------
-    density
-        Of the cross channel, s^-2/sqrt(Hz) (2e-9 is 2 Eo/sqrt(Hz)).
-    radius
-        R, m.
+    n = sqrt(2) R density, m/s^2/sqrt(Hz). The inline channel, a difference, has twice the cross channel's.
     """
     return Noise(omega_T=2 * (radius * density) ** 2)

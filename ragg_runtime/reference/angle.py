@@ -16,15 +16,9 @@ def _halves(x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.flo
 
 
 def turns(frequency: ArrayLike, time: ArrayLike) -> NDArray[np.float64]:
-    """Fractional part of frequency * time, between -0.5 and 0.5, to one rounding.
+    """Fractional part of frequency (Hz) * time (s), between -0.5 and 0.5, to one rounding.
 
-    The rounding error of the product is recovered (Dekker 1971) before whole turns are dropped; after
-    ten days at any frequency the plain product would have lost five digits of the angle.
-
-    Parameters
-    ----------
-    frequency, time
-        Hz and s; broadcast against each other.
+    The rounding error of the product is recovered (Dekker 1971) before whole turns are dropped.
     """
     f = np.asarray(frequency, dtype=np.float64)
     t = np.asarray(time, dtype=np.float64)
@@ -36,21 +30,9 @@ def turns(frequency: ArrayLike, time: ArrayLike) -> NDArray[np.float64]:
 
 
 def disc_angle(frequency: float, time: ArrayLike, shift: float = 0.0) -> NDArray[np.float64]:
-    """Angle 2 pi f (time - shift) of the disc from A1's position on the x axis.
+    """Angle 2 pi f (time - shift), (N,) rad, of the disc from A1's position on the x axis; ``time`` (N,) s,
+    ``frequency`` Hz.
 
-    The shift stays apart, because nanoseconds are lost beside a time of thousands of seconds.
-
-    Parameters
-    ----------
-    frequency
-        Spin frequency, Hz.
-    time
-        (N,) s.
-    shift
-        s.
-
-    Returns
-    -------
-    (N,) rad, reduced to a few turns.
+    The ``shift``, s, stays apart, because nanoseconds are lost beside a time of thousands of seconds.
     """
     return 2 * np.pi * (turns(frequency, time) - turns(frequency, shift))

@@ -43,16 +43,8 @@ def plausible(
 ) -> Mapping[str, Auxiliary]:
     """Temperature, roll, pitch, pressure and magnetic field of a survey line.
 
-    Parameters
-    ----------
-    rng
-        Draws periods and phases.
-    warming
-        Total change of temperature, K, with a time constant of 20 minutes.
-    swing
-        Amplitude of the temperature's slow swings, K.
-    roll, pitch
-        Standard deviation of what the stabilised platform leaves, rad.
+    ``warming``, K, has a time constant of 20 minutes; ``swing``: amplitude of the slow swings, K; ``roll``, ``pitch``:
+    standard deviations, rad.
     """
     swings = Sinusoids(
         0.0, swing * np.array([0.7, 0.3]), 1 / rng.uniform(200, 900, 2), rng.uniform(0, 6.28, 2)

@@ -59,22 +59,9 @@ class Instant:
 class Chain:
     """An instrument in a world: everything that determines its noise-free voltages.
 
-    Attributes
-    ----------
-    instrument
-        True parameters (SI).
-    motion, gravity, auxiliaries
-        The world; gravity ``None`` is none.
-    rotations
-        How mounting angles turn: ``first-order`` (the paper's geometry), ``second-order`` in each of them, or ``exact``.
-    effects
-        Resolved.
-    turning
-        How each disc turns.
-    spin
-        Share of the disc's own turning in the kinematics: 0 is Eq. 49, 1 nature.
-    misalignment
-        How misalignment angles turn: ``first-order`` (Eq. 2) or ``exact``.
+    ``rotations``: how mounting angles turn, ``first-order`` (the paper), ``second-order`` or ``exact``;
+    ``misalignment``: ``first-order`` (Eq. 2) or ``exact``. ``spin``: share of the disc's own turning in the kinematics,
+    0 is Eq. 49, 1 nature.
     """
 
     instrument: Instrument

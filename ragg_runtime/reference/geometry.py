@@ -20,14 +20,8 @@ _NOMINAL = np.column_stack([Y, X, -Z])
 class Mount:
     """One accelerometer, in the frame of the disc.
 
-    Attributes
-    ----------
-    arm
-        (3,) from the disc centre to the accelerometer, over its radius (unit length in exact rotations).
-    triad
-        (3, 3), rows tau_x, tau_y, tau_z: its nominal frame at its actual position.
-    lift
-        (3,) m, along the axis: from the plane of the disc's centre to that of the accelerometer.
+    ``arm`` (3,): from the disc centre, over its radius. ``triad`` (3, 3): rows tau_x, tau_y, tau_z, its nominal frame
+    at its actual position. ``lift`` (3,) m: along the axis, from the plane of the disc's centre.
     """
 
     arm: Array
@@ -38,10 +32,8 @@ class Mount:
 def mount(place: Place, beta_x: float, beta_z: float, rotations: Rotations) -> Mount:
     """An accelerometer with altitude beta_x and initial phase angle beta_z (rad).
 
-    In its own nominal axes the arm is y turned by -beta_x about x, which lifts it towards +z of the
-    measurement frame (nominal z points down), while the triad is turned by +beta_x: the senses of the
-    printed Eq. 19. Both then turn by beta_z about the spin axis and move to the station. An input axis of
-    another direction than along the turn has turned the triad before all that.
+    The arm is y turned by -beta_x about x, the triad by +beta_x (the senses of the printed Eq. 19); both then turn by
+    beta_z about the spin axis and move to the station. A direction of the input axis turns the triad before that.
     """
     c, s = place.cosine_sine
     station = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

@@ -1,11 +1,7 @@
-"""Gravity of attracting masses near the instrument, relative to its value at the disc centre.
+"""Gravity of attracting masses near the instrument, relative to its value at the disc centre, a_g(r) - a_g(0).
 
-The attraction at the centre belongs to the specific force a = f_cmm (Eq. 11), so an accelerometer at r
-sees the difference a_g(r) - a_g(0). It is ten orders below a_g itself and is never computed by subtracting
-two attractions: each source has a form free of that cancellation.
-
-All positions are in the measurement frame (m), from the disc centre; a mass may move in it. The gradient
-tensor has the order of ``COMPONENTS``, in s^-2 (1 Eo = 1e-9 s^-2).
+It is ten orders below a_g and never computed by subtracting two attractions. Positions are in the measurement frame, m,
+from the disc centre; the gradient tensor has the order of ``COMPONENTS``, in s^-2.
 """
 
 from __future__ import annotations
@@ -61,13 +57,7 @@ def components(matrix: ArrayLike) -> Array:
 
 @dataclass(frozen=True)
 class Gradient:
-    """A uniform gradient field: a_g(r) - a_g(0) = Gamma r (Eq. 10).
-
-    Attributes
-    ----------
-    tensor
-        (6,) in s^-2, or a function of time (N,) s -> (6, N).
-    """
+    """A uniform gradient field, (6,) in s^-2 or a function of time (N,) s -> (6, N): a_g(r) - a_g(0) = Gamma r (Eq. 10)."""
 
     tensor: Array | Callable[[Array], Array]
 
@@ -95,15 +85,7 @@ def gradient_series(time: ArrayLike, tensor: ArrayLike) -> Gradient:
 
 @dataclass(frozen=True)
 class PointMass:
-    """Newton's law for one point mass (Eq. 49), or a sphere seen from outside.
-
-    Attributes
-    ----------
-    mass
-        kg.
-    position
-        (3,) m, or a function of time (N,) s -> (3, N).
-    """
+    """Newton's law for one point mass, kg (Eq. 49); ``position``: (3,) m, or a function of time (N,) s -> (3, N)."""
 
     mass: float
     position: Sequence[float] | Array | Track

@@ -1,8 +1,6 @@
-"""The true motion of the disc centre as smooth functions of time.
+"""The true motion of the disc centre as smooth functions of time, with derivatives, at any instant.
 
-A simulator needs a(t), omega(t) and omegadot(t) that belong to each other at any instant, not only at
-the samples: a lag looks backwards, a clock offset sideways. A signal gives its value and its derivative
-at time - shift, where the shift is kept apart from the time so that nanoseconds survive.
+A signal takes time and shift apart, so that nanoseconds survive.
 """
 
 from __future__ import annotations
@@ -39,17 +37,7 @@ class Signal(Protocol):
 
 @dataclass(frozen=True)
 class Sinusoids:
-    """mean + envelope(t) * sum of amplitude * sin(2 pi frequency t + phase).
-
-    Attributes
-    ----------
-    mean
-        In the signal's SI unit.
-    amplitude, frequency, phase
-        (K,) each: SI unit, Hz, rad.
-    envelope
-        Makes the signal non-stationary; ``None`` is 1.
-    """
+    """mean + envelope(t) * sum of amplitude * sin(2 pi frequency t + phase); (K,) each: SI unit, Hz, rad."""
 
     mean: float = 0.0
     amplitude: Sequence[float] | Array = ()
@@ -99,18 +87,7 @@ class Sinusoids:
 
 @dataclass(frozen=True)
 class Recorded:
-    """A record, evenly sampled or not, interpolated by a quintic spline (four continuous derivatives).
-
-    The spline *is* the motion: value and derivative agree with each other exactly, and with the record
-    at its samples.
-
-    Attributes
-    ----------
-    time
-        (M,) s, increasing, M >= 6.
-    samples
-        (M,) SI unit.
-    """
+    """A record, ``time`` (M,) s, M >= 6, ``samples`` (M,) SI, interpolated by a quintic spline. The spline *is* the motion."""
 
     time: Array
     samples: Array

@@ -58,18 +58,11 @@ def spin(vector: ArrayLike, angle: ArrayLike) -> Array:
 def frame_rotation(
     x: ArrayLike, y: ArrayLike, z: ArrayLike, rotations: Literal["first-order", "exact"] = "exact"
 ) -> Array:
-    """Coordinates of a fixed vector after its frame turns about x, then its new y, then its new z.
+    """Coordinates of a fixed vector after its frame turns about x, then its new y, then its new z, by angles in rad, ()
+    or (N,).
 
-    To first order this is the paper's C (Eq. 2); exactly, its first row carries the products of Eq. 5b.
-
-    Parameters
-    ----------
-    x, y, z
-        Angles in rad, scalars or (N,) alike.
-
-    Returns
-    -------
-    (3, 3) or (3, 3, N): row k gives the component along axis k of the turned frame.
+    To first order this is the paper's C (Eq. 2). (3, 3) or (3, 3, N): row k gives the component along axis k of the
+    turned frame.
     """
     x, y, z = np.broadcast_arrays(*(np.asarray(v, dtype=np.float64) for v in (x, y, z)))
     one, nil = np.ones_like(x), np.zeros_like(x)

@@ -45,19 +45,7 @@ _INSTRUMENT, _MOTION, _AUXILIARY, _GEOLOGY = range(10, 14)
 
 @dataclass(frozen=True)
 class Scenario:
-    """A test sheet, a true instrument that differs from it, and a flight.
-
-    Attributes
-    ----------
-    sheet
-        What the model believes.
-    instrument
-        What flies.
-    motion, gravity, noise, auxiliaries, duration, rate, rotations
-        As in ``simulate``.
-    seed
-        From which all of it was drawn.
-    """
+    """A test ``sheet`` (what the model believes), a true ``instrument`` that flies, and a flight as in ``simulate``."""
 
     sheet: Instrument
     instrument: Instrument
@@ -95,18 +83,11 @@ def draw_motion(
     bursts: float | None = None,
     turbulence_scale: float = 1.0,
 ) -> Motion:
-    """Turbulent motion of a stabilised platform: 10/10/30 mg about 15/15/100 mg, 150 about 100 deg/h.
+    """Turbulent motion of a stabilised platform: 10/10/30 mg about 15/15/100 mg, 150 about 100 deg/h; ``duration`` in
+    s.
 
-    Parameters
-    ----------
-    rng
-        Source of the random numbers.
-    duration
-        s.
-    shape, bursts
-        As in ``turbulence``; ``None`` draws one for each component, and up to 0.6 for the bursts.
-    turbulence_scale
-        Factor on the rms values.
+    ``shape``, ``bursts`` as in ``turbulence``; ``None`` draws one for each component. ``turbulence_scale``: factor on
+    the rms values.
     """
     intensity = rng.uniform(0, 0.6) if bursts is None else bursts
 
@@ -128,14 +109,7 @@ def draw_motion(
 def draw_gradient(rng: np.random.Generator, rms: float = 0.0, terms: int = 6) -> Gradient:
     """The constant background, and geology passing by with periods of one to ten minutes.
 
-    Parameters
-    ----------
-    rng
-        Source of the random numbers.
-    rms
-        Of each of the five independent components' variation, s^-2.
-    terms
-        Sinusoids for each component.
+    ``rms``: of each of the five independent components' variation, s^-2, as ``terms`` sinusoids.
     """
     drawn = [
         Sinusoids(
@@ -171,26 +145,10 @@ def scenario(
 ) -> Scenario:
     """Draw an instrument and a flight; equal arguments give equal flights.
 
-    Parameters
-    ----------
-    seed
-        Determines everything that is drawn.
-    trim
-        ``matched``: scale factors 10, 10.001, 10.0015, 10.002 mA/g; ``table-v``: 10, 11, 11.5, 12 mA/g.
-    duration, rate
-        s, Hz.
-    shape, bursts, turbulence_scale
-        Of the motion (``draw_motion``).
-    perturbation
-        How far the true parameters lie from the test sheet, in units of a test sheet's usual error.
-    noise_density
-        White noise of the demodulated cross channel, s^-2/sqrt(Hz); 0 is none.
-    red_corner
-        Frequency (Hz) below which 1/f noise exceeds the white; ``None``: no red noise.
-    gradient_rms
-        Variation of the gradient, s^-2.
-    rotations
-        As in ``simulate``.
+    ``trim``: scale factors ``matched`` (10, 10.001, 10.0015, 10.002 mA/g) or ``table-v`` (10, 11, 11.5, 12 mA/g).
+    ``duration`` s, ``rate`` Hz; ``shape``, ``bursts``, ``turbulence_scale`` as in ``draw_motion``. ``perturbation``: of
+    the true parameters, in a test sheet's usual errors. ``noise_density``: white, of the demodulated cross channel,
+    s^-2/sqrt(Hz). ``red_corner``: Hz, below which 1/f noise exceeds the white; ``None``: none. ``gradient_rms``: s^-2.
     """
     if trim not in ("matched", "table-v"):
         raise UserError("unknown trim", found=trim, expected="matched or table-v")

@@ -39,20 +39,8 @@ _NOISE_STREAM, _ANGLE_STREAM, _AUXILIARY_STREAM = 1, 2, 3
 class Simulation:
     """What was recorded, and what a real instrument never tells.
 
-    Attributes
-    ----------
-    time
-        (N,) s.
-    channels
-        Recorded motion, gradients and auxiliaries, (N,) each, SI.
-    voltages, outputs
-        (n, N) V and name -> (N,) V, as recorded.
-    voltages_noise_free, outputs_noise_free
-        The same without accelerometer noise, effects included.
-    instrument
-        The true parameters.
-    effects
-        What was injected, all parameters, SI.
+    ``time`` (N,) s; ``channels``: name -> (N,) SI; ``voltages`` (n, N) V and ``outputs``: name -> (N,) V, as recorded,
+    and free of accelerometer noise. ``instrument``, ``effects``: the true parameters and all that was injected, SI.
     """
 
     time: Array

@@ -70,25 +70,9 @@ def turbulence(
 ) -> Recorded:
     """One component of a random motion, smooth in time.
 
-    Parameters
-    ----------
-    rng
-        Source of the random numbers.
-    duration, start
-        Of the flight, s; the signal goes on for ten seconds at both ends.
-    rms, mean
-        Standard deviation and mean over the flight, which it meets exactly, SI.
-    shape
-        One of ``SHAPES``.
-    cutoff
-        Half-power frequency of the steep low-pass (48 dB an octave) that the platform is, Hz.
-    bursts
-        Standard deviation of the logarithm of a slowly varying intensity; 0 is stationary.
-
-    Raises
-    ------
-    UserError
-        On an unknown shape.
+    ``duration``, ``start``: of the flight, s; the signal goes on for ten seconds at both ends. ``rms``, ``mean``: SI,
+    met exactly. ``shape``: one of ``SHAPES``. ``cutoff``: half-power frequency of the platform's low-pass (48 dB an
+    octave), Hz. ``bursts``: standard deviation of the logarithm of a slowly varying intensity; 0 is stationary.
     """
     if shape not in SHAPES:
         raise UserError(

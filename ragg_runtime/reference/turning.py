@@ -16,18 +16,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Turning:
-    """Angle 2 pi frequency t + start + sum of amplitude sin(2 pi f t + phase) + recorded.
+    """Angle 2 pi frequency t + start + sum of amplitude sin(2 pi f t + phase) + recorded, rad.
 
-    Attributes
-    ----------
-    frequency
-        Hz; negative: backwards; 0 with swings: to and fro.
-    swings
-        (amplitude rad, frequency Hz, phase rad) each.
-    start
-        rad.
-    recorded
-        What a record of the angle has beyond the steady turning, rad; ``None``: nothing.
+    ``frequency``: Hz; negative: backwards; 0 with swings: to and fro. ``swings``: (amplitude rad, frequency Hz, phase
+    rad) each. ``recorded``: what a record has beyond the steady turning, rad.
     """
 
     frequency: float

@@ -56,24 +56,10 @@ class Input:
 class Out:
     """An output of the model.
 
-    Attributes
-    ----------
-    name, formula
-        Its column, and what it is of the voltages.
-    members, signs
-        Its accelerometers, counted from 0, and how each counts.
-    angle_column
-        Column with the angle of its disc.
-    spin
-        Place of the disc's rate in the parameter vector.
-    scale_factor
-        k_ggi, V/Eo.
-    phase
-        rad: a gradient shows as k_ggi (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)).
-    sees
-        Whether it sees a gradient at all, on a disc that turns.
-    ending
-        Of its columns among what is found: empty of an only output.
+    ``formula``: what it is of the voltages. ``members``: its accelerometers, counted from 0, ``signs`` how each counts.
+    ``spin``: place of the disc's rate in the parameter vector. ``scale_factor``: k_ggi, V/Eo. ``phase``, rad: a
+    gradient shows as k_ggi (inline/2 sin(2 phi + phase) - cross cos(2 phi + phase)). ``sees``: whether it sees a
+    gradient, on a disc that turns. ``ending``: of its columns among what is found.
     """
 
     name: str
@@ -92,24 +78,9 @@ class Out:
 class Contents:
     """A model with its values.
 
-    Attributes
-    ----------
-    name
-        Of the model.
-    model, instrument
-        As loaded.
-    p
-        (size,) SI.
-    sources
-        The model in C, header and source: file name -> text.
-    module
-        The model's chain in NumPy, as derived.
-    origin
-        Where the values come from, in a sentence.
-    information
-        (n, n) square root of the calibration's information, in the scales of the fitted parameters; ``None``: none.
-    calibration
-        What was saved of the calibration; ``None``: the values are those of model.toml.
+    ``p`` (size,) SI. ``sources``: the model in C, file name -> text; ``module``: its chain in NumPy. ``origin``: where
+    the values come from. ``information`` (n, n): square root of the calibration's, in the scales of the fitted
+    parameters; ``None``: none.
     """
 
     name: str
@@ -198,10 +169,7 @@ class Contents:
         ]
 
     def example(self, *, derived: bool = False) -> tuple[dict[str, Array], dict[str, Array]]:
-        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it.
-
-        ``derived``: the motion has no angular acceleration, but encoders whose turning is not quite steady.
-        """
+        """Columns (name -> (N,), SI) of a lively motion, ``time`` first, and the outputs (N,), V, that the model makes of it."""
         t = np.arange(ROWS) / RATE
         rng = np.random.default_rng(0)
         columns: dict[str, Array] = {"time": t}

@@ -40,10 +40,7 @@ def numpy_files(c: Contents) -> dict[str, str]:
 
 
 def document(c: Contents) -> dict[str, Any]:
-    """The model's description, its parameters with units, its inputs and outputs, and an example with its answer.
-
-    An input of the column ``disc`` is made of the angle of the output's own disc.
-    """
+    """The model's description, its parameters with units, its inputs and outputs, and an example with its answer."""
     motion, answers = c.example()
     outputs = [
         {

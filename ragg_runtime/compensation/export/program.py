@@ -243,10 +243,7 @@ Array = NDArray[np.float64]
 
 
 def online_values(c: Contents) -> str:
-    """online_values.h: the point about which the model is linearised, what is fitted, what is known of it.
-
-    Outputs of fewer parameters than others have some that nothing depends on.
-    """
+    """online_values.h: the point about which the model is linearised, what is fitted, what is known of it."""
     outputs = [(k, o) for k, o in enumerate(c.outputs()) if o.sees]
     fitted = [_fitted(c, k) for k, _ in outputs]
     most = max(len(rows) for rows in fitted)

@@ -1,9 +1,7 @@
-"""The derived model as machine code: generated C, compiled on first use, called without copies.
+"""The derived model as machine code: generated C, compiled on first use (``CC``, else cc, gcc or clang), called without
+copies.
 
-``model.compiled()`` gives an :class:`Evaluator`. The C is compiled by the compiler that is there (``CC``, else
-cc, gcc or clang) into a cache of the user, once for each source, compiler and processor. Where
-there is no compiler the generated NumPy code serves, which is said once. The environment variable
-``RAGG_NATIVE`` may be ``off`` (always NumPy).
+Where there is no compiler, or the environment variable ``RAGG_NATIVE`` is ``off``, the generated NumPy code serves.
 """
 
 from __future__ import annotations

@@ -181,11 +181,7 @@ def evaluator(
     backend: Backend = "auto",
     layout: Layout = PAPER,
 ) -> Evaluator:
-    """The evaluator of a model: of its chain in NumPy, its C (file name -> text), its folded form if it has one.
-
-    ``auto``: machine code, or NumPy with a note (once a process) where it cannot be made; ``c``: machine code, or
-    UserError.
-    """
+    """The evaluator of a model: machine code, or, of ``auto``, NumPy with a note where it cannot be made (``c``: UserError)."""
     if backend not in ("auto", "c", "numpy"):
         raise UserError("unknown backend", found=repr(backend), expected="auto, c or numpy")
     if backend == "numpy":
@@ -214,9 +210,8 @@ def for_fits(
 ) -> Callable[[str], Evaluator]:
     """Evaluators of generated modules (name -> module) for their derivatives, each made when it is asked for by name.
 
-    In machine code where ``sources`` holds a module's C and it can be compiled (``quick``: in a third of the time, to code
-    that is as fast where memory is what it waits for); else in NumPy, without a note: a fit is a little slower then, and
-    the same but for rounding.
+    In machine code where ``sources`` holds a module's C and it can be compiled (``quick``: with less effort); else in
+    NumPy.
     """
 
     def made(name: str) -> Evaluator:

@@ -28,20 +28,11 @@ def changes(
     weights: Array,
     which: int = 0,
 ) -> Array:
-    """(k, 2, N // few): means over ``few`` samples of G_out(p + step) - G_out(p), of each step, times two series.
+    """(k, 2, N // few): means over ``few`` samples of G_out(p + step) - G_out(p), of each step, times ``weights`` (2,
+    N).
 
-    Parameters
-    ----------
-    t, x, angle
-        (N,) s, of each input (N,) SI or ``None``, (N,) rad: as an :class:`Evaluator` takes them.
-    p, steps
-        (size,), (k, size): SI.
-    weights
-        (2, N).
-    which
-        The output.
-
-    In machine code by the folded form, which is linear in its coefficients: their differences are what counts.
+    ``t`` (N,) s, ``x`` of each input (N,) SI or ``None``, ``angle`` (N,) rad; ``p`` (size,), ``steps`` (k, size), SI;
+    ``which``: output.
     """
     count = len(t) // few
     if isinstance(e, Compiled) and e.folded and not e.several and few <= LONGEST:

@@ -1,9 +1,4 @@
-"""Generated C -> shared library in a cache of the user.
-
-What is compiled is text that this program has derived or that is packaged with it, never a file that was found
-in a model directory. The library's name is the digest of everything that it depends on: source, compiler,
-options, processor.
-"""
+"""Generated C -> shared library in a cache of the user, named by the digest of source, compiler, options and processor."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Effects beyond the paper's model, injected into the numerical reference in full, nonlinear form.
 
-One module per stage of the instrument. They share no formula with the derivation: a lag is an integral
-over the past, vibration an average over its instances, a lean a rotation, a clock offset another instant.
+One module per stage of the instrument. They share no formula with the derivation.
 """
 
 from __future__ import annotations

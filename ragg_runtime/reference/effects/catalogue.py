@@ -22,16 +22,9 @@ EffectValues = Mapping[str, Mapping[str, ArrayLike]]
 
 @dataclass(frozen=True)
 class Parameter:
-    """One number (or one per accelerometer) of an effect.
+    """One number of an effect (``per_accelerometer``: one each), absent at ``neutral``.
 
-    Attributes
-    ----------
-    unit
-        SI unit; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 stands for the paper's g/g^3.
-    per_accelerometer
-        Four values, or one for all.
-    neutral
-        Value at which the effect is absent.
+    ``unit``: SI; m/s^2 is the unit of specific force, so 1/(m/s^2)^2 stands for the paper's g/g^3.
     """
 
     unit: str
@@ -118,16 +111,9 @@ CATALOGUE: Mapping[str, Mapping[str, Parameter]] = {
 
 
 def resolve(effects: EffectValues | None, count: int = 4) -> Injected:
-    """Check what a user asked for and fill in the neutral values, for ``count`` accelerometers.
+    """Check what a user asked for and fill in the neutral values; UserError on what is unknown or no number.
 
-    Returns
-    -------
     For each effect, all of its parameters: (count,) arrays per accelerometer, () arrays shared.
-
-    Raises
-    ------
-    UserError
-        On an unknown effect or parameter, a wrong number of values, or one that is not a number.
     """
     resolved: dict[str, Values] = {}
     for effect, given in (effects or {}).items():
