@@ -30,7 +30,7 @@ from ragg_runtime.instrument.instrument import Instrument
 from ragg_runtime.instrument.layout import column_endings
 from ragg_runtime.model.evaluate import scale_factor, vector
 from ragg_runtime.model.model import Model
-from ragg_runtime.model.record import GRADIENTS, Record
+from ragg_runtime.model.record import GRADIENTS
 from ragg_runtime.model.recorded import carried
 from ragg_runtime.signals.demodulate import CUTOFF
 
@@ -143,7 +143,8 @@ class Online:
     def _rows(self, o: Observation) -> Array:
         """(N, n + 3): every sample as a row of the least squares, over the noise."""
         r = o.record
-        bare = replace(o, record=_without_gradients(r), memo=[])
+        wide = {name: x for name, x in r.wide.items() if name not in GRADIENTS}
+        bare = replace(o, record=replace(r, wide=wide), memo=[])
         columns = as_output(bare, linearised(Point(self.model, self.instrument, self.p, False), bare))
         columns = columns[[*self.own, len(columns) - 1]]
         zero, one = np.zeros(len(r.time)), np.ones(len(r.time))
@@ -199,10 +200,6 @@ class Online:
 def _triangle(rows: Array) -> Array:
     """The triangular factor of rows."""
     return np.asarray(np.linalg.qr(rows, mode="r"))
-
-
-def _without_gradients(r: Record) -> Record:
-    return replace(r, wide={name: x for name, x in r.wide.items() if name not in GRADIENTS})
 
 
 CHANNELS = ("inline", "cross", "inline_std", "cross_std")

@@ -109,19 +109,15 @@ MOST_COLUMNS = 2000
 """Columns of a file beyond which it is no record of an instrument, and would take minutes."""
 
 
-def too_many_columns(path: Path) -> UserError:
-    return UserError(
-        "the file has too many columns for a flight",
-        where=path,
-        expected=f"at most {MOST_COLUMNS}",
-        remedy="keep the columns that the instrument and its effects need",
-    )
-
-
 def heading(text: str, path: Path, number: int = 1) -> Heading:
     """Name and unit of ``name [unit]`` or ``name (unit)``; what stands in round brackets must be a unit."""
     if number > MOST_COLUMNS:
-        raise too_many_columns(path)
+        raise UserError(
+            "the file has too many columns for a flight",
+            where=path,
+            expected=f"at most {MOST_COLUMNS}",
+            remedy="keep the columns that the instrument and its effects need",
+        )
     match = _HEADER.fullmatch(text)
     if match is None:
         raise UserError(

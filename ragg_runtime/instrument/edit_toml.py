@@ -12,12 +12,11 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import AoT
 
 from ragg_runtime.base.errors import UserError, did_you_mean
-from ragg_runtime.instrument.demodulation import Demodulation
-from ragg_runtime.instrument.form import PAPER, Form
+from ragg_runtime.instrument.form import PAPER
 from ragg_runtime.instrument.instrument import EffectSetting, Instrument
 from ragg_runtime.instrument.layout import Layout
-from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS, Vector
-from ragg_runtime.instrument.units import RawQuantity, units
+from ragg_runtime.instrument.parameters import DISC_UNITS, PARAMETER, PARAMETERS
+from ragg_runtime.instrument.units import RawQuantity
 
 
 def set_parameters(
@@ -53,7 +52,12 @@ def add_effect(text: str, setting: EffectSetting) -> str:
     entries = _entries(document)
     place = _place(entries, setting.id)
     if place is None:
-        _append(entries, _entry(setting))
+        entry = _entry(setting)
+        if isinstance(entries, AoT):
+            table = tomlkit.table()
+            table.update(entry if not isinstance(entry, str) else {"id": str(entry)})
+            entry = table
+        entries.append(entry)
     elif isinstance(entries[place], str):
         comment = entries[place].trivia.comment
         entries[place] = _entry(setting)
@@ -82,82 +86,55 @@ def remove_effect(text: str, effect_id: str) -> str:
 
 def model_text(instrument: Instrument) -> str:
     """A whole model.toml for an instrument, in display units; reads back to the same SI numbers."""
-    document = tomlkit.document()
-    document.add(tomlkit.comment(_order(instrument.layout)))
-    disc = tomlkit.table()
-    for name, unit in DISC_UNITS.items():
-        disc.add(name, f"{getattr(instrument, name)!r} {unit}")
-    accelerometers = tomlkit.table()
-    known = instrument.units
-    for p in PARAMETERS:
-        shown = known.from_si(instrument.accelerometers[p.name], p.si_unit, p.display_unit)
-        entry = _quantity(RawQuantity(_shortest(p.name, shown, instrument), p.display_unit))
-        if p.name in instrument.sigmas:
-            sigma = known.from_si(instrument.sigmas[p.name], p.si_unit, p.display_unit)
-            entry.add("sigma", [_plain(v) for v in sigma])
-        accelerometers.add(p.name, entry)
-    document.add("effects", tomlkit.array())
-    if not instrument.layout.of_paper:
-        document.add("g0", f"{instrument.g0!r} m/s^2")
-    if instrument.form != PAPER:
-        document.add("model", _form(instrument.form))
+    layout, form = instrument.layout, instrument.form
+    document: dict[str, Any] = {"effects": []}
+    if not layout.of_paper:
+        document["g0"] = f"{instrument.g0!r} m/s^2"
+    if form != PAPER:
+        document["model"] = {"kinematics": form.kinematics, "order": form.preset or dict(form.order)}
     if instrument.demodulation is not None:
-        document.add("demodulator", _demodulator(instrument.demodulation))
-    document.add("disc", disc if instrument.layout.of_paper else _discs(instrument.layout))
-    document.add("accelerometers", accelerometers)
+        document["demodulator"] = dict(instrument.demodulation.entries())
+    if layout.of_paper:
+        document["disc"] = {n: f"{getattr(instrument, n)!r} {unit}" for n, unit in DISC_UNITS.items()}
+    else:
+        document["disc"] = _discs(layout)
+    document["accelerometers"] = accelerometers = {}
+    for p in PARAMETERS:
+        accelerometers[p.name] = entry = _quantity(RawQuantity(_shortest(p.name, instrument), p.display_unit))
+        if p.name in instrument.sigmas:
+            sigma = instrument.units.from_si(instrument.sigmas[p.name], p.si_unit, p.display_unit)
+            entry.add("sigma", [_plain(v) for v in sigma])
     text = tomlkit.dumps(document)
     for setting in instrument.effects:
         text = add_effect(text, setting)
     return text
 
 
-def _order(layout: Layout) -> str:
-    if layout.of_paper:
-        return "Four values: A1, A2, A3, A4."
-    return f"Values in the order of the accelerometers: {', '.join(layout.names)}."
-
-
-def _discs(layout: Layout) -> Any:
-    discs = tomlkit.aot()
-    for k, d in enumerate(layout.discs):
-        own = [p for p in layout.places if p.disc == k]
-        table = tomlkit.table()
-        table.update({"name": d.name, "spin_frequency": f"{d.spin_frequency!r} Hz"})
-        table.update({"axis": list(d.axis), "zero": list(d.zero)})
-        places = tomlkit.aot()
-        for p in own:
-            place = tomlkit.table()
-            place.update({"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"})
-            place.update({"height": f"{p.height!r} m", "direction": list(p.direction)})
-            place.update({"sign": p.sign, "output": layout.output_names[p.output]})
-            places.append(place)
-        table.add("accelerometer", places)
-        discs.append(table)
+def _discs(layout: Layout) -> list[dict[str, Any]]:
+    discs: list[dict[str, Any]] = [
+        {
+            "name": d.name,
+            "spin_frequency": f"{d.spin_frequency!r} Hz",
+            "axis": list(d.axis),
+            "zero": list(d.zero),
+            "accelerometer": [],
+        }
+        for d in layout.discs
+    ]
+    for p in layout.places:
+        place = {"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"}
+        place |= {"height": f"{p.height!r} m", "direction": list(p.direction)}
+        place |= {"sign": p.sign, "output": layout.output_names[p.output]}
+        discs[p.disc]["accelerometer"].append(place)
     return discs
 
 
-def _form(form: Form) -> Any:
-    table = tomlkit.table()
-    table.add("kinematics", form.kinematics)
-    order = tomlkit.inline_table()
-    order.update(form.order)
-    table.add("order", form.preset or order)
-    return table
-
-
-def _demodulator(d: Demodulation) -> Any:
-    table = tomlkit.table()
-    for key, value in d.entries().items():
-        table.add(key, value)
-    return table
-
-
-def _shortest(name: str, shown: Vector, instrument: Instrument) -> tuple[float, ...]:
+def _shortest(name: str, instrument: Instrument) -> tuple[float, ...]:
     """Values in the display unit with the fewest digits that still convert to the instrument's SI values."""
-    p, known = PARAMETER[name], units(instrument.g0)
+    p, known = PARAMETER[name], instrument.units
     target = instrument.accelerometers[name]
     result = []
-    for value, si in zip(shown, target, strict=True):
+    for value, si in zip(known.from_si(target, p.si_unit, p.display_unit), target, strict=True):
         near = (float(f"{value:.{digits}g}") for digits in (6, 9, 12, 15, 16, 17))
         result.append(
             next((v for v in near if known.to_si(v, p.display_unit, p.si_unit) == si), float(value))
@@ -228,15 +205,6 @@ def _put(table: Any, name: str, item: Any) -> None:
             table[name].trivia.comment_ws = trivia.comment_ws
     else:
         table.add(name, item)
-
-
-def _append(entries: Any, entry: Any) -> None:
-    if isinstance(entries, AoT):
-        table = tomlkit.table()
-        table.update(entry if not isinstance(entry, str) else {"id": str(entry)})
-        entries.append(table)
-    else:
-        entries.append(entry)
 
 
 def _place(entries: Any, effect_id: str) -> int | None:

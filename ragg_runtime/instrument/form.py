@@ -41,16 +41,13 @@ class Form:
             "second_order_angles": self.second_order_angles,
         }
 
-    def beyond_paper(self) -> tuple[tuple[str, int | str | bool], ...]:
-        """The settings of the order that are not the paper's."""
-        return tuple((k, v) for k, v in self.order.items() if v != PAPER.order[k])
-
     def as_json(self) -> dict[str, object]:
         return {"kinematics": self.kinematics, "order": dict(self.order)}
 
     def in_short(self) -> str:
         """For a table: what is beyond the paper's order, if it has no name."""
-        kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in self.beyond_paper())
+        beyond = [(k, v) for k, v in self.order.items() if v != PAPER.order[k]]
+        kept = (f"{k.replace('_', ' ')}{'' if v is True else f' {v}'}" for k, v in beyond)
         return f"{self.kinematics}, {self.preset or ', '.join(kept)}"
 
     def words(self) -> str:

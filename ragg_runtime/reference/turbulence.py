@@ -14,18 +14,6 @@ from ragg_runtime.reference.motion import Recorded
 Array = NDArray[np.float64]
 
 
-def _flat(f: Array) -> Array:
-    return np.ones_like(f)
-
-
-def _dryden(f: Array) -> Array:
-    return 1 / (1 + (f / 0.25) ** 2)
-
-
-def _kolmogorov(f: Array) -> Array:
-    return (0.03**2 + f**2) ** (-5 / 6)
-
-
 def _resonant(f: Array) -> Array:
     """A broad floor with the phugoid-like and short-period peaks of a light aircraft."""
     peaks = sum(a / (1 + ((f - f0) / width) ** 2) for a, f0, width in ((3.0, 0.12, 0.03), (2.0, 0.7, 0.12)))
@@ -33,9 +21,9 @@ def _resonant(f: Array) -> Array:
 
 
 SHAPES: Mapping[str, Callable[[Array], Array]] = {
-    "flat": _flat,
-    "dryden": _dryden,
-    "kolmogorov": _kolmogorov,
+    "flat": np.ones_like,
+    "dryden": lambda f: 1 / (1 + (f / 0.25) ** 2),
+    "kolmogorov": lambda f: (0.03**2 + f**2) ** (-5 / 6),
     "resonant": _resonant,
 }
 """Power spectral density over frequency (Hz) below the cutoff, up to a factor."""
