@@ -39,11 +39,7 @@ LEARNED = 0.5
 
 
 def visible(model: Model, p: Array, columns: Sequence[Column], root: Array) -> list[Combination]:
-    """What a root (n, k) of a covariance, in scales, says to be determined: combinations of accelerometers', and values by
-    themselves of parameters that all share, or of which the record sees every accelerometer's.
-
-    ``p`` is the model's parameter vector, for the accelerometers' gains (:mod:`ragg_runtime.diagnosis.parameters`).
-    """
+    """What a root (n, k) of a covariance, in scales, says to be determined: combinations of accelerometers', and single values."""
 
     def std(w: Array) -> float:
         return float(np.linalg.norm(w @ root))

@@ -115,11 +115,8 @@ def without_gradients(flight: Flight) -> Flight:
 
 @dataclass(frozen=True)
 class Prepared:
-    """Flights with the parameters that compensate them.
-
-    ``observations`` are outputs of ``flights``; ``stretches`` and ``noise`` (densities are in the calibration) of each of
-    them; ``seeing`` are those that see a gradient on a turning disc. ``validity``, and ``change`` (how what these flights
-    say departs from the calibration), only if frozen.
+    """Flights with the parameters that compensate them. ``seeing``: observations that see a gradient on a turning disc;
+    ``validity`` and ``change`` only if frozen.
     """
 
     kind: Kind

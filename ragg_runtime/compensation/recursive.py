@@ -92,10 +92,7 @@ class Online:
         root: Array | None = None,
         place: int = 0,
     ) -> None:
-        """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information of all fitted ones, in scales.
-
-        Else at the sheet. ``place`` counts the outputs of the instrument.
-        """
+        """Begin at parameters ``p`` (size,) with ``root`` (all, all) of the information in scales, else at the sheet."""
         self.model, self.instrument, self.tuning = model, instrument, tuning
         self.nominal = vector(model, instrument)
         self.p = self.nominal.copy() if p is None else p.copy()

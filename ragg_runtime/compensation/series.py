@@ -1,10 +1,7 @@
 """The gravity gradient in one segment of a flight: what the model explains removed, demodulated, and how sure it is.
 
-With e = G_out - model(motion, no gradient), the channels inline + i cross are the low-pass of e times
-(4 sin 2 phi - 2 i cos 2 phi) / k_ggi, phi counted from where the output's carriers have no phase. The instrument does not
-see the gradient quite so: its phase and gains are a little off, by what the model says. So the model's own response to that
-first estimate replaces the ideal one, which leaves the second order. The gradient that is put in is the one that was found,
-never a recorded one. (Gradients other than across the disc's axis are seen through mounting errors alone, and stay in.)
+With e = G_out - model(motion, no gradient), inline + i cross are the low-pass of e (4 sin 2 phi - 2 i cos 2 phi) /
+k_ggi. The model's own response to that first estimate then replaces the ideal one, which leaves the second order.
 """
 
 from __future__ import annotations
@@ -41,10 +38,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Stretch:
-    """Samples ``first`` to ``last`` of a flight with one parameter vector.
-
-    ``p`` (size,) in SI; ``directions`` (k, size): steps of one standard deviation, independent of one another, from
-    ``about``, where the fit was linearised: what it sees nothing of there it would seem to see elsewhere.
+    """Samples ``first`` to ``last`` of a flight with ``p`` (size,) in SI; ``directions`` (k, size): independent steps
+    of one standard deviation from ``about``.
     """
 
     first: int

@@ -1,7 +1,4 @@
-"""The angular acceleration as the derivative of a recorded angular rate, and where it can be relied upon.
-
-Motion has power up to the Nyquist frequency, so the window is long and the band wide.
-"""
+"""The angular acceleration as the derivative of a recorded angular rate, and where it can be relied upon."""
 
 from __future__ import annotations
 

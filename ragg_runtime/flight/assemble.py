@@ -140,10 +140,8 @@ def layout(
     accelerometers: Accelerometers = PAPER,
     passed: Sequence[str] = (),
 ) -> Layout:
-    """Check names and units of a file's columns; UserError if one is missing or does not convert.
-
-    ``g0`` is the model's g, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers`` says
-    which columns are outputs, ``passed`` names further columns of the file, for messages.
+    """Check names and units of a file's columns; UserError if one is missing or does not convert. ``g0``: the model's
+    g, m/s^2; ``passed``: further columns of the file, for messages.
     """
     known = units(g0)
     names = [c.name for c in columns]

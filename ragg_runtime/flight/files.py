@@ -31,15 +31,13 @@ def read_flight(
     mapping: Mapped | None = None,
     line: str | None = None,
 ) -> Flight:
-    """The flight in a file (see :mod:`ragg_runtime.flight.formats`), in SI.
+    """The flight in a file (see :mod:`ragg_runtime.flight.formats`), in SI; UserError if it is no uniformly sampled
+    one.
 
-    Columns are described in :class:`~ragg_runtime.flight.record.Flight`; the header of a CSV column is
-    ``name [unit]``, elsewhere the unit is the column's attribute ``units``. Missing samples are filled in
-    and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent; ``notes`` says so.
-
+    Missing samples are filled in and marked in ``valid``; ``omegadot`` and ``G_out`` are derived where they are absent.
     ``g0``: the g of the file's units, m/s^2. ``need_output`` False lets a file of motion alone pass. ``accelerometers``
-    are the instrument's: which columns are outputs. ``mapping``: what the columns are, where the file has names of its
-    own. ``line``: which is meant, where the file has several. UserError if the file is no uniformly sampled flight.
+    are the instrument's. ``mapping``: where the file has names of its own. ``line``: which is meant, where the file has
+    several.
     """
     path = Path(path)
     sources = open_sources(path, mapping)
@@ -117,9 +115,8 @@ def write_flight(
 ) -> None:
     """Write a flight as CSV, Parquet or NetCDF, by the ending of the name; whole or not at all.
 
-    In SI, the default, reading it back gives the same numbers to the last bit. ``units_of`` gives some
-    columns another unit; ``g0`` (m/s^2) is needed where one is made with g. Samples that are not valid are
-    written without output (without motion, if there is no output).
+    In SI, the default, reading it back gives the same bits. ``units_of`` gives some columns another unit; ``g0``:
+    m/s^2.
     """
     write_tables(Path(path), [Written(_columns(flight, units_of or {}, g0))])
 
@@ -171,11 +168,7 @@ class Converted:
 
 
 def convert(source: Path, target: Path, mapping: Mapped | None = None) -> Converted:
-    """Write the flights of one file to another, in the format of its ending.
-
-    Nothing is resampled, filled in or converted: values are the file's, under the file's names and units, or
-    with a mapping under the contract's. Instants become seconds.
-    """
+    """Write the flights of one file to another, in the format of its ending; values as they are, instants in seconds."""
     if source.resolve() == target.resolve():
         raise UserError("a file cannot be converted into itself", where=source, remedy="name another file")
     writable(target)  # before a long file is read for nothing

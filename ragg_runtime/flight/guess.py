@@ -196,7 +196,8 @@ def _columns(
 
 def _unit(h: Heading, name: str, values: NDArray[Any], questions: list[str], where: str) -> tuple[str, str]:
     """The unit to write and a remark; a question where the file gives none or one that cannot be."""
-    si = SI_UNITS.get(name) or _of_others(name)
+    stem = re.sub(r"_[^_]+$", "", name)
+    si = SI_UNITS.get(name) or (SI_UNITS.get(stem) if stem in DEMODULATED else None)
     if h.unit and is_unit(h.unit):
         if si is None or units(9.8).fits(h.unit, si):
             return h.unit, ""
@@ -206,11 +207,6 @@ def _unit(h: Heading, name: str, values: NDArray[Any], questions: list[str], whe
     looks = _looks(name, values)
     questions.append(f"{where}: unit of {h.name!r} ({said}{'; ' + looks if looks else ''})")
     return UNKNOWN, f"  # {_quoted(said)}" + (f"; {looks}" if looks else "")
-
-
-def _of_others(name: str) -> str | None:
-    stem = re.sub(r"_[^_]+$", "", name)
-    return SI_UNITS.get(stem) if stem in DEMODULATED else None
 
 
 def _looks(name: str, values: NDArray[Any]) -> str:

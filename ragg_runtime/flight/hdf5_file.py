@@ -45,12 +45,9 @@ class Place:
 
 
 def places(shapes: Mapping[str, Shape], where: str | Path) -> list[Place]:
-    """The columns of the table that arrays of these shapes make up.
-
-    Vectors count in either direction; an array of few columns (or rows) gives ``name_1``, ``name_2`` ...
-    Single numbers are no columns. UserError where vectors differ in length.
-    """
-    longest = {n: max(s) for n, s in shapes.items() if s and max(s) > 1 and _is_table(s)}
+    """The columns of the table that arrays of these shapes make up; arrays of few columns or rows give ``name_1`` ..."""
+    tables = {n: s for n, s in shapes.items() if len(s) == 1 or (len(s) == 2 and min(s) <= WIDEST)}
+    longest = {n: max(s) for n, s in tables.items() if max(s) > 1}
     if not longest:
         return []
     length = longest.get("time") or Counter(longest.values()).most_common(1)[0][0]
@@ -66,10 +63,6 @@ def places(shapes: Mapping[str, Shape], where: str | Path) -> list[Place]:
             )
         found += _spread(name, shapes[name], length)
     return found
-
-
-def _is_table(shape: Shape) -> bool:
-    return len(shape) == 1 or (len(shape) == 2 and min(shape) <= WIDEST)
 
 
 def _spread(name: str, shape: Shape, length: int) -> list[Place]:

@@ -80,9 +80,8 @@ class Time:
 class Mapped:
     """A mapping as it was read; see the module's text for the file.
 
-    ``axes`` has, for x, y and z of the measurement frame, the recorder's axis (0, 1, 2) and its sign;
-    ``demodulator`` how the channels were made; ``digest`` the SHA-256 of the text. ``kept``: it is the
-    model's own, and does not apply to files that have none of its columns (a simulated flight, say).
+    ``axes``: for x, y, z of the measurement frame, the recorder's axis (0, 1, 2) and its sign. ``digest``: SHA-256 of
+    the text. ``kept``: it is the model's own, and does not apply to files that have none of its columns.
     """
 
     path: Path

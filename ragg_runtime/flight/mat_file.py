@@ -1,7 +1,4 @@
-"""MATLAB flights: vectors, or structures of vectors (several alike are lines); units in a structure ``units``.
-
-Version 5 to 7 through SciPy, 7.3 (HDF5) through h5py. Functions and objects in such files are not touched.
-"""
+"""MATLAB flights, version 5 to 7.3: vectors, or structures of vectors (several alike are lines); units in a structure ``units``."""
 
 from __future__ import annotations
 

@@ -24,10 +24,7 @@ open_tables = hdf5_file.open_tables
 
 
 def write_tables(path: Path, tables: Sequence[Written]) -> None:
-    """Write columns as float64 variables along ``time`` with their units.
-
-    Lines whose names are no numbers are numbered, with the names in ``flag_meanings`` (CF conventions, 3.5).
-    """
+    """Write columns as float64 variables along ``time``; names of lines that are no numbers in ``flag_meanings`` (CF, 3.5)."""
     import xarray  # slow to import, and only this format needs it
 
     columns, rows = joined(tables)

@@ -41,11 +41,10 @@ def open_sources(
     lenient: bool = False,
     leave: frozenset[str] = frozenset(),
 ) -> list[Source]:
-    """The flights in a file: one, or one for each line.
+    """The flights in a file, one or one for each line; without a mapping under the names of the contract.
 
-    Without a mapping the columns stand under the names of the contract, each with its unit. ``lenient`` lets
-    columns without a unit pass and leaves out those that are no numbers, for a copy in another format. ``leave`` names
-    columns (of the contract) that are not read.
+    ``lenient`` lets columns without a unit pass and leaves out those that are no numbers. ``leave``: columns not to be
+    read.
     """
     if mapping is not None and mapping.kept and not _applies(path, mapping):
         mapping = None

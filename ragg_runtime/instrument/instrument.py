@@ -23,12 +23,10 @@ from ragg_runtime.instrument.units import RawQuantity, Units, units
 
 @dataclass(frozen=True)
 class EffectSetting:
-    """An entry of ``effects`` in model.toml.
+    """An entry of ``effects`` in model.toml; ``values`` as the user wrote them, with units.
 
-    ``values`` holds the parameters as the user wrote them (value and unit): the effect's own definition
-    knows their SI unit, see :meth:`si`. ``expression`` is ``None`` for an effect of the catalogue, else the
-    keys ``stage``, ``add`` and ``params`` of an effect that the user wrote as one line; ``params`` maps the
-    name of a parameter to at least ``{"unit": ...}``.
+    ``expression``: ``stage``, ``add`` and ``params`` (name -> at least ``unit``) of an effect that is one line; else
+    ``None``.
     """
 
     id: str
@@ -63,11 +61,8 @@ class EffectSetting:
 class Instrument:
     """One gradiometer in SI: disc (m, Hz, m/s^2), ``accelerometers`` name -> (n,), one each, effects, layout.
 
-    Every name of :data:`PARAMETERS` is present. ``sigmas`` holds how sure the sheet is of some of them, name -> (n,);
-    the others are as sure as is plausible (:meth:`sigma`). Build with :func:`read_instrument` or :meth:`build`.
-    ``radius`` and ``spin_frequency`` are those of the first accelerometer and its disc; those of each are in ``layout``.
-    ``demodulation``: how inline and cross are made, if the sheet says so. ``widths``: name of a kind of parameter ->
-    how many times wider than the sheet says, or than is usual, the prior of its parameters is.
+    ``sigmas``: how sure the sheet is of some parameters, name -> (n,). ``radius`` and ``spin_frequency`` are those of
+    the first accelerometer and its disc. ``widths``: kind of parameter -> how many times wider than usual its prior is.
     """
 
     radius: float
@@ -100,10 +95,7 @@ class Instrument:
         sigmas: Mapping[str, ArrayLike] | None = None,
         demodulation: Demodulation | None = None,
     ) -> Instrument:
-        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0.
-
-        Without a ``layout`` it is the paper's.
-        """
+        """An instrument from SI values: scalars stand for all accelerometers, missing ones are 0; by default the paper's layout."""
         layout = paper(radius, spin_frequency) if layout is None else layout
         check_keys(accelerometers, PARAMETER, "[accelerometers]")
         for p in PARAMETERS:

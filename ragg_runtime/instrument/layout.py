@@ -96,10 +96,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Output:
-    """An output before demodulation: a column of the flight, the sum of voltages with their signs.
-
-    ``members`` are places of the layout, ``signs`` theirs; all are on one disc.
-    """
+    """An output before demodulation: a column of the flight; ``members``, all of one disc, count with ``signs``."""
 
     name: str
     disc: int
@@ -113,10 +110,7 @@ class Output:
 
     @property
     def patterns(self) -> tuple[tuple[str, tuple[float, ...]], ...]:
-        """Harmonic and weights (members,) with which it sees a parameter: sign times cos and sin of n times the angle.
-
-        For n = 0 ... 4, the largest weight 1; those that vanish or repeat others are left out.
-        """
+        """Harmonic and weights (members,) with which it sees a parameter: sign times cos and sin of n = 0 ... 4 times the angle."""
         angles = np.array([math.atan2(s, c) for c, s in self.angles])
         found: list[tuple[str, Array]] = []
         for n in range(HIGHEST_HARMONIC + 1):

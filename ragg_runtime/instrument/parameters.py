@@ -16,11 +16,10 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter of an accelerometer.
+    """A parameter of an accelerometer; 0 where model.toml leaves it out, unless ``required``.
 
-    ``plausible`` is the size of error, in ``display_unit``, that would not surprise a careful engineer who
-    holds the maker's test sheet; if ``relative``, it is a fraction of the nominal value. ``display_unit`` is
-    the one to print in. Parameters not ``required`` are 0 where model.toml leaves them out.
+    ``plausible``: a usual error beside the test sheet, in ``display_unit``; if ``relative``, a fraction of the nominal
+    value.
     """
 
     name: str

@@ -104,11 +104,7 @@ class Units:
         raise UserError("not a unit", where=where, found=repr(text), expected=_EXAMPLES, remedy=remedy)
 
     def to_si(self, value: Value, unit: str, si_unit: str, where: str | None = None) -> Value:
-        """``value`` in ``unit``, converted to ``si_unit``; UserError if the dimensions differ.
-
-        Turns and angles are told apart where they would be confused: a frequency in rpm or rad/s becomes
-        turns a second, and an angular rate in Hz is refused.
-        """
+        """``value`` in ``unit``, converted to ``si_unit``; UserError if dimensions differ. rpm and rad/s become turns a second."""
         source, target = self.parse(unit, where), self.parse(si_unit)
         self._same_dimension(source, unit, target, si_unit, where)
         factor = 1.0
@@ -155,11 +151,7 @@ class Units:
             return False
 
     def quantity(self, raw: object, where: str | None = None, *, count: int = 4) -> RawQuantity:
-        """Read ``"0.1 m"``, ``{ value = 0.1, unit = "m" }`` or ``{ value = [1, 2, 3, 4], unit = "m" }``.
-
-        ``count`` is the length that a list must have. The unit must parse; its dimension is checked on
-        conversion. Raises UserError for anything else, NaN and infinity included.
-        """
+        """Read ``"0.1 m"`` or ``{ value = 0.1, unit = "m" }``, or with a list of ``count`` values; UserError for anything else."""
         quantity = read_quantity(raw, where, count=count)
         self.parse(quantity.unit, where)
         return quantity
@@ -325,11 +317,7 @@ _SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 def spellings(text: str) -> Iterator[str]:
-    """What ``text`` may stand for, in the order in which it is to be tried.
-
-    A spelling of the field comes before what the same letters mean elsewhere; exponents without a sign of
-    power (``m/s2``, ``m s-2``, ``m/s²``) are tried last, since the names of some units hold digits.
-    """
+    """What ``text`` may stand for, in the order in which it is to be tried: the field's spellings first."""
     yield _NAMED.get(text, text)
     plain = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: "^" + m[0].translate(_SUPERSCRIPTS), text)
     plain = re.sub(r"(?<=[^\W\d_])(-?\d+)(?![\w.])", r"^\1", plain)

@@ -47,10 +47,7 @@ def named(chain: Chain, p: Array) -> dict[str, Array]:
 
 
 def vector(model: Model, instrument: Instrument) -> Array:
-    """The parameter vector of ``model.chain``, SI, from model.toml's values.
-
-    Where none is given, effects' parameters are neutral, or the only value that nature knows.
-    """
+    """The parameter vector of ``model.chain``, SI, from model.toml's values; effects' parameters else neutral."""
     known = units(instrument.g0)
     layout = instrument.layout
     discs = [layout.discs[q.disc] for q in layout.places]

@@ -185,8 +185,7 @@ def _packaged(kinematics: str) -> Model:
 def from_files(files: Mapping[str, str], label: str = "derived", layout: Layout = PAPER) -> Model:
     """A model from derived source texts (``derive.pipeline.derive_model``), for this layout.
 
-    The texts are executed: pass only what the derivation of this program has just yielded or what is,
-    byte for byte, the same.
+    The texts are executed: pass only what the derivation of this program has just yielded or what is the same bytes.
     """
     modules = {}
     output_effects = sorted(n for n in files if n.startswith("output_effects/") and n.endswith(".py"))

@@ -252,11 +252,7 @@ def spin(
     spin_frequency: float,
     degree: int = DEGREES[0],
 ) -> Array:
-    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad) if there is one.
-
-    By least squares a polynomial of this degree is laid through ``SPIN_WINDOW`` on either side of a sample; NaN where the
-    encoder has none, and in runs of a few samples.
-    """
+    """Rate, rad/s, or acceleration, rad/s^2, of the disc angle, (samples,), by the encoder (rad); NaN where it has none."""
     order = SPIN.index(name) + 1
     if encoder is None:
         return np.full(samples, 2 * np.pi * spin_frequency if order == 1 else 0.0)

@@ -1,7 +1,4 @@
-"""What of an output a flight holds: its voltages, the output itself, or what a demodulator has made of it.
-
-Three classes with one protocol. Whoever fits, screens or reports a flight asks them; nobody asks which of the three it is.
-"""
+"""What of an output a flight holds: its voltages, the output itself, or what a demodulator has made of it."""
 
 from __future__ import annotations
 
@@ -124,10 +121,7 @@ class Summed(_BeforeDemodulation, _Sum):
 
 @dataclass(frozen=True)
 class Channels(_Sum):
-    """Inline and cross alone, of an instrument's only output.
-
-    The data are the channels put back on their carriers, and every column passes through the same demodulator.
-    """
+    """Inline and cross alone, of an instrument's only output; the data are the channels put back on their carriers."""
 
     kind = "channels"
     words = "inline and cross, put back on their carriers"
@@ -164,9 +158,8 @@ def recorded(flight: Flight, layout: Layout, place: int) -> Recorded | None:
 
 
 def carried(inline: Array, cross: Array, r: Record, k_ggi: float) -> Array:
-    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V.
-
-    ``k_ggi`` in V per unit of the channels.
+    """Demodulated channels put back on carriers: k_ggi (inline/2 sin 2 phi - cross cos 2 phi), V; k_ggi in V per unit
+    of the channels.
     """
     cosine, sine = r.carriers
     return np.asarray(k_ggi * (inline / 2 * sine - cross * cosine))

@@ -1,7 +1,4 @@
-"""The numerical model, Eq. 49-52: from the true motion to the four voltages, with vectors and rotations.
-
-Effects hook in stage by stage (``reference.effects``); without any, this is the paper's model, term by term.
-"""
+"""The numerical model, Eq. 49-52: from the true motion to the voltages; effects hook in stage by stage."""
 
 from __future__ import annotations
 
@@ -154,7 +151,7 @@ class Chain:
             for k, d in enumerate(self.instrument.layout.discs):
                 about = np.stack([np.asarray(d.axis) @ m for m in near])
                 turning = Taylor(about[2], _FIRST @ about / _STEP, _SECOND @ about / _STEP**2)
-                found[k] = geometry.fallen_behind(found[k], turning, self.effects)
+                found[k] += turning * -float(self.effects["spin-servo"]["c"])
         return tuple(found)
 
     def _auxiliaries_at(self, time: Array) -> dict[str, Array]:
@@ -219,7 +216,9 @@ class Chain:
         changing = Taylor(length, _FIRST @ beside / _STEP, _SECOND @ beside / _STEP**2)
         m = instant.motion
         moved, rigid = (carried(arm * x, m.omega, m.omegadot) for x in (changing, length))
-        return self._along(triad, f, moved - rigid), triad
+        further = moved - rigid
+        x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
+        return (x, y, z), triad
 
     def _settled(
         self, j: int, fixed: Mount, radius: float, instant: Instant, shake: Array
@@ -232,10 +231,6 @@ class Chain:
             length = geometry.arm_length(j, radius, f, self.effects)
             f = self._specific_force(j, _lifted(arm * length, lift), triad, instant, shake)
         return length, f
-
-    def _along(self, triad: Triad, f: Triple, further: Array) -> Triple:
-        x, y, z = (part + np.sum(further * tau.value, axis=0) for part, tau in zip(f, triad, strict=True))
-        return x, y, z
 
     def _in_measurement_frame(
         self, j: int, fixed: Mount, instant: Instant

@@ -119,32 +119,15 @@ def simulate(
     auxiliaries: Mapping[str, Auxiliary] | None = None,
     turning: Mapping[str, Turning] | None = None,
 ) -> Simulation:
-    """Simulate a flight with the numerical model (Eq. 49-53).
+    """Simulate a flight with the numerical model (Eq. 49-53); UserError on unknown effects or missing auxiliary
+    channels.
 
-    Parameters
-    ----------
-    instrument, motion, duration, rate, start
-        True parameters, SI, and true motion of the disc centre; s, Hz, s.
-    gravity, record_gradient
-        Attracting masses or a gradient (``None``: none), and whether that at the centre is recorded, as Gamma_xx ... Gamma_zz.
-    noise, seed
-        Of each accelerometer, independent; ``None`` is none. Seed of noise, angle jitter and the default auxiliaries.
-    rotations, misalignment
-        ``first-order`` is the paper (Eq. 2), ``second-order`` keeps squares of mounting angles, ``exact`` turns by the full ones;
-        ``misalignment`` is by itself exact with exact ``rotations``.
-    kinematics
-        ``platform`` is the paper (Eq. 49); ``full`` lets the accelerometers feel that they turn with the disc.
-    effects
-        ``{id: {parameter: value or four values, SI}}`` (see ``reference.effects.CATALOGUE``).
-    auxiliaries
-        Channel name -> function of time (N,) s; ``None``: plausible ones (``auxiliaries.plausible``).
-    turning
-        Name of a disc -> how it turns; its encoder is recorded then. Others turn steadily, as the instrument says.
-
-    Raises
-    ------
-    UserError
-        On unknown effects, missing auxiliary channels, or a motion that does not cover the flight.
+    ``instrument``, ``motion``: true, SI. ``duration``, ``start`` s, ``rate`` Hz. ``gravity``: ``None`` is none.
+    ``noise``: of each accelerometer, independent. ``rotations``, ``misalignment``: ``first-order`` (Eq. 2),
+    ``second-order`` (squares of mounting angles) or ``exact``. ``kinematics``: ``platform`` (Eq. 49) or ``full``
+    (accelerometers feel that they turn with the disc). ``effects``: ``{id: {parameter: value or one each, SI}}``.
+    ``auxiliaries``: channel -> function of time (N,) s; ``None``: plausible ones. ``turning``: disc -> how it turns,
+    recorded by an encoder; others turn steadily.
     """
     time, injected = instants(duration, rate, start), resolve(effects, instrument.layout.size)
     given = _turning(turning or {}, instrument.layout)

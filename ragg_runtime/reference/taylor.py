@@ -1,7 +1,4 @@
-"""A quantity with its first two time derivatives: arithmetic on series in time, broken off after the second power.
-
-Where a point is, is written down; how fast and how much faster it moves comes of the arithmetic.
-"""
+"""A quantity with its first two time derivatives: arithmetic on series in time, broken off after the second power."""
 
 from __future__ import annotations
 
@@ -83,10 +80,8 @@ def spun(vectors: Array, angle: Taylor) -> list[Taylor]:
 
 
 def carried(vector: Taylor, omega: Array, omegadot: Array) -> Array:
-    """Second derivative in inertial space of a vector (3, N) given by the platform's axes, along these axes.
-
-    The platform's attitude after a short time s is 1 + W s + (W W + W') s^2/2, with W u = omega x u; times the
-    vector's own series, its second derivative is read off.
+    """Second derivative in inertial space of a vector (3, N) given by the platform's axes, along these axes: 1 + W s +
+    (W W + W') s^2/2, with W u = omega x u, times the vector's own series.
     """
     once = np.cross(omega, vector.value, axis=0)
     twice = np.cross(omega, once, axis=0) + np.cross(omegadot, vector.value, axis=0)

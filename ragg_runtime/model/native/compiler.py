@@ -1,4 +1,7 @@
-"""Generated C -> shared library in a cache of the user, named by the digest of source, compiler, options and processor."""
+"""Generated C -> shared library in a cache of the user, named by the digest of source, compiler, options and processor.
+
+Compiled is only text that this program has derived or that comes with it, never a file found in a model directory.
+"""
 
 from __future__ import annotations
 
@@ -52,9 +55,8 @@ class BuildError(Exception):
 
 
 def build(sources: Mapping[str, str], folder: Path | None = None, *, quick: bool = False) -> Path:
-    """Compile C files (name -> text; headers beside them) to one library, unless the cache has it; where it is.
-
-    ``folder`` is the cache; by default the user's. ``quick``: with less effort, in a third of the time. Raises BuildError.
+    """Compile C files (name -> text) to one library in ``folder`` (by default the user's cache), unless it is there.
+    Raises BuildError.
     """
     compiler = find_compiler()
     if compiler[0] in _hung:

@@ -1,7 +1,4 @@
-"""Effects beyond the paper's model, injected into the numerical reference in full, nonlinear form.
-
-One module per stage of the instrument. They share no formula with the derivation.
-"""
+"""Effects beyond the paper's model, injected into the numerical reference in full, nonlinear form, by stages."""
 
 from __future__ import annotations
 

@@ -102,11 +102,7 @@ _VIBRATION = ((0.0, 2 / 3), (-np.sqrt(3.0), 1 / 6), (np.sqrt(3.0), 1 / 6))
 
 
 def vibration(effects: Injected) -> tuple[tuple[Array, float], ...]:
-    """Instances of the unrecorded vibration, (3, 1) m/s^2 each, and their probabilities.
-
-    Averaging any polynomial of up to the fifth degree over them gives the expectation over a Gaussian
-    vibration of covariance P exactly; abs(f_i) of ``odd-quadratic`` is averaged approximately.
-    """
+    """Instances of the unrecorded vibration, (3, 1) m/s^2 each, and their probabilities; exact for polynomials of degree five."""
     return _instances(effects, "vibration-rectification", "P")
 
 

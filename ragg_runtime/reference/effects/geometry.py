@@ -36,11 +36,6 @@ def yields(effects: Injected) -> bool:
     return "spin-servo" in effects
 
 
-def fallen_behind(phi: Taylor, turning: Taylor, effects: Injected) -> Taylor:
-    """The angle (N,) where ``turning`` (N,) rad/s^2 is the platform's angular acceleration about the spin axis."""
-    return phi + turning * -float(effects["spin-servo"]["c"])
-
-
 def run_out(phi: Taylor, effects: Injected) -> Taylor | None:
     """Where the disc's centre is, (3, N) m along axes that do not turn with it, or None."""
     path = effects.get("bearing-run-out")

@@ -14,11 +14,7 @@ Array = NDArray[np.float64]
 
 
 def record_motion(motion: Motion, time: Array, effects: Injected) -> MotionState:
-    """What the motion sensor reports at (N,) s.
-
-    The sensor sits at l (lever arm), its axes are turned by e (misalignment), its gyroscopes and accelerometers scale,
-    lean and stray each by itself, and its record is late by delta_t; the true motion goes through them in that order.
-    """
+    """What the motion sensor reports at (N,) s: lever arm, misalignment, scale, lean, stray and delay, in that order."""
     delay = float(effects["time-offset"]["delta_t"]) if "time-offset" in effects else 0.0
     if drift := effects.get("clock-drift"):
         time = time - drift["epsilon"] * time

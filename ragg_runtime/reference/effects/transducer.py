@@ -65,10 +65,7 @@ def gain(j: int, time: Array, auxiliaries: Mapping[str, Array], effects: Injecte
 
 
 def angles_in_second_order(effects: Injected) -> float:
-    """kappa: 1 if the second-order terms see the force along the measured axes (Eq. 52).
-
-    0 is the analytical model, which leaves mounting and misalignment angles out of them (Eq. 18 and 19).
-    """
+    """kappa: 1 if the second-order terms see the force along the measured axes (Eq. 52), 0 of the analytical model."""
     order = effects.get("second-order-misalignment")
     return 1.0 if order is None else float(order["kappa"])
 
@@ -103,10 +100,7 @@ def further_terms(
     auxiliaries: Mapping[str, Array],
     effects: Injected,
 ) -> Array | float:
-    """What accelerometer j adds to Eq. 1, m/s^2.
-
-    ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each; ``motion`` the platform's.
-    """
+    """What accelerometer j adds to Eq. 1, m/s^2; ``f`` is f_i, f_o, f_p; ``triad`` tau_x, tau_y, tau_z, (3, N) each."""
     f_i = f[0]
     total: Array | float = 0.0
     if cubic := effects.get("cubic-input"):
@@ -168,10 +162,7 @@ def lag_quadrature(tau: float) -> tuple[tuple[float, float], ...]:
 
 
 def averaging(effects: Injected) -> tuple[tuple[float, float], ...]:
-    """Delays (s) and weights of the output's average over its converter's interval; empty: there is none.
-
-    The average over T, centred, has the curvature b = T^2/24.
-    """
+    """Delays (s) and weights of the output's average over its converter's interval T, centred; empty: there is none."""
     b = float(effects["output-filter"]["b"]) if "output-filter" in effects else 0.0
     if b < 0:
         raise UserError("b of output-filter must not be negative", found=f"{b:g} s^2")
