@@ -8,19 +8,7 @@ from pathlib import Path
 
 
 class UserError(Exception):
-    """Bad input or usage; the command line prints it and exits with status 2.
-
-    Parameters
-    ----------
-    what
-        What is wrong, as a sentence without a full stop.
-    where
-        File, key, column, line; ``at`` builds it.
-    found, expected
-        What was there; what may stand there.
-    remedy
-        What to do.
-    """
+    """Bad input or usage: what is wrong (no full stop), where, what was there, what may stand there, and what to do."""
 
     def __init__(
         self,

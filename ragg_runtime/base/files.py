@@ -25,11 +25,7 @@ from ragg_runtime.base.errors import UserError
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """A temporary file that takes the place of ``path`` on success and vanishes on failure.
-
-    A device or a pipe at ``path`` is written to instead, never replaced. Raises UserError where the folder is
-    missing or cannot be written.
-    """
+    """A temporary file that takes the place of ``path`` on success and vanishes on failure; a device is written to."""
     with contextlib.closing(Target(path)) as target:
         try:
             yield target.temporary
@@ -40,10 +36,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def require_room(path: Path, size: int) -> None:
-    """OSError where so many bytes do not fit beside ``path``, on the disc or into what its user may take of it.
-
-    For libraries that do not survive a full disc (HDF5).
-    """
+    """OSError where so many bytes do not fit beside ``path``, for libraries that do not survive a full disc (HDF5)."""
     if shutil.disk_usage(path.parent).free < size:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
     if hasattr(os, "posix_fallocate"):
@@ -52,15 +45,7 @@ def require_room(path: Path, size: int) -> None:
 
 
 class Target:
-    """A file to be written: made and checked at once, prepared, put in its place, or given up by ``close``.
-
-    Attributes
-    ----------
-    path
-        Where it is to stand; a link to a file leads there.
-    temporary
-        Where it is written meanwhile: beside its place, so that a rename brings it there.
-    """
+    """A file to be written at ``path``: ``temporary`` beside it, prepared, put in its place, or given up by ``close``."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -124,10 +109,6 @@ def _unwritten(path: Path, error: OSError) -> UserError:
     return UserError("the file cannot be written", where=path, found=error.strerror or error)
 
 
-READER = 4.0
-"""How long a pipe is waited for that nobody reads, s."""
-
-
 def _descriptor(path: Path) -> int | None:
     """The open file of this process that a name such as ``/dev/stdout`` or ``/dev/fd/63`` stands for."""
     named = {"/dev/stdout": 1, "/dev/stderr": 2}
@@ -142,25 +123,9 @@ def _pour(source: Path, path: Path) -> None:
     own = _descriptor(path)
     for stream in (sys.stdout, sys.stderr):
         stream.flush()
-    handle = os.dup(own) if own is not None else _opened(path)
-    with os.fdopen(handle, "wb") as target, source.open("rb") as content:
+    place: Path | int = path if own is None else os.dup(own)
+    with open(place, "wb") as target, source.open("rb") as content:
         shutil.copyfileobj(content, target)
-
-
-def _opened(path: Path) -> int:
-    """A device or pipe, for writing."""
-    deadline = time.monotonic() + READER
-    while True:
-        try:
-            handle = os.open(path, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
-            os.set_blocking(handle, True)
-            return handle
-        except OSError as error:
-            if error.errno != errno.ENXIO:
-                raise
-            if time.monotonic() > deadline:
-                raise OSError(error.errno, "nobody reads from it") from None
-        time.sleep(0.05)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -230,10 +195,9 @@ _NO_LOCKS = (errno.EBADF, errno.ENOLCK, errno.ENOTSUP, errno.EOPNOTSUPP, errno.E
 
 @contextlib.contextmanager
 def locked(path: Path, patience: float) -> Iterator[None]:
-    """Hold the lock of a directory; it is free again when the process ends, however it ends.
+    """Hold the lock of a directory while this process lives; without one where the file system knows none.
 
-    Where the file system knows no locks the work is done without one, and that is said once. Raises TimeoutError
-    if another process holds it for longer than ``patience``, s; OSError if the directory cannot be opened.
+    Raises TimeoutError if another process holds it for longer than ``patience``, s.
     """
     if sys.platform == "win32":  # a directory cannot be locked there
         with filelock.FileLock(path / ".ragg.lock", timeout=patience):

@@ -1,8 +1,7 @@
-"""How far a long command is, with the time left.
+"""How far a long command is, with the time left: passes over flights tell (:func:`step`), a command listens
+(:func:`shown`).
 
-Passes over flights tell how much they have done (:func:`step`); a command that wants to know listens
-(:func:`shown`). The unit is one sample in one pass with all columns, whitened; how many passes a command takes is
-known well enough beforehand (``PASSES``) to predict its end.
+The unit is one sample in one pass with all columns, whitened; ``PASSES`` are known beforehand.
 """
 
 from __future__ import annotations

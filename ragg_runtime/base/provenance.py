@@ -37,16 +37,6 @@ def provenance(
     model: Mapping[str, object] | None = None,
     files: Sequence[tuple[str, str | None]] = (),
 ) -> dict[str, object]:
-    """The object ``provenance`` of a JSON result.
-
-    Parameters
-    ----------
-    made_by
-        The command line.
-    model
-        What tells the model apart (:func:`ragg_runtime.model_dir.directory.identity`), where there is one.
-    files
-        The flights: path and SHA-256, ``None`` where there is no such file.
-    """
+    """The object ``provenance`` of a JSON result: command line, identity of the model, (path, SHA-256) of the flights."""
     flights = [{"path": path, "digest": digest} for path, digest in files]
     return {**versions(), **(model or {}), "flights": flights, "command": made_by}

@@ -1,8 +1,4 @@
-"""Linear algebra on one thread, and series in stretches.
-
-BLAS splits its sums by the number of its threads, and the last digits follow; work is on one, so that figures are the same on
-any machine.
-"""
+"""Linear algebra on one thread, and series in stretches: BLAS splits its sums by threads, and the last digits follow."""
 
 from __future__ import annotations
 
@@ -29,11 +25,7 @@ def _libraries() -> threadpoolctl.ThreadpoolController:
 
 
 def one_thread(function: Callable[P, R]) -> Callable[P, R]:
-    """Let linear algebra run in one thread while ``function`` does.
-
-    BLAS splits sums by the number of its threads, and the last digits follow; after the iterations of a fit
-    they are no longer the last. The matrices here are small enough to lose nothing by it.
-    """
+    """Let linear algebra run in one thread while ``function`` does."""
 
     @functools.wraps(function)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> R:

@@ -1,8 +1,4 @@
-"""The main job, from a flight to a better model: compare, diagnose, add, and watch the error fall.
-
-The flight is made by the numerical reference, which shares no equations with the derived models, with an
-effect hidden in it (``make_flight``). ``ragg demo`` runs it.
-"""
+"""The main job on a flight of the numerical reference with a hidden effect: compare, diagnose, add (``ragg demo``)."""
 
 from __future__ import annotations
 
@@ -30,10 +26,7 @@ def _say(command: str) -> None:
 
 
 def main(output: Path, flight: Path | None = None, command: str = "ragg demo") -> Path:
-    """Run the loop in ``output``, which must not exist; returns the report.
-
-    ``flight`` is a flight of :func:`make_flight`; without one it is made.
-    """
+    """Run the loop in ``output``, which must not exist, on ``flight`` (else one is made); returns the report."""
     if output.exists():
         raise UserError("the folder exists already", where=output, remedy="choose another with --output")
     output.mkdir(parents=True)

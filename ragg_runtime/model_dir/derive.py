@@ -1,8 +1,4 @@
-"""Derive models at run time: the one place, beside the command line, where the runtime meets the derivation.
-
-A model directory's own ``generated/`` is never executed, but what this program derives, or has derived before
-(below), for the directory's list of effects. SymPy is imported only where something is derived.
-"""
+"""Derive models at run time, SymPy imported only then; a model directory's ``generated/`` is never executed."""
 
 from __future__ import annotations
 
@@ -286,9 +282,7 @@ MOST_KEPT = 200
 
 
 def request(instrument: Instrument, ids: Sequence[str] | None = None, *, candidates: bool = True) -> str:
-    """Digest of all that a derivation depends on: for this instrument, with effects of these ids (its own if none are
-    given), and with the signatures of all others if ``candidates``.
-    """
+    """Digest of all that a derivation depends on, for effects of these ids (else its own), and all ``candidates``."""
     expressions = {
         s.id: _expression_key(s.expression) for s in instrument.effects if s.expression is not None
     }

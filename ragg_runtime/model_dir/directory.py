@@ -1,10 +1,7 @@
-"""A model directory: model.toml, history.json, calibration.json, mapping.toml and generated/.
+"""A model directory: model.toml, history.json, calibration.json, mapping.toml and generated/ (never executed).
 
-model.toml is the truth. A change writes everything beside its place first and then, under a lock, replaces file after
-file, history.json before model.toml. The new entry of the history has digests of model.toml before and after: where
-the file is still the one before, the change was cut off, and its entry is dropped; where it is neither, somebody has
-edited it. generated/ is there to be read and never executed; ``generated/digest`` says for which model it was derived.
-So a process may be killed at any instant: the model is the old or the new one.
+A change replaces file after file under a lock, history.json before model.toml. The history has digests of model.toml
+before and after: where the file is still the one before, the change was cut off, and its entry is dropped.
 """
 
 from __future__ import annotations
@@ -36,24 +33,10 @@ _PATIENCE = 30.0  # s; a change holds the lock for a fraction of a second
 
 @dataclass(frozen=True, eq=False)
 class ModelDir:
-    """The state of a model directory as it was read.
+    """The state of a model directory as it was read; ``text`` is model.toml, comments and all, ``history`` oldest
+    first.
 
-    Attributes
-    ----------
-    path
-        The directory.
-    text
-        The text of model.toml, comments and all.
-    instrument
-        What it says.
-    generated
-        The folder of code derived for its effects; ``None``: the packaged base model.
-    history
-        The steps so far, oldest first.
-    calibration
-        The text of calibration.json; ``None``: nothing was ever saved.
-    mapping
-        The file that says what the columns of the instrument's flight files are; ``None``: there is none.
+    ``generated`` is ``None`` for the packaged base model; so are ``calibration`` and ``mapping`` where there is none.
     """
 
     path: Path
@@ -107,10 +90,7 @@ def create_model_dir(
     history: tuple[Step, ...] = (),
     mapping: str | None = None,
 ) -> ModelDir:
-    """Make a model directory with this model.toml (and mapping.toml). It appears whole or not at all.
-
-    Raises UserError if ``path`` exists and is not an empty directory, or if ``text`` is no good model.toml.
-    """
+    """Make a model directory, whole or not at all; UserError if ``path`` is not empty or ``text`` is no good model.toml."""
     path = Path(path)
     parse_instrument(text, path / MODEL)
     if path.exists() and not (path.is_dir() and not any(path.iterdir())):
@@ -143,13 +123,11 @@ def replace_model_dir(
     calibration: Callable[[str | None], str] | None = None,
     mapping: str | None = None,
 ) -> ModelDir:
-    """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed.
+    """Put a new state in place of ``current``: all of it, or nothing if this fails or is killed. What is not given
+    stays.
 
-    ``generated`` are the files derived for ``text``: path -> text, none where the packaged base model serves. ``step`` is added to
-    the history, and ``calibration`` is given the text of calibration.json and makes the new one: of both what is there now
-    counts, so that a calibration saved meanwhile hinders nobody. What is not given stays.
-
-    Raises UserError if model.toml was changed since ``current`` was read, or if the directory cannot be written.
+    ``generated`` are path -> text; ``calibration`` is given the text of calibration.json as it is now. Raises UserError
+    if model.toml was changed since, or if the directory cannot be written.
     """
     path = current.path
     parse_instrument(text, path / MODEL)

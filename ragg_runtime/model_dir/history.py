@@ -23,25 +23,11 @@ def digest(text: str | None) -> str:
 
 @dataclass(frozen=True)
 class Step:
-    """An entry of history.json.
+    """An entry of history.json; ``time`` is UTC, ISO 8601, ``before`` and ``after`` are error objects (rms_V, rms_Eo,
+    ...).
 
-    Attributes
-    ----------
-    action
-        ``new``, ``add``, ``remove`` or ``calibrate``.
-    effect
-        The effect's id; empty for ``new`` and ``calibrate``.
-    time
-        UTC, ISO 8601.
-    before, after
-        Error objects (rms_V, rms_Eo, ...) where a flight was given.
-    flights
-        The flights' names, with their SHA-256.
-    text
-        model.toml as it then was, so that one can go back to it; empty in histories of older versions.
-    digests
-        SHA-256 of the file that the step changes, before and after: calibration.json of ``calibrate``, else model.toml.
-        Empty for ``new`` and in histories of older versions.
+    ``action`` is ``new``, ``add``, ``remove`` or ``calibrate``; ``flights`` have their SHA-256; ``text`` is model.toml
+    as it then was; ``digests`` are those of the file changed, before and after. Older histories lack the last two.
     """
 
     action: str

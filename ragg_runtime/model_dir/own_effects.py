@@ -1,7 +1,4 @@
-"""Effects in Python that the user has: in installed packages, and in the folder that ``RAGG_EFFECTS`` names.
-
-None is ever taken from a model directory: whoever sends one would run code.
-"""
+"""Effects in Python from installed packages and the folder ``RAGG_EFFECTS``, never from a model directory (it is code)."""
 
 from __future__ import annotations
 

@@ -23,17 +23,7 @@ def rederived(root: Path) -> list[str]:
 
 @dataclass(frozen=True)
 class Checked:
-    """What is committed below a root against what the derivation yields.
-
-    Attributes
-    ----------
-    difference
-        Of the files, as text; empty if there is none.
-    versions
-        What is to be said of other versions of what derives, if they are others.
-    committed_with
-        The SymPy that derived what is committed.
-    """
+    """What is committed below a root against what the derivation yields: ``difference`` is text, empty if there is none."""
 
     difference: str
     versions: str | None

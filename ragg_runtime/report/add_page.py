@@ -35,17 +35,8 @@ def add_html(
     sources: Sequence[tuple[str, str]],
     notes: Sequence[str] = (),
 ) -> str:
-    """The report as one HTML document.
-
-    Parameters
-    ----------
-    history
-        All entries of history.json, this step the last: ``action``, ``effect``, ``time``, ``before`` and
-        ``after``, the latter error objects of ``compare`` (or ``None`` where no flight was given).
-    before, after
-        The model without and with the effect, each calibrated on the flights.
-    diagnosis
-        Of the flights, if one was made.
+    """The report as one HTML document. ``history`` is all of history.json, this step the last; ``before`` and ``after``
+    are the model without and with the effect, each calibrated on the flights.
     """
     f = after.fitted
     context: dict[str, Any] = {

@@ -26,20 +26,8 @@ def compare_html(
     notes: Sequence[str] = (),
     frozen: Held | None = None,
 ) -> str:
-    """The report as one HTML document.
-
-    Parameters
-    ----------
-    title
-        What is compared with what, such as the names of model directory and flight.
-    command
-        The command line that made it.
-    sources
-        (name, sha256) of the model file and the flights.
-    notes
-        What was done to the records, or looks odd in them.
-    frozen
-        How a saved calibration holds, where it is that which is compared.
+    """The report as one HTML document. ``sources`` are (name, sha256) of the files read; ``frozen`` is how a saved
+    calibration holds, where it is that which is compared.
     """
     f = comparison.fitted
     context: dict[str, Any] = {

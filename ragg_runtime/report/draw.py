@@ -179,9 +179,7 @@ def _span(ends: tuple[float, float], scale: str) -> list[float]:
 
 
 def _own(tag: str, name: str) -> str:
-    """A tag with ids of its own figure, colours by name, the reader's own sans-serif instead of a list of fonts, and
-    coordinates to a hundredth of a point.
-    """
+    """A tag with ids of its own figure, colours by name, the reader's own sans-serif, and coordinates to 0.01 pt."""
     tag = re.sub(
         r"(: )(#[0-9a-f]{6})\b", lambda c: f"{c[1]}var(--{NAMES[c[2]]})" if c[2] in NAMES else c[0], tag
     )

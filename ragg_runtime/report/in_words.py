@@ -103,10 +103,10 @@ def compared(
     *,
     judged: bool = True,
 ) -> str:
-    """The result of ``compare`` on flights of these names.
+    """The result of ``compare``; ``then`` is the command that comes next where the model is not adequate.
 
-    ``then`` is the command that comes next where the model is not adequate; ``rows`` are other errors than the usual
-    where nothing was fitted. Not ``judged``: that there is an error says nothing of the model, since its parameters are others now.
+    ``rows`` are other errors than the usual where nothing was fitted. Not ``judged``: the model's parameters are others
+    now.
     """
     f = c.fitted
     lines = [

@@ -23,9 +23,7 @@ LIBRARIES = ("numpy", "scipy", "sympy", "matplotlib", "jinja2")
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a report comes from: its title, the command line, (name, sha256) of every file it read, and what
-    was done to the records or looks odd in them.
-    """
+    """Where a report comes from: command line, (name, sha256) of every file read, and notes on the records."""
 
     title: str
     command: str

@@ -1,9 +1,7 @@
 """Calibrated parameters as tables, and in words what the record can and cannot tell about them.
 
-One accelerometer's own value seldom shows in G_out: combinations of the four do, the paper's
-error-propagation coefficients Sigma, D^12, D^34 and D^1234 (Eq. 18-19). So the covariance is read in that
-basis, in which the directions that a record does not see are simple: whole combinations, or small groups of
-which only a sum shows.
+The covariance is read in the combinations of four accelerometers that show in G_out: Sigma, D^12, D^34, D^1234 (Eq.
+18-19).
 """
 
 from __future__ import annotations

@@ -175,15 +175,7 @@ NAMED = 24
 def errors(
     flights: Sequence[str], before: Array, after: Array, noise: Array, unexplained: NDArray[np.bool_]
 ) -> str:
-    """Calibrated error of every flight before and after the effects found in it, Eo, and its noise floor.
-
-    Parameters
-    ----------
-    before, after, noise
-        (N,) Eo, in the order of ``flights``.
-    unexplained
-        (N,) bool: flights in which something is left that no effect explains.
-    """
+    """Calibrated error of every flight, Eo: before, after and noise floor, (N,) each; ``unexplained``: (N,) bool."""
     with draw.style():
         fig = draw.figure(3.0 + (0.5 if len(flights) <= NAMED else 0.0))
         ax = fig.subplots()

@@ -442,10 +442,7 @@ class Keys:
 
 
 class Guard:
-    """Lets through what comes from our own page; everything else is refused before it is routed.
-
-    ``uploads`` are the paths whose bodies may be long.
-    """
+    """Lets through what comes from our own page. ``uploads`` are the paths whose bodies may be long."""
 
     def __init__(self, app: ASGIApp, keys: Keys, port: int, uploads: tuple[str, ...] = ()) -> None:
         self._app, self._keys, self._uploads = app, keys, uploads

@@ -43,22 +43,9 @@ SMALL = 1e6
 class State:
     """What is open and known; ``None`` and empty where it is not yet.
 
-    Attributes
-    ----------
-    loaded, paths, flights
-        The model directory, the files of the flights, and the flights themselves.
-    read, cuts
-        The flights as they were read, and the stretches (from, to, s) of each that are left out by hand.
-    compared, diagnosed, unwhitened
-        Results for exactly these.
-    previous
-        The comparison before the last step, for before and after.
-    beside
-        A state of the history, by its step, and its comparison on the same flights.
-    compensated
-        What was made of these flights with this model.
-    trial
-        An effect of the user's own that was tried and is not kept yet: its id, expression, units, and the result.
+    ``read`` are the flights as they were read, ``cuts`` the stretches (from, to, s) of each that are left out;
+    ``compared``, ``diagnosed`` and ``unwhitened`` are results for exactly these. ``previous`` is the comparison before
+    the last step, ``beside`` a state of the history with its comparison, ``trial`` an own effect that is not kept yet.
     """
 
     loaded: Loaded | None = None
@@ -413,11 +400,7 @@ class Busy(Exception):
 
 @dataclass(frozen=True)
 class Status:
-    """What the page shows: a count that grows with every change, and what is being worked on.
-
-    ``revision`` grows with the state alone, not with progress; ``share`` is done of it (0 ... 1),
-    ``error`` are the facts of the last failure.
-    """
+    """What the page shows: ``revision`` grows with the state alone, ``share`` is done (0 ... 1), ``error`` the last failure."""
 
     count: int = 0
     revision: int = 0
@@ -448,10 +431,7 @@ class Jobs:
     _thread: threading.Thread | None = None
 
     def start(self, name: str, work: Callable[[Callable[[str, float], None]], None]) -> None:
-        """Begin ``work``, which is given a function (what, how much in samples of a pass) to announce its parts.
-
-        Raises Busy if something is being worked on.
-        """
+        """Begin ``work``, which is given a function (what, samples of a pass) to announce its parts. Raises Busy."""
         with self._lock:
             if self._thread is not None and self._thread.is_alive() and self.status.name:
                 raise Busy

@@ -286,16 +286,10 @@ HEAD = struct.Struct("<4sIddI")
 
 @dataclass(frozen=True)
 class Pyramid:
-    """A uniformly sampled series and its extremes.
+    """A uniformly sampled series (N,), NaN where there is none, from ``start`` in steps of ``step`` (s), and its
+    extremes.
 
-    Attributes
-    ----------
-    start, step
-        Abscissa of the first sample, and from one to the next (s).
-    values
-        (N,) float32; NaN where there is none.
-    levels
-        Of stretches of ``FINEST * FACTOR**k`` samples: (2, n), least and greatest value.
+    ``levels`` are (2, n), least and greatest value of stretches of ``FINEST * FACTOR**k`` samples.
     """
 
     start: float

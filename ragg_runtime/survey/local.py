@@ -1,8 +1,4 @@
-"""A pool of processes on this machine.
-
-Every worker is a pool of one: if it dies (out of memory, killed, a fault in a library) it is plain which
-flight it was at, the others go on, and the flight is done again by a new one.
-"""
+"""A pool of processes on this machine, each a pool of one: if it dies, it is plain which flight it was at."""
 
 from __future__ import annotations
 
@@ -35,10 +31,7 @@ def processors() -> int:
 
 
 def examined(job: Job, files: Sequence[str], jobs: int) -> Generator[tuple[str, Record]]:
-    """(file, record) of every flight, in the order in which they are done.
-
-    Raises UserError if no worker can be started. Closing the iterator ends the workers.
-    """
+    """(file, record) of every flight as it is done; closing the iterator ends the workers. Raises UserError."""
     pools: queue.Queue[ProcessPoolExecutor] = queue.Queue()
     started: list[ProcessPoolExecutor] = []
     ended = threading.Event()
@@ -125,11 +118,7 @@ def _end(pools: Sequence[ProcessPoolExecutor]) -> None:
 
 @contextlib.contextmanager
 def _inherited() -> Iterator[None]:
-    """What a new process inherits: no Ctrl-C (that is the parent's), a safe path.
-
-    Python would let it look for its own modules in the current folder first, whoever's that is. Once it is up,
-    it imports from where this process does.
-    """
+    """What a new process inherits: no Ctrl-C (that is the parent's), and no imports from the current folder."""
     old = os.environ.get(_SAFE_PATH)
     os.environ[_SAFE_PATH] = "1"
     masks = hasattr(signal, "pthread_sigmask")

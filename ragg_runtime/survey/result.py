@@ -25,11 +25,7 @@ from ragg_runtime.wording.numbers import clean
 
 @dataclass(frozen=True, repr=False)
 class Survey:
-    """The result: one record per flight, in the order of the flights' names, and their summary.
-
-    ``records`` are JSON: ``flight``, ``file`` and either ``error`` (``kind``, ``message``) or what
-    :func:`ragg_runtime.survey.task.examine` tells of a flight.
-    """
+    """The result: one record per flight, with ``error`` or what ``examine`` tells, by name of the flight; and their summary."""
 
     records: tuple[Record, ...]
 
@@ -123,17 +119,7 @@ VERDICTS = ("adequate", "missing-effect", "unexplained")
 
 @dataclass(frozen=True)
 class EffectCount:
-    """How often an effect was found.
-
-    Attributes
-    ----------
-    found
-        Flights in which it is claimed.
-    perhaps
-        Further flights in which it would do as well as what is claimed.
-    testable
-        Flights whose record could have shown it.
-    """
+    """How often an effect was ``found``, would ``perhaps`` do as well, and was ``testable`` on the flight's record."""
 
     effect: str
     found: int
@@ -145,18 +131,8 @@ class EffectCount:
 class Advice:
     """An effect to add, and the flights that ask for it.
 
-    Attributes
-    ----------
-    effect
-        The effect that accounts for most of the flights not yet accounted for.
-    flights
-        Their names.
-    log10_chance
-        Logarithm of the probability of as many false alarms, if :data:`~ragg_runtime.base.false_alarms.PROMISED` of all flights give one.
-    strongest_log10_p
-        That of the least p-value of these flights (``None``: unknown).
-    alternatives
-        Effects that none of these flights can tell from it.
+    ``log10_chance``: probability of as many false alarms; ``strongest_log10_p``: the least p-value of these flights;
+    ``alternatives``: effects that none of them can tell from it.
     """
 
     effect: str
@@ -174,21 +150,10 @@ class Advice:
 
 @dataclass(frozen=True)
 class Trend:
-    """A calibrated parameter over the flights that see it, in the order of their names.
+    """A calibrated parameter over the flights that see it, in the order of their names (``None``: not seen).
 
-    Attributes
-    ----------
-    name, accelerometer, unit
-        As in a diagnosis; parameters of an effect begin with its id.
-    values, stds
-        By flight; ``None`` where the flight does not see it.
-    mean, scatter
-        Mean weighted by the variances, and standard deviation of the values.
-    chi2, dof
-        Sum of squared deviations from the mean in standard deviations, and values less one.
-    slope_z
-        Slope from flight to flight over its standard deviation, the scatter about the line included (``None``
-        for less than three values).
+    ``mean`` is weighted by the variances, ``scatter`` a standard deviation, ``chi2`` of ``dof`` the sum of squared
+    deviations; ``slope_z`` is the slope from flight to flight over its standard deviation.
     """
 
     name: str

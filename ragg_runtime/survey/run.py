@@ -168,10 +168,7 @@ AHEAD = 4
 
 
 def examined_on_cluster(job: Job, files: Sequence[str], address: str) -> Generator[tuple[str, Record]]:
-    """(file, record) of every flight, in the order in which they are done.
-
-    Raises UserError if the cluster cannot be used, or is lost on the way.
-    """
+    """(file, record) of every flight as it is done. Raises UserError if the cluster cannot be used, or is lost."""
     with _client(address) as (distributed, client):
         _check_workers(client, address)
         ask = partial(client.submit, partial(examine, job), pure=False, retries=ATTEMPTS - 1)
@@ -395,10 +392,7 @@ class Journal:
             ) from None
 
     def read(self, job: Job, files: Sequence[str]) -> dict[str, Record]:
-        """Records that still hold, by file: of the same model, program and content; errors do not.
-
-        Raises UserError if the file is another survey's, or no survey's.
-        """
+        """Records that still hold, by file: same model, program and content, no error. UserError for another survey's."""
         lines = self._lines()
         if lines:
             self._compare(lines[0], job)

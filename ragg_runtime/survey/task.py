@@ -1,8 +1,6 @@
-"""What is done with one flight of a survey, wherever it is done: diagnose it, and keep the figures.
+"""What is done with one flight of a survey: diagnose it, and keep the figures.
 
-A job is text and numbers only, so that it can be sent to any process; the model is derived where it arrives,
-once a process. The same job and file give the same record, bit for bit, for any number of workers: linear
-algebra runs on one thread while a flight is looked at.
+A job is text and numbers only, so that it can be sent to any process; the record is the same for any number of workers.
 """
 
 from __future__ import annotations
@@ -57,18 +55,8 @@ BETWEEN = "::"
 
 @dataclass(frozen=True)
 class Job:
-    """The model that flights are held against.
-
-    Attributes
-    ----------
-    text, path
-        model.toml, and where it stands.
-    program
-        :func:`fingerprint` of the program that asks: one that differs would give other figures.
-    cluster
-        Whether the flight is looked at on another machine.
-    mapping
-        Text and place of the mapping by which flights are read, and whether it is the model's own.
+    """The model that flights are held against: model.toml, the :func:`fingerprint` of the program that asks, and the
+    mapping (text, place, whether it is the model's own); ``cluster``: looked at on another machine.
     """
 
     text: str
@@ -108,10 +96,7 @@ def _program() -> str:
 
 
 def examine(given: Job, file: str) -> Record:
-    """The record of one flight; a flight that cannot be read or diagnosed has an ``error`` instead of figures.
-
-    Raises MemoryError and OSError, which a further attempt may mend.
-    """
+    """The record of one flight, with ``error`` if it fails. Raises MemoryError and OSError, which a new attempt may mend."""
     path, line = divided(file)
     record: Record = {"flight": Path(file).name, "file": file}
     try:

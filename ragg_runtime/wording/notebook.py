@@ -1,8 +1,4 @@
-"""Results as notebooks show them: small tables, escaped, in the words of the terminal.
-
-Each function takes the JSON of a result (what ``as_json`` returns) and yields a fragment of HTML. The results'
-own ``_repr_html_`` call them. Sentences that the terminal says too are kept here.
-"""
+"""Results as notebooks show them: fragments of HTML, escaped, from the JSON of a result, in the words of the terminal."""
 
 from __future__ import annotations
 

@@ -18,10 +18,7 @@ _DIRECTION = frozenset("\u200e\u200f\u061c\u202a\u202b\u202c\u202d\u202e\u2066\u
 
 
 def clean(text: str) -> str:
-    """``text`` without control characters, half surrogates and marks that reverse the line.
-
-    Names come from files of strangers: what cannot be shown honestly, or not written as UTF-8, is replaced.
-    """
+    """``text`` of strangers without control characters, half surrogates and marks that reverse the line."""
     return "".join(
         "\ufffd" if (unicodedata.category(c) in _FORBIDDEN and c not in "\n\t") or c in _DIRECTION else c
         for c in text

@@ -67,10 +67,7 @@ class Kept:
 
 
 def calibrate(m: Loaded, flights: Sequence[Flight], save: bool = False, mapping: Path | None = None) -> Kept:
-    """Fit the model's parameters to flights; ``save`` keeps them in the model directory, the older ones as history.
-
-    With them the ``mapping`` by which the flights were read, if one is given.
-    """
+    """Fit the parameters to flights; ``save`` keeps them (and ``mapping``) in the model directory, older ones as history."""
     distinct(flights)
     text = None if mapping is None else mapping_text(mapping)
     c = _calibrated.calibrated(m.model, m.instrument, flights)
@@ -106,11 +103,7 @@ def compare_frozen(m: Loaded, flights: Sequence[Flight]) -> Held:
 
 @dataclass(frozen=True)
 class Compensation:
-    """The result of ``compensate``.
-
-    ``series`` holds the columns (name -> (N,), see :class:`~ragg_runtime.compensation.output.Table`) of every flight;
-    ``units`` are theirs, in order.
-    """
+    """The result of ``compensate``; ``series`` are the columns (name -> (N,)) of every flight, ``units`` theirs, in order."""
 
     name: str
     result: Mapping[str, Any]
@@ -332,10 +325,7 @@ def online(
     walk: float | None,
     forget: float,
 ) -> tuple[dict[str, Any], list[Mapping[str, NDArray[Any]]]]:
-    """Calibrate and compensate sample by sample, every flight from the calibration that is kept, else from the sheet.
-
-    What is said of it, and the columns of every flight. Arguments as of :func:`ragg_runtime.workflow.after.compensate`.
-    """
+    """Calibrate and compensate sample by sample, from the calibration that is kept, else from the sheet."""
     density = _density(m, saved) if noise is None else noise
     walk = following(density) if walk is None else walk
     asked = Tuning(noise=density, walk=walk, forget=forget)

@@ -60,10 +60,7 @@ if TYPE_CHECKING:
 
 
 def compare(m: Loaded, flights: Sequence[Flight], *, ladder: bool = False) -> Comparison:
-    """How far the model is from the flights, and where it fails.
-
-    With ``ladder`` also what each of its simplifications, order and kinematics, is worth on these flights.
-    """
+    """How far the model is from the flights; with ``ladder`` also what each simplification of it is worth there."""
     distinct(flights)
     c = _compare.compare(m.model, m.instrument, flights)
     if not ladder:
@@ -79,10 +76,7 @@ def diagnose(
     limits: Mapping[str, float] = LIMITS,
     compared: Comparison | None = None,
 ) -> Diagnosis:
-    """Which physical effect the model lacks; ``limits`` of a motion to fly next (see :func:`motion_limits`).
-
-    ``compared`` is the comparison of the same model with the same flights, if there is one: then nothing is fitted again.
-    """
+    """Which physical effect the model lacks; with ``compared`` of the same flights nothing is fitted again."""
     distinct(flights)
     extended = partial(derive.with_effects, m.instrument)
     if compared is not None:
@@ -123,10 +117,7 @@ def survey(
     progress: Progress | None = None,
     mapping: Path | None = None,
 ) -> Survey:
-    """Diagnose many flights, each by itself, on a pool of processes or a Dask cluster, and sum them up.
-
-    The arguments are those of :func:`ragg_runtime.survey.run.survey`.
-    """
+    """Diagnose many flights, each by itself, and sum them up; see :func:`ragg_runtime.survey.run.survey`."""
     place = m.directory.path / "model.toml"
     how = mapping_of(m, mapping)
     from ragg_runtime.survey.run import survey as of_many  # slow to import, and only surveys need it
@@ -151,10 +142,7 @@ def sources(m: Loaded, flights: Sequence[Flight]) -> list[tuple[str, str]]:
 
 @dataclass(frozen=True, repr=False)
 class Added:
-    """The result of ``add``: the errors before and after, and the calibrated parameters.
-
-    Where the calibration with the effect in the model has not ``converged``, the model directory is as it was.
-    """
+    """The result of ``add``: errors and parameters; the model directory is as it was where it has not ``converged``."""
 
     loaded: Loaded
     effect: str
@@ -215,10 +203,8 @@ def add(
 ) -> Added:
     """Put an effect into the model: derive it anew, calibrate it on the flights, keep the history.
 
-    An effect that model.toml lists without values (one of your own, say) is calibrated likewise.
-    The directory is changed whole or not at all, after ``tell`` has been called with the result: if that raises,
-    nothing is changed; nor where the calibration does not converge. Without ``save`` the directory stays, and the result
-    says what would be.
+    The directory is changed whole or not at all, after ``tell`` has been called with the result. Nothing is changed if
+    that raises, if the calibration does not converge, or without ``save``.
     """
     distinct(flights)
     setting = _setting(m, effect, flights)
@@ -259,9 +245,7 @@ def add(
 
 
 def _setting(m: Loaded, effect: str, flights: Sequence[Flight]) -> EffectSetting:
-    """The effect as model.toml will list it, its values still open but for the instant of a step; UserError if it
-    cannot be added.
-    """
+    """The effect as model.toml will list it, its values open but for a step's instant; UserError if it cannot be added."""
     # a candidate of the model tells all that is asked here: the derivation, half a second to begin, is for others
     found = next((e for e in m.model.candidates if e.id == effect), None)
     offered = derive.offered(m.instrument, effect) if found is None else found
@@ -343,8 +327,7 @@ def origin(
 ) -> dict[str, object]:
     """What makes a result again (``provenance``), and what the reader did to the flights (``notes``).
 
-    ``files`` (path, SHA-256) are flights that were read elsewhere; ``before`` is the model that the command
-    has changed.
+    ``files`` (path, SHA-256) are flights read elsewhere; ``before`` is the model that the command has changed.
     """
     model = identity(m.directory, m.model.digest, None if before is None else before.directory)
     read = [(x.name if x.path is None else str(x.path), x.digest) for x in flights]
@@ -352,10 +335,7 @@ def origin(
 
 
 def of_survey(m: Loaded, s: Survey, command: str) -> tuple[dict[str, object], dict[str, Any]]:
-    """The same of a survey that was made with ``m``, and what its report says about itself.
-
-    Flights that could not be read are among the files, too.
-    """
+    """The same of a survey made with ``m``, flights that could not be read among its files."""
     from ragg_runtime.survey.run import sha256
 
     files = [(r["file"], r["sha256"] if "sha256" in r else sha256(Path(r["file"]))) for r in s.records]
@@ -403,10 +383,7 @@ class Loaded:
 
 
 def new(path: Path | str, source: Path | None = None, mapping: Path | None = None) -> Loaded:
-    """Make a model directory from a test sheet (a model.toml), by default the packaged example.
-
-    ``mapping`` is kept with the model: what the columns of its flight files are.
-    """
+    """Make a model directory from a test sheet (a model.toml), by default the packaged example, and keep ``mapping`` there."""
     kept = None if mapping is None else mapping_text(Path(mapping))
     if source is None:
         text = _example_text()
@@ -448,10 +425,9 @@ def read_flights(
     *,
     leave: frozenset[str] = frozenset(),
 ) -> list[Flight]:
-    """Read flight files in the units of this model (its g0), and examine them: see ``plausibility``.
+    """Read flight files, every line of one a flight, in the units of this model (its g0), and examine them.
 
-    A file with several lines gives as many flights. ``mapping`` is a file that says what the columns are, by
-    default the model's own ``mapping.toml``, if it has one. ``leave`` names columns that are not read.
+    ``mapping`` says what the columns are, by default the model's own; ``leave`` names columns that are not read.
     """
     how = mapping_of(m, mapping)
     found = []

@@ -83,11 +83,7 @@ def next_flight(
     rate: float | None = None,
     band: tuple[float, float] | None = None,
 ) -> NextFlight:
-    """The multisine of :mod:`ragg_runtime.diagnosis.motion_design` for the rivals left.
-
-    ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold. Where nothing is left to tell
-    apart: all frequencies about all axes.
-    """
+    """The multisine for the rivals left; ``rate``, Hz, is that of the flights unless given; ``band``, Hz, all that it can hold."""
     rate = flights[0].rate if rate is None else rate
     band = (0.0, HIGHEST * rate) if band is None else band
     tones = tones_of(m.instrument.spin_frequency, limits, band)

@@ -209,10 +209,7 @@ FORM = "[DISC:]HZ[,RAD@HZ[@RAD]]..."
 
 
 def turning_of(given: Sequence[str], layout: Layout, motion: Flight | None = None) -> dict[str, Turning]:
-    """Name of a disc -> how it turns; of others their sheet's rate holds.
-
-    ``given`` are texts of the form FORM, for the disc named or for all; they go before the angles that ``motion`` has.
-    """
+    """Name of a disc -> how it turns; ``given`` are texts FORM, for the disc named or for all, before the angles of ``motion``."""
     found = {} if motion is None else _recorded_turning(motion, layout)
     for text in given:
         name, colon, profile = text.rpartition(":")

@@ -53,10 +53,7 @@ def as_of(m: Loaded, text: str) -> Loaded:
 
 
 def with_own(m: Loaded, effect: str, add: str, units: Mapping[str, str]) -> Loaded:
-    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone.
-
-    :func:`ragg_runtime.workflow.loop.add` then calibrates it, and keeps it if that is wanted.
-    """
+    """The model with an effect of one's own listed, ``add`` at the transducer (unit of each parameter), in memory alone."""
     parameters = MappingProxyType({n: MappingProxyType({"unit": u}) for n, u in units.items()})
     expression = MappingProxyType({"stage": "transducer", "add": add, "params": parameters})
     if effect in {e.id for e in derive.known(m.instrument).effects}:
@@ -78,10 +75,7 @@ def text_of(history: Sequence[Step], step: int) -> str:
 
 
 def branches(history: Sequence[Step]) -> tuple[list[int], list[int]]:
-    """Steps on the present branch, and those that undo has left and redo would come back to (nearest last).
-
-    Undo and redo are steps themselves: nothing is ever taken out of a history.
-    """
+    """Steps on the present branch, and those that undo has left (nearest last); undo and redo are steps themselves."""
     past: list[int] = []
     future: list[int] = []
     for n, s in enumerate(history):
@@ -102,10 +96,7 @@ NO_STATES = ("undo", "redo", "calibrate")
 
 
 def tree(history: Sequence[Step]) -> dict[int, tuple[int | None, int]]:
-    """Of every step that made a state: that from which it was made, and the lane in which it is drawn.
-
-    The first step from a state goes on in its lane, each further one begins a lane of its own.
-    """
+    """Of every step that made a state: that from which it was made, and the lane in which it is drawn."""
     found: dict[int, tuple[int | None, int]] = {}
     lanes = 0
     for n, s in enumerate(history):

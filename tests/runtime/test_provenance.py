@@ -11,14 +11,12 @@ import sys
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
-from types import CodeType
 from typing import Any
 
-import click
 import numpy as np
 import pytest
 
-from ragg_runtime.cli.main import COMMANDS, cli, main
+from ragg_runtime.cli.main import main
 from ragg_runtime.flight import write_flight
 from ragg_runtime.workflow import loop
 from ragg_runtime.workflow.simulate import simulated
@@ -93,20 +91,6 @@ def test_a_report_names_what_made_it(place: Path, monkeypatch: pytest.MonkeyPatc
     for library in ("numpy", "scipy", "sympy"):
         assert f"{library} {version(library)}" in page
     assert loop.load(place / "model").model.digest in page
-
-
-def test_every_command_that_gives_json_goes_through_one_door() -> None:
-    """Whatever has --json writes it with provenance: see ``cli.shared.emit``."""
-    for name in COMMANDS:
-        command = cli.get_command(click.Context(cli), name)
-        assert command is not None
-        if any(p.name == "json_file" for p in command.params):
-            assert command.callback is not None
-            code = command.callback.__code__
-            inner = [
-                c for c in code.co_consts if isinstance(c, CodeType)
-            ]  # what is called last stands in a function
-            assert any("emit" in c.co_names for c in (code, *inner)), name
 
 
 def test_the_same_result_on_any_number_of_threads(place: Path) -> None:
