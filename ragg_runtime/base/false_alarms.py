@@ -11,10 +11,7 @@ which is 0.033. The rest of the promise is for the noise spectrum, which is esti
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
 SURVEY are remarks beside the verdict: each is the level of its own statement.
 
-What stands in a record with no doubt has no level here, because chance has no part in it: an output that clips or stands on a
-lattice (``generated.output_effects``), spikes, jumps and lines (``plausibility.spikes``, ``fit.disturbances``,
-``signals.noise_spectrum``: 12 standard deviations, 25 times the level), a mistake of units or signs (five times the
-misfit). Neither have comparisons of two explanations of the same thing, which are differences of chi-square.
+What stands in a record with no doubt (clipping, spikes, jumps, lines, wrong units) has no level here.
 """
 
 from __future__ import annotations
@@ -26,16 +23,13 @@ CATALOGUE = 0.03
 """Of the whole catalogue, the first effect. Most of the promise goes here: to find effects is what the diagnosis is for."""
 
 COMPANION = 0.005
-"""Of each effect beside the first, of which there are three at most: six times stricter than the first, for a chance companion
-spoils a finding that is right, and true companions of the strength that counts (10 sigma) pass it all the same."""
+"""Of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right."""
 
 REMAINDER = 0.002
-"""Of everything that is looked for in what is left: some 2,000 terms are there only to withdraw a claim, and lose little
-power by it: the largest of 2,000 must be 4.9 sigma; at 0.03 it would be 4.3."""
+"""Of everything that is looked for in what is left, some 2,000 terms: the largest must be 4.9 sigma."""
 
 LEVEL = 1e-4
-"""That the noise's level follows something, over all that is asked: it names nothing and withdraws no claim; a false one changes
-the weights of the samples by a few per cent and is a remark beside the verdict."""
+"""That the noise's level follows something, over all that is asked: a remark beside the verdict."""
 
 CHANGE = 0.01
 """Of ``holds_until_s``: a change is said to be in flights in which there is none (over all of their blocks of time)."""

@@ -96,7 +96,7 @@ def _figures(s: Survey) -> list[dict[str, str]]:
     if not s.done:
         return []
     before, after = (
-        np.array([_nan(r["error"][k]["rms_Eo"]) for r in s.done]) for k in ("calibrated", "after")
+        np.array([r["error"][k]["rms_Eo"] for r in s.done], dtype=float) for k in ("calibrated", "after")
     )
     noise = np.array([r["noise_floor"]["rms_Eo"] for r in s.done])
     strange = np.array([r["verdict"] == "unexplained" for r in s.done])
@@ -106,10 +106,6 @@ def _figures(s: Survey) -> list[dict[str, str]]:
         " that were found in this flight. Dashed: the flight’s noise."
     )
     return [{"svg": errors(names, before, after, noise, strange), "caption": caption}]
-
-
-def _nan(x: float | None) -> float:
-    return float("nan") if x is None else x
 
 
 def _row(number: int, r: Mapping[str, Any]) -> dict[str, Any]:

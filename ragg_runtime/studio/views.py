@@ -47,7 +47,9 @@ def overview(s: State, version: str) -> Json:
         "effects": [] if s.diagnosed is None else effects(s.diagnosed),
         "silent": [] if s.diagnosed is None else _silent(s.diagnosed),
         "unexplained": None if s.diagnosed is None else _unexplained(s.diagnosed),
-        "next_motion": [] if s.diagnosed is None else [_motion(p) for p in s.diagnosed.next_motion],
+        "next_motion": []
+        if s.diagnosed is None
+        else [{**p.as_json(), "words": numbers.clean(p.in_words())} for p in s.diagnosed.next_motion],
         "parameters": None if s.compared is None else _parameters(s.compared),
         "sheet": None if s.loaded is None else versions.shown_sheet(s.loaded.instrument),
         "history": None if s.loaded is None else _history(s.loaded),
@@ -185,10 +187,6 @@ def _unexplained(d: Diagnosis) -> Json:
         "expression": d.expression(),
         "needs": d.needs(),
     }
-
-
-def _motion(p: Any) -> Json:
-    return {**p.as_json(), "words": numbers.clean(p.in_words())}
 
 
 def _symbol(s: Symbol) -> Json:

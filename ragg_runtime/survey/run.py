@@ -83,7 +83,7 @@ def survey(
     files = expanded(given, ordered(flights))
     names = distinct_names(files)
     records: dict[str, Record] = {}
-    with _kept(resume) as kept:
+    with contextlib.nullcontext() if resume is None else journal(resume) as kept:
         if kept is not None:
             records |= kept.read(given, files)
         if progress is not None:
@@ -149,15 +149,6 @@ def _examined(
     if scheduler is not None:
         return examined_on_cluster(given, files, scheduler)
     return local.examined(given, files, jobs or local.processors())
-
-
-@contextlib.contextmanager
-def _kept(resume: Path | None) -> Iterator[Journal | None]:
-    if resume is None:
-        yield None
-    else:
-        with journal(resume) as kept:
-            yield kept
 
 
 PATIENCE = 5.0

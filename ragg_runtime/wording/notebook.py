@@ -172,7 +172,8 @@ def diagnosis(d: Mapping[str, Any]) -> str:
             parts.append(_line(f"and this into the flight: {'; '.join(d['unexplained']['needs'])}"))
     if d["not_testable"]:
         silent = [(n["effect"], n["why"]) for n in d["not_testable"]]
-        parts.append(_folded("not testable on this record", _table(("effect", "why"), silent, words=2)))
+        table = _table(("effect", "why"), silent, words=2)
+        parts.append(f"<details><summary>not testable on this record</summary>{table}</details>")
     return _fragment(*parts)
 
 
@@ -282,10 +283,6 @@ def _escaped(text: object) -> str:
 def _line(text: str, *, strong: bool = False) -> str:
     weight = "font-weight:600;" if strong else ""
     return f'<div style="{weight}margin:.2em 0">{_escaped(text)}</div>'
-
-
-def _folded(title: str, content: str) -> str:
-    return f"<details><summary>{_escaped(title)}</summary>{content}</details>"
 
 
 def _table(

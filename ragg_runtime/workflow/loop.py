@@ -430,19 +430,13 @@ def read_flights(
     ``mapping`` says what the columns are, by default the model's own; ``leave`` names columns that are not read.
     """
     how = mapping_of(m, mapping)
-    found = []
+    found: list[Flight] = []
     for path in paths:
         read = _read_flights(
             path, m.instrument.g0, accelerometers=m.instrument.layout, mapping=how, leave=leave
         )
-        for x in read:
-            found.append(as_read(m.model, m.instrument, x))
+        found += [examined(m.model, m.instrument, x) for x in read]
     return found
-
-
-def as_read(model: Model, instrument: Instrument, x: Flight) -> Flight:
-    """What is done to every flight that is read: examined, and the memory that reading it took given back."""
-    return examined(model, instrument, x)
 
 
 def mapping_of(m: Loaded, given: Path | str | None) -> Mapped | None:
