@@ -119,6 +119,12 @@ def _false(*args: Any, **kwargs: Any) -> bool:
     return False
 
 
+def _significant(x: Any) -> bool:
+    from ragg_runtime.lack_of_fit import omnibus
+
+    return x is not None and x[0] < np.log(omnibus.FAMILY)
+
+
 def _level(*args: Any) -> Any:
     from ragg_runtime.signals.noise_level import Level
 
@@ -178,6 +184,12 @@ RULES: tuple[Rule, ...] = (
     Rule("off-sheet", "a sheet is taken to be less sure than it says where the record says so",
          (*OFF, ("ten", "elsewhere")), ("fit/off_sheet.py:widened", "fit/off_sheet.py:_widths"),
          (Patch("fit.fitted:widened", _nothing),)),
+    Rule("time-varying", "generic terms that come and go",
+         (*OUTSIDE, ("quiet", "ramp")), ("lack_of_fit/time_varying.py", "lack_of_fit/omnibus.py:_varying"),
+         (Patch("lack_of_fit.omnibus:_varying", _nothing, acts=_significant),)),
+    Rule("spectral-line", "a line in the spectrum of what is left",
+         (*OUTSIDE, *quiet("line", "mains")), ("lack_of_fit/spectral_line.py", "lack_of_fit/omnibus.py:_line"),
+         (Patch("lack_of_fit.omnibus:_line", _nothing, acts=_significant),)),
     Rule("nonlinear-selection", "strong effects are derived into the model one after the other",
          STRONG, ("diagnosis/strong.py", "diagnosis/contenders.py"),
          (Patch("diagnosis.strong:STRONG", np.inf, constant=True, acts=_false),)),

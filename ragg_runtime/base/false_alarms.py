@@ -5,9 +5,9 @@ that share of them. By the union bound (Bonferroni) the tests that decide the ve
 
     CATALOGUE   the effects that are columns, and steps: the least p-value times the number of effects tested
   + a random effect is tested besides, at CATALOGUE over the number of effects: one effect of thirty adds 0.001
-  + REMAINDER   what no effect explains, all generic terms together
+  + REMAINDER   what no effect explains, all generic terms together; divided by REMAINDER_SHARES
 
-which is 0.033. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
+which is 0.035. The rest of the promise is for the noise spectrum, which is estimated from the same record and not known: a
 few of its bins at low frequency carry the drifts. COMPANION enters only where there is an effect, and LEVEL, CHANGE, FROZEN and
 SURVEY are remarks beside the verdict: each is the level of its own statement.
 
@@ -25,8 +25,11 @@ CATALOGUE = 0.03
 COMPANION = 0.005
 """Of each effect beside the first, of which there are three at most: a chance companion spoils a finding that is right."""
 
-REMAINDER = 0.002
+REMAINDER = 0.004
 """Of everything that is looked for in what is left, some 2,000 terms: the largest must be 4.9 sigma."""
+
+REMAINDER_SHARES = (0.5, 0.25, 0.25)
+"""How steady terms, terms that come and go, and lines in the spectrum divide :data:`REMAINDER`."""
 
 LEVEL = 1e-4
 """That the noise's level follows something, over all that is asked: a remark beside the verdict."""

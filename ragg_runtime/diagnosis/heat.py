@@ -74,7 +74,7 @@ def _table(s: Scores) -> Heat:
             at = row[t.harmonic], column[t.product]
             z[at] = s.sums.dot[k] / norm[k]
             coefficient[at] = z[at] / (norm[k] * s.dictionary.size(t))
-    share = omnibus.FAMILY / (2 * max(int(np.sum(good)), 1))
+    share = omnibus.FAMILY * omnibus.SHARES[0] / (2 * max(int(np.sum(good)), 1))
     return Heat(
         harmonics=rows, products=columns, z=z, coefficient=coefficient, level=-float(special.ndtri(share))
     )

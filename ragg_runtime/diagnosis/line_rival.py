@@ -70,6 +70,7 @@ class LineRival:
             z=float(np.sqrt(chi2)),
             chi2=chi2,
             mean_square=self.line.amplitude**2 / 2,
+            kind="line",
         )
         first, *others = rem.searches
         log_p = min(first.log_p, self.line.log_p)

@@ -99,10 +99,8 @@ class Diagnosis:
 
     @cached_property
     def _suggested(self) -> tuple[Found, str] | None:
-        terms = [t for s in self.remainder.searches for t in s.terms]
-        for t in sorted(terms, key=lambda t: -abs(t.z)):
-            if t.term.harmonic.startswith("line "):
-                continue
+        steady = [t for s in self.remainder.searches for t in s.terms if t.kind == "steady"]
+        for t in sorted(steady, key=lambda t: -abs(t.z)):
             units = [u for c in t.term.channels if (u := channel_unit(c)) != "1"]
             line = as_effect.line(t.term, t.centre, "/".join(("m/s^2", *(f"({u})" for u in units))))
             if line is not None:

@@ -109,8 +109,10 @@ class Dictionary:
         swift = [t for t in several if t.harmonic != "const"]
         swift += [Term("const", c) for c, trend in zip(made_of, trends, strict=True) if not trend]
         self.terms: tuple[Term, ...] = (*alone, *lasting, *swift)
+        self.first_order = len(alone)
+        """Constants, single channels and turning forces: so many of the terms, the first."""
         self.slow = len(alone) + len(lasting)
-        """Constants, single channels, turning forces and what may have a trend: so many of the terms, the first."""
+        """These and what may have a trend: so many of the terms, the first."""
 
     def size(self, term: Term) -> float:
         """A fixed size of the term's series, SI: the product of its channels' root mean squares."""

@@ -9,20 +9,23 @@ over the segments of a flight.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.fit import prepared_flight
+from ragg_runtime.fit import prepared_flight, unknown_gradient
 from ragg_runtime.fit.fitted import Fitted
-from ragg_runtime.fit.passes import Piece
+from ragg_runtime.fit.noise import line_width
+from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.features import term_unit
+from ragg_runtime.lack_of_fit.spectral_line import Periodogram
+from ragg_runtime.lack_of_fit.time_varying import BlockScores
 from ragg_runtime.lack_of_fit.whitened_terms import Directions, products, squares
 
 Array = NDArray[np.float64]
@@ -31,6 +34,9 @@ T = TypeVar("T")
 
 FAMILY = false_alarms.REMAINDER
 """Probability with which anything at all may seem left of an effect-free record."""
+
+SHARES = false_alarms.REMAINDER_SHARES
+"""How the tests divide it: steady terms, terms that come and go, lines in the spectrum."""
 
 OWN = 1e-6
 """Share of a term's square that must be left of it beside the base's columns for it to have a direction of its own: single
@@ -50,7 +56,10 @@ SHORTLIST = 400
 
 @dataclass(frozen=True)
 class Found:
-    """A generic term in a residual, or a line (the harmonic then names the frequency).
+    """A generic term in a residual.
+
+    ``kind`` is ``steady``, ``varying`` (``coefficient`` is then the root mean square of its values in blocks of time) or ``line``
+    (the harmonic then names the frequency).
 
     Attributes
     ----------
@@ -60,6 +69,8 @@ class Found:
         Its significance when it was taken, in standard deviations.
     chi2
         What it explained then.
+    how
+        In words, how a varying term varies.
     mean_square
         Of the term in the residual, V^2 (about its mean, for const terms).
     centre
@@ -72,6 +83,8 @@ class Found:
     z: float
     chi2: float
     mean_square: float
+    kind: str = "steady"
+    how: str = ""
     centre: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -97,13 +110,14 @@ class Omnibus:
 class Sums:
     """What the search needs of every term: sums over segments."""
 
-    def __init__(self, terms: int, basis: int) -> None:
+    def __init__(self, terms: int, basis: int, blocks: BlockScores, spectrum: Periodogram) -> None:
         self.dot = np.zeros(terms)
         self.along = np.zeros((terms, basis))
         self.norm2 = np.zeros(terms)
         self.raw = np.zeros((2, terms))
         self.samples = 0
         self.square = 0.0
+        self.blocks, self.spectrum = blocks, spectrum
 
     def join(self, other: Sums) -> None:
         """Count in the sums of further segments."""
@@ -111,6 +125,8 @@ class Sums:
             getattr(self, name)[...] += getattr(other, name)
         self.samples += other.samples
         self.square += other.square
+        self.blocks.join(other.blocks)
+        self.spectrum.join(other.spectrum)
 
 
 class Scores:
@@ -118,11 +134,22 @@ class Scores:
 
     def __init__(self, prepared: PreparedFlight, projector: Projector) -> None:
         self.prepared, self.projector = prepared, projector
-        self.dictionary = Dictionary(prepared.observation.record)
+        o = prepared.observation
+        self.dictionary = Dictionary(o.record)
+        self._excluded = None
+        if unknown_gradient.unknown(o):  # there nothing is left of the noise either
+            double, width = 2 * o.record.spin_frequency, 2 / unknown_gradient.KNOT_SECONDS
+            self._excluded = (double - width, double + width)
+        self._longest = max(s.rows.stop - s.rows.start for s in flight_segments(o))
         self.sums = self._zero()
 
     def _zero(self) -> Sums:
-        return Sums(len(self.dictionary.terms), len(self.projector.along))
+        return Sums(
+            len(self.dictionary.terms),
+            len(self.projector.along),
+            BlockScores(self.dictionary.first_order, self.prepared.observation.record.time),
+            Periodogram(self._longest, self.prepared.observation.record.rate, self._excluded),
+        )
 
     def of(self, piece: Piece, y: Array, Q: Array) -> Sums:
         """The sums of one segment; y (rows,) is what the projector, with basis Q (rows, k), leaves of it."""
@@ -131,23 +158,31 @@ class Scores:
         s.samples = int(np.sum(piece.observation.record.valid))
         right = np.column_stack([y, Q])
         ones = np.ones((len(piece.observation.record.time), 1))
-        for at, x, inner, norm2 in self._of_terms(Directions(self.prepared, self.dictionary, piece), right):
+        s.blocks.level(piece, y)
+        s.spectrum.add(piece, y)
+        for at, x, inner, norm2, X in self._of_terms(
+            Directions(self.prepared, self.dictionary, piece), right
+        ):
             s.dot[at] = inner[:, 0]
             s.along[at] = inner[:, 1:]
             s.norm2[at] = norm2
+            if X is not None:
+                s.blocks.add(piece, y, at, X)
             s.raw[0, at] = products(x, ones)[:, 0]
             s.raw[1, at] = squares(x)
         return s
 
-    def _of_terms(self, d: Directions, right: Array) -> Iterator[tuple[slice, Singles, Array, Array]]:
-        """Places, series, inner products with ``right`` and squared norms of all terms."""
+    def _of_terms(
+        self, d: Directions, right: Array
+    ) -> Iterator[tuple[slice, Singles, Array, Array, Singles | None]]:
+        """Places, series, inner products with ``right`` and squared norms of all terms; some whitened."""
         terms, slow = self.dictionary.terms, self.dictionary.slow if d.may_be_periodic else None
         singles = right.astype(np.float32)
         for at, x, X in d.whitened(terms[:slow]):
-            yield at, x, products(X, singles), squares(X)
+            yield at, x, products(X, singles), squares(X), X
         if slow is not None:
             for at, x, inner, norm2 in d.scores(terms[slow:], right):
-                yield slice(slow + at.start, slow + at.stop), x, inner, norm2
+                yield slice(slow + at.start, slow + at.stop), x, inner, norm2, None
 
     def whitened(self, piece: Piece, places: Sequence[int]) -> Singles:
         """(len(places), rows): the whitened series of some terms over a segment, in order of their places."""
@@ -190,7 +225,50 @@ def search(
     return choose(scores), found
 
 
-def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
+def choose(s: Scores) -> Omnibus:
+    """What is left of a flight: steady terms, or else one that comes and goes, or a line."""
+    steady = _steady(s)
+    others = [t for t in (_varying(s), _line(s)) if t is not None]
+    log_p = min([steady.log_p, *(p for p, _ in others)])
+    significant = [(p, found) for p, found in others if p < np.log(FAMILY)]
+    if steady.terms or not significant:
+        return replace(steady, log_p=log_p)
+    found = tuple(f for _, f in sorted(significant, key=lambda x: x[0]))
+    return replace(steady, log_p=log_p, terms=found, chi2=max(f.chi2 for f in found))
+
+
+def _varying(s: Scores) -> tuple[float, Found] | None:
+    """The term that varies most; one that the model has, with one coefficient for the whole flight, may vary as well as any other."""
+    v = s.sums.blocks.best(s.sums.norm2 > 0.0)
+    if v is None:
+        return None
+    term = s.dictionary.terms[v.place]
+    size = s.dictionary.size(term)
+    mean_square = v.coefficient**2 * float(s.sums.raw[1, v.place]) / max(s.sums.samples, 1)
+    z = float(np.sqrt(v.chi2))
+    found = Found(term, v.coefficient / size, v.std / size, z, v.chi2, mean_square, "varying", v.how)
+    return min(0.0, v.log_p - float(np.log(SHARES[1]))), found
+
+
+def _line(s: Scores) -> tuple[float, Found] | None:
+    """The strongest line of what is left, if it is none beside those that were taken out (of one that wanders something stays)."""
+    if s.prepared.observation.recorded.demodulated:
+        return None  # their noise is only white within the demodulator's band
+    line = s.sums.spectrum.best()
+    width = line_width(s.prepared.observation)
+    if line is None or any(abs(line.frequency - q.frequency) < width for q in s.prepared.noise.lines):
+        return None
+    # back from the whitened residual: the noise's own density at the line
+    volts2 = float(s.prepared.noise_psd(np.array([line.frequency]))[0])
+    mean_square = line.share * volts2 * s.prepared.observation.record.rate / 2
+    chi2, size = line.share * s.sums.square, float(np.sqrt(2 * mean_square))
+    z = float(np.sqrt(chi2))
+    term = Term(f"line {line.frequency:.5g} Hz", ())
+    found = Found(term, size, size / max(z, 1.0), z, chi2, mean_square, "line")
+    return min(0.0, line.log_p - float(np.log(SHARES[2]))), found
+
+
+def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     """The largest scores, one by one, while they are significant."""
     left2 = s.sums.norm2 - np.einsum("ij,ij->i", s.sums.along, s.sums.along)
     good = left2 > OWN * s.sums.norm2
@@ -245,7 +323,7 @@ def choose(s: Scores, most: int = MOST_TERMS) -> Omnibus:
 def _log_p(z: Array, tried: int, freedom: float = np.inf) -> float:
     """p-value, as a logarithm, of the largest of so many standard deviates; ``freedom``: from which the noise is known."""
     top = float(np.max(np.abs(z), initial=0.0))
-    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1))))
+    return min(0.0, log_sf_t(top, freedom) + float(np.log(2 * max(tried, 1) / SHARES[0])))
 
 
 @dataclass(frozen=True)
@@ -287,6 +365,8 @@ def terms_json(rem: Remainder, mean_squares: Sequence[float]) -> list[dict[str, 
                 "unit": term_unit(t.term.channels),
                 "share": min(1.0, t.mean_square / power),
                 "z": t.z,
+                "kind": t.kind,
+                "how": t.how,
             }
             if key not in best or abs(t.z) > abs(float(str(best[key]["z"]))):
                 best[key] = row

@@ -184,7 +184,7 @@ def diagnosed(d: Diagnosis, then: str) -> str:
         for t in left["terms"]:
             lines.append(
                 f"  {t['harmonic']:6} {t['term']:28} {t['coefficient']:+.4g} +- {t['std']:.2g} {t['unit']},"
-                f" {t['z']:+.1f} sigma"
+                f" {t['z']:+.1f} sigma{', ' + t['how'] if t['how'] else ''}"
             )
         if d.expression():
             lines += [
