@@ -28,11 +28,8 @@ class Contribution:
 
 
 def contributions(f: Fitted) -> list[Contribution]:
-    """rms before demodulation and standard deviations of the channels, Eo, largest first.
-
-    Each is the change of the model's output when one group of parameters is put to zero (an effect: to where
-    it is absent; scale factors: to the mean of the four, since only their imbalance is an error) and all
-    others stay as calibrated. Couplings between groups are so counted in each of them.
+    """rms before demodulation and standard deviations of the channels, Eo, largest first: the change of the model's output when one
+    group of parameters is put to zero (an effect: to where it is absent; scale factors: to their mean).
     """
     found = []
     full = [output(f.model.chain, o.record, f.calibration.p, o.output) for o in f.observations]

@@ -40,10 +40,7 @@ LOUD = 1.15
 
 @dataclass(frozen=True, repr=False)
 class Comparison:
-    """The result of ``compare``: the interface's JSON, and what the report draws.
-
-    ``adequate`` and ``remainder`` are ``None`` where the errors alone were asked for.
-    """
+    """The result of ``compare``; ``adequate`` and ``remainder`` are ``None`` where the errors alone were asked for."""
 
     fitted: Fitted
     nominal: Error
@@ -261,10 +258,7 @@ def concluded(
 
 
 def loud(f: Fitted, scored: Scored, noise: float) -> bool:
-    """Whether an error stands above the noise (rms, Eo), whatever the tests of what is left say.
-
-    Allowed for: what lines add, and three standard errors of a noise that few samples tell.
-    """
+    """Whether an error stands above the noise (rms, Eo), lines and three standard errors of the noise allowed for."""
     freedom = sum(n.freedom for n in f.calibration.noise)
     known = 1.0 + 3.0 / float(np.sqrt(2.0 * freedom))
     return scored.whole.rms_Eo > float(np.hypot(LOUD * noise * swell(f) * known, fitted.lines(f)))
@@ -312,17 +306,8 @@ STEPS: tuple[Form, ...] = (
 
 @dataclass(frozen=True)
 class Rung:
-    """A form of the model and how far it is from the flights.
-
-    Attributes
-    ----------
-    form
-        Of the model.
-    nominal, calibrated
-        Its errors with model.toml's values, and with parameters fitted to the flights.
-    step
-        By how much its prediction, with model.toml's values, differs from that of the form before; of the first
-        ``None``.
+    """A form of the model, its errors with model.toml's values and with fitted ones, and the ``step`` by which its prediction
+    differs from that of the form before (``None`` of the first).
     """
 
     form: Form
@@ -384,15 +369,8 @@ def _rung(f: Fitted, p: Array, below: tuple[Model, Array] | None) -> Rung:
 
 @dataclass(frozen=True)
 class Explained:
-    """What a model explains of the output.
-
-    Attributes
-    ----------
-    share
-        Of the power of the output about its mean.
-    gain
-        By how much its description of the output is better than a constant, by the BIC (G. Schwarz, Ann. Stat. 6, 1978): twice
-        the gain in log likelihood less ln N for each of its parameters, of an unknown gradient's included.
+    """What a model explains of the output: the share of its power about its mean, and the gain in description over a constant by
+    the BIC (G. Schwarz, Ann. Stat. 6, 1978).
     """
 
     share: float

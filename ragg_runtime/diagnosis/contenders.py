@@ -51,15 +51,7 @@ def derived(
 
 @dataclass(frozen=True)
 class Left:
-    """What effects in the model leave.
-
-    Attributes
-    ----------
-    chi2
-        Chi-square, with what the parameters cost.
-    arrived
-        Whether the fit came to an optimum.
-    """
+    """What effects in the model leave: chi-square, with what the parameters cost, and whether the fit came to an optimum."""
 
     chi2: float
     arrived: bool
@@ -71,11 +63,9 @@ def left(
     held: frozenset[str],
     extended: tuple[Model, Instrument],
 ) -> Left:
-    """What a nonlinear fit leaves with effects in the model.
+    """What a nonlinear fit leaves with effects in the model; coefficients labelled in ``held`` stay at zero, to second order.
 
-    Those of its coefficients that its test does not need, labelled in ``held``, are held at zero, to second order about
-    the fit: an effect of many would otherwise explain some of the noise for nothing. An effect that brings parameters to light
-    which only the sheet knew before fits the noise with those too: every one that the record then knows costs 2 (AIC).
+    Every parameter that only the sheet knew before, and the record does now, costs 2 (AIC).
     """
     model, sheet = extended
     observations = certain(model, sheet, f.observations)
@@ -103,14 +93,9 @@ def left(
 
 @dataclass(frozen=True)
 class Contest:
-    """What contenders leave of some flights, each fitted once; of long ones first an excerpt, then all for those that are near.
+    """What contenders leave of the flights of the fit ``f`` without them, each fitted once; of long ones first an excerpt.
 
-    Attributes
-    ----------
-    f
-        The flights fitted without them.
-    entered
-        Of a contender, what of it is ``held``, and its model and sheet: as for :func:`left`.
+    ``entered``: of a contender what of it is ``held``, and its model and sheet, as for :func:`left`.
     """
 
     f: Fitted

@@ -1,12 +1,7 @@
 """Which physical effect is missing: the method, its verdict, and what the record cannot tell.
 
-1. Calibrate the existing model on all flights; estimate the noise; whiten (``compare.fit``).
-2. Test every candidate on what no parameter of the model can absorb; choose forward with swaps.
-   Strong ones are derived into the model one after the other, and everything is done anew (``diagnosis.strong``).
-3. Refit with the chosen effects derived into the model, so that their couplings and the calibration are
-   nonlinear again; search the remainder for anything else.
-4. Verdict: ``adequate`` (nothing significant), ``missing-effect`` (the chosen effects bring the residual
-   down to noise) or ``unexplained`` (something significant remains that no known effect accounts for).
+The model is calibrated, every candidate tested on what no parameter absorbs, strong ones derived into the model one after the
+other; a refit with all chosen effects shows whether the residual comes down to noise.
 """
 
 from __future__ import annotations
@@ -64,17 +59,10 @@ def diagnose(
     extend: Extend | None = None,
     limits: Mapping[str, float] = next_motion.LIMITS,
 ) -> Diagnosis:
-    """Find which of the model's candidate effects the flights need.
+    """Find which of the model's candidate effects the flights, of one instrument, need.
 
-    Parameters
-    ----------
-    flights
-        Flights of one instrument, fitted together.
-    extend
-        Derives the model with the chosen effects in it, for the final, nonlinear check. Without it the
-        check is linear.
-    limits
-        Largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
+    ``extend`` derives the model with the chosen effects for the final, nonlinear check, which is linear without it; ``limits`` are
+    the largest amplitudes ``a`` (m/s^2) and ``omega`` (rad/s) of a motion to fly next.
     """
     observations = thinned(model, instrument, observations_of(flights, instrument))
     f = fit(model, instrument, observations)
@@ -142,8 +130,7 @@ def diagnose_fitted(
 class _Left:
     """What the chosen effects leave: a remainder, a line of the output, random effects; ``remains``: more than chance does.
 
-    ``random_found`` are (log p, effect) of the significant ones, the surest first; ``steady`` are the chosen effects
-    that act as a constant term.
+    ``random_found`` are (log p, effect), the surest first; ``steady`` the chosen effects that act as a constant term.
     """
 
     remainder: Remainder
@@ -288,16 +275,12 @@ def _present(r: Recogniser, c: Array, valid: NDArray[np.bool_], noise: float) ->
 
 
 UNEXPLAINED = 10.0
-"""Times the noise's chi-square that all effects of the catalogue together must leave, as far as linear tests tell, for flights to
-contradict each other: of one effect between flights, however strong, they leave the noise (0.95 to 1.0 in what was tried); of three
-instruments in place of one, ten million times as much."""
+"""Times the noise's chi-square that all effects of the catalogue together must leave for flights to contradict each other."""
 
 
 def contradiction(first: Stage) -> str | None:
-    """That flights contradict each other, in words, and which of them agree; ``None`` if they do not.
-
-    ``first`` is the stage without any effect in the model. An effect that acts between flights alone (a temperature that is
-    another one in each) is none of this: its column tells it.
+    """That flights contradict each other, in words, and which agree; ``None`` if they do not. ``first`` is the stage without
+    effects.
     """
     f = first.fitted
     flights: dict[int, list[Observation]] = {}
@@ -330,16 +313,7 @@ def _quiet(f: Fitted, observations: Sequence[Observation]) -> bool:
 
 @dataclass(frozen=True)
 class Confirmed:
-    """What the chosen effects of the last stage leave.
-
-    Attributes
-    ----------
-    final
-        The flights fitted with the chosen effects derived into the model; ``None`` if that cannot be done: then everything
-        is linear.
-    remainder, random
-        What is left, and the random effects in it.
-    """
+    """What the chosen effects of the last stage leave; without ``final``, the fit with them in the model, all is linear."""
 
     final: Fitted | None
     remainder: Remainder

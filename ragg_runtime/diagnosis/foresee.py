@@ -1,9 +1,4 @@
-"""What an effect would do before it is derived: the error that would be left, and its signature in the residual.
-
-Tests are made on whitened columns; an error is that of the unwhitened ones. So besides the whitened triangles of
-:class:`~ragg_runtime.fit.fitted.Fitted` those of the unwhitened columns are kept: with both, the error with any choice of
-effects is linear algebra of a few hundred rows, whatever the length of the flights.
-"""
+"""What an effect would do before it is derived: the error left, and its signature, from triangles of the unwhitened columns."""
 
 from __future__ import annotations
 
@@ -32,14 +27,8 @@ WIDEST = 8 * ROWS
 
 @dataclass(frozen=True)
 class Unwhitened:
-    """Of the columns [base | candidates | residual] of G_out, not whitened.
-
-    Attributes
-    ----------
-    triangles
-        One of all flights in each block of time, (n + 1, n + 1), V.
-    samples
-        (BLOCKS,): valid samples in it.
+    """The columns [base | candidates | residual] of G_out, not whitened: a triangle (n + 1, n + 1), V, of all flights in each block
+    of time, and its valid samples (BLOCKS,).
     """
 
     triangles: tuple[Array, ...]
@@ -79,14 +68,8 @@ def unwhitened(f: Fitted) -> Unwhitened:
 
 @dataclass(frozen=True)
 class Foreseen:
-    """What a choice of effects would leave, if everything is linear.
-
-    Attributes
-    ----------
-    rms_Eo, holdout_Eo
-        Error before demodulation: calibrated, and fitted on half of the blocks of time and scored on the others.
-    chi2, rank
-        What they explain of the whitened residual beyond the model, with so many coefficients.
+    """What a choice of effects would leave, if everything is linear: calibrated and held-out error before demodulation, Eo, and the
+    chi-square that ``rank`` coefficients explain beyond the model.
     """
 
     effects: tuple[str, ...]
@@ -151,10 +134,8 @@ def rows_within(f: Fitted, flight: int, window: tuple[float, float]) -> slice:
 
 
 def signature(f: Fitted, flight: int, v: Array, rows: slice | None = None) -> tuple[slice, Array]:
-    """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight.
-
-    It is computed for the segments that hold ``rows`` (all samples, if none are given); where they begin and end is
-    returned. Of columns of the model it holds the part by which the calibration moves.
+    """(samples, V): what coefficients v (size,) take out of the calibrated residual of G_out of one flight, in the segments that
+    hold ``rows`` (or all), and where these begin and end.
     """
     x = f.prepared[flight]
     wanted = rows or slice(0, len(x.observation.record.time))

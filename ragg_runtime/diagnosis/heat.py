@@ -22,18 +22,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Heat:
-    """Significance of generic terms, each by itself.
-
-    Attributes
-    ----------
-    harmonics, products
-        Rows and columns: const, cos 1 ...; products of channels, as :class:`~ragg_runtime.lack_of_fit.dictionary.Term` names them.
-    z
-        (rows, columns): in standard deviations; NaN where the model has the term, or the dictionary has it not.
-    coefficient
-        (rows, columns): V per SI unit of the product.
-    level
-        From here on one of all the terms stands out (:data:`~ragg_runtime.lack_of_fit.omnibus.FAMILY`).
+    """Significance ``z`` (harmonics, products of channels) of generic terms, each by itself, in standard deviations (NaN: not
+    asked); ``coefficient`` in V per SI unit of the product; from ``level`` on one of all the terms stands out.
     """
 
     harmonics: tuple[str, ...]

@@ -32,15 +32,7 @@ rest is its couplings to the motion, which a strong one shows."""
 
 @dataclass(frozen=True)
 class LineRival:
-    """A line that explains as much as an effect.
-
-    Attributes
-    ----------
-    line, effect
-        Which, in the place of which.
-    own
-        Chi-square that the effect explains beside the others that are chosen.
-    """
+    """A line that explains as much as an effect, which by its ``own`` explains that chi-square beside the others that are chosen."""
 
     line: NearLine
     effect: str
@@ -79,16 +71,9 @@ class LineRival:
 
 @dataclass(frozen=True)
 class Steady:
-    """An effect of which the record shows no more than a constant term: a sinusoid at a multiple of the spin rate.
+    """An effect of which the record shows no more than a constant term: a sinusoid at ``turns`` times the spin rate, Hz.
 
-    Attributes
-    ----------
-    effect, others
-        Its id, and the effects that would do as well.
-    turns, frequency
-        Multiple of the spin rate, and that in Hz.
-    width
-        How far off it a line may be that explains as much (3 sigma), Hz; ``None``: none does.
+    ``others`` would do as well; ``width``: how far off a line may be that explains as much (3 sigma), Hz; ``None``: none does.
     """
 
     effect: str
@@ -115,8 +100,8 @@ class Steady:
 
 
 def line_rival(steps: Sequence[Taken], last: Stage) -> tuple[LineRival | None, tuple[Steady, ...]]:
-    """The first of the effects chosen, the strong ones before the others, in whose place a line beside a multiple of the spin
-    rate would do as well; and those that are no more than a line at one.
+    """The first chosen effect in whose place a line beside a multiple of the spin rate would do, and those that are no more than
+    one.
     """
     steady = []
     for t in steps:
@@ -191,20 +176,8 @@ DISTINCT = 1e-6
 
 @dataclass(frozen=True)
 class NearLine:
-    """A sinusoid in what is left of a record.
-
-    Attributes
-    ----------
-    frequency
-        Hz.
-    chi2
-        What it explains of the whitened residual, beside what is fitted.
-    amplitude
-        V.
-    slip
-        How much of ``chi2`` a sinusoid at the very multiple would not explain.
-    log_p
-        p-value of ``chi2``, as a logarithm, times the frequencies tried.
+    """A sinusoid in what is left of a record: Hz, chi-square beside what is fitted, V; ``slip`` is how much of ``chi2`` one at the
+    very multiple would not explain, ``log_p`` counts the frequencies tried.
     """
 
     frequency: float
@@ -251,11 +224,7 @@ def best(f: Fitted, given: Sequence[int]) -> NearLine | None:
 
 
 def _explained(x: PreparedFlight, projector: Projector, frequencies: Array) -> tuple[Array, Array]:
-    """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows.
-
-    The noise's filter turns and stretches a sinusoid, which spans the same as it did; where it starts from rest, and after
-    gaps, the direction is a little worse than the best.
-    """
+    """(n,), (n,): chi-square that a sinusoid of each frequency explains, and its amplitude in whitened rows."""
     n = len(frequencies)
     dot, gram = np.zeros(2 * n), np.zeros((2 * n, 2))
     along = np.zeros((2 * n, len(projector.along)))
@@ -301,10 +270,7 @@ def _waves(x: PreparedFlight, piece: Piece, frequencies: Array) -> Array:
 
 
 def _turning(rates: Array, time: Array) -> Array:
-    """(2 n, N): cosines, then sines, of rates (n,), rad/s, times time (N,), s.
-
-    From one of evenly spaced rates to the next it is a product, a tenth of the work of a sine and a cosine.
-    """
+    """(2 n, N): cosines, then sines, of evenly spaced rates (n,), rad/s, times time (N,), s, by products."""
     n = len(rates)
     X = np.empty((2 * n, len(time)))
     steps = np.diff(rates, prepend=-np.inf)

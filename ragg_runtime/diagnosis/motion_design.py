@@ -1,10 +1,7 @@
-"""A multisine about all axes that tells apart all effects that a record cannot, within limits.
+"""A multisine about all axes that tells apart, within limits, all effects that a record cannot.
 
-The design is D-optimal for what is asked (D_s-optimal, compound over all pairs: A. Atkinson, A. Donev, R. Tobias, Optimum
-Experimental Designs, 2007, ch. 10 and 21): the size of every effect as the record has it, while its rival's coefficients
-and the model's own parameters are fitted beside it, with the present flights and the sheet in the information. That is
-no linear function of powers, as the instrument multiplies motions; so amplitudes are found by sequential quadratic programming
-(scipy's SLSQP, D. Kraft 1988) from two starts. Phases are those of M. Schroeder (IEEE Trans. Inf. Theory 16, 1970).
+The design is D_s-optimal, compound over all pairs (A. Atkinson, A. Donev, R. Tobias, Optimum Experimental Designs, 2007, ch. 10 and
+21); amplitudes by SLSQP (D. Kraft 1988), phases by M. Schroeder (IEEE Trans. Inf. Theory 16, 1970).
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
-"""Which motion to fly next: what would tell apart the effects that a record cannot.
+"""Which motion to fly next: for every pair of rivals the sinusoid about one axis, within limits, that separates them best.
 
-For every pair of rivals a sinusoidal motion about one axis is sought, at a frequency relative to the spin and
-with an amplitude within limits, that separates them best. Separation is what of the one effect's fitted
-signal neither the model nor the rival can imitate, in standard deviations, once such a motion has been
-recorded beside the present flights.
+Separation is what of one effect's fitted signal neither the model nor the rival can imitate, in standard deviations.
 """
 
 from __future__ import annotations
@@ -113,18 +110,8 @@ class Proposal:
 
 @dataclass(frozen=True)
 class Pairs:
-    """Pairs (effect, rival), and what flights say of them.
-
-    Attributes
-    ----------
-    known
-        The pairs of which the flights have columns.
-    places
-        Columns, among all, of base and rivals: those of the base first.
-    rivals
-        Effect -> its own among ``places``.
-    signals
-        (effects, size): of every effect that has a rival its coefficients alone, as the record has it.
+    """Pairs (effect, rival) of which flights have columns: ``places`` of the base's, then the rivals' columns among all;
+    ``signals`` (effects, size) are the coefficients of every effect with a rival.
     """
 
     f: Fitted
@@ -167,9 +154,7 @@ class Pairs:
     def rows(
         self, motion: Sequence[Sinusoid], *, simulated: float = SIMULATED, duration: float = DURATION
     ) -> Array:
-        """Triangle (k, k) of [places | signals] of a motion about the flight's mean, ``simulated`` s of it, weighted for
-        ``duration``, whitened.
-        """
+        """Triangle (k, k) of [places | signals] of a motion, ``simulated`` s of it, weighted for ``duration``, whitened."""
         prepared, at = self.f.prepared[0], self.at
         o, noise = prepared.observation, prepared.noise
         n = int(simulated * o.record.rate)
@@ -251,10 +236,7 @@ def signal_of(f: Fitted, field: Field, effect: str) -> Array:
 
 
 def separation(rows: Array, n_base: int, rival: Sequence[int], signal: int) -> float:
-    """Norm of a signal, a column of rows (n, k), once base and the rival's columns are projected out.
-
-    The base has its prior in the rows; a rival has none, as in the tests (``evidence.selection``): however large, it may imitate.
-    """
+    """Norm of a signal, a column of rows (n, k), once base (with its prior) and the rival's columns are projected out."""
     R = np.asarray(np.linalg.qr(rows[:, [*range(n_base), *rival, signal]], mode="r"))
     return float(abs(R[-1, -1]))
 

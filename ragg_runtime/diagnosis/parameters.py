@@ -1,8 +1,4 @@
-"""Fitted parameters and the combinations of them that a record sees.
-
-One accelerometer's own value seldom shows in G_out: combinations of the four do, the paper's error-propagation
-coefficients Sigma, D^1234, D^12 and D^34 (Eq. 18-19). Terminal, JSON, notebook and reports take them from here.
-"""
+"""Fitted parameters, and the combinations of accelerometers' (Sigma, D^1234, D^12, D^34; Eq. 18-19) that a record sees."""
 
 from __future__ import annotations
 
@@ -38,11 +34,7 @@ PATTERNS: tuple[tuple[str, tuple[int, int, int, int]], ...] = (
 
 @dataclass(frozen=True)
 class ParameterValue:
-    """A fitted parameter, or a combination of accelerometers', in its display unit.
-
-    ``weights`` (n,) say what a combination is: the sum of weight times value over the accelerometers; empty for a
-    parameter by itself. ``accelerometer_name`` is the accelerometer's name on the sheet.
-    """
+    """A fitted parameter, or a combination (weights (n,) over the accelerometers; empty of a single one), in its display unit."""
 
     name: str
     accelerometer: int | None
@@ -65,11 +57,8 @@ class ParameterValue:
 
 
 def gains(model: Model, p: Array, name: str) -> Array:
-    """(n,) weight of each accelerometer in G_out for a parameter of this name, over their mean.
-
-    Bias and coefficients act through k_VI K1 of their accelerometer (Eq. 1). The paper's D^12_{K1 K0} holds K1 for that
-    reason, and so must a combination here: scale factors differ, by 1e-4 or by a tenth, where a difference is seen a
-    million times better than the sum. ``p`` is the model's parameter vector.
+    """(n,) weight of each accelerometer in G_out, k_VI K1 (Eq. 1), for a parameter of this name, over their mean; ``p`` is the
+    model's parameter vector.
     """
     values = named(model.chain, p)
     g = values["k_VI"] if name == "K1" else values["k_VI"] * values["K1"]
@@ -100,10 +89,9 @@ def own_name(c: Column) -> str:
 
 
 def patterns(columns: Sequence[Column], weight: Array, layout: Layout = PAPER) -> Iterator[tuple[str, Array]]:
-    """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit.
+    """Name and (n,) weights of the combinations of a parameter's n columns, in its display unit; ``weight``: its :func:`gains`.
 
-    ``weight`` are its :func:`gains`. Of another layout than the paper's they are what its outputs' harmonics make of
-    Eq. 18-19: sums of signs times cos and sin of n times the angle on the disc, named by their harmonic.
+    Of another layout than the paper's: signs times cos and sin of n times the angle on the disc, named by their harmonic.
     """
     for pattern, signs in PATTERNS if layout.like_paper else _harmonics(layout):
         yield f"{pattern} {own_name(columns[0])}", np.array(signs) * weight
@@ -138,11 +126,9 @@ class Combination:
 def combinations_seen(
     model: Model, p: Array, columns: Sequence[Column], std: Callable[[Array], float]
 ) -> list[Combination]:
-    """The combinations of accelerometers' values that the record sees; ``std`` is that of weights (n,) of values in scales.
+    """The combinations of accelerometers' values that the record sees, or the values that it knows far better by themselves.
 
-    Where it sees each value by itself, those alone that it knows far better than it would of independent values: of a
-    cubic term it knows A3 to a tenth of its prior, and A3 - A4 a hundred times better. ``p`` is the model's parameter
-    vector, for the accelerometers' :func:`gains`.
+    ``std`` is that of weights (n,) of values in scales; ``p`` the model's parameter vector.
     """
     found = []
     alone = np.array([std(x) for x in np.eye(len(columns))])
@@ -199,9 +185,7 @@ def calibrated(f: Fitted, effect: str) -> tuple[tuple[ParameterValue, ...], tupl
 def headlines(
     parameters: Sequence[ParameterValue], combinations: Sequence[ParameterValue]
 ) -> tuple[ParameterValue, ...]:
-    """One value a parameter: of its combinations, or of the single values where there are none, the one that stands
-    out most of its uncertainty. What is known without any (an instant) comes first.
-    """
+    """One value a parameter: of its combinations, or single values, the one that stands out most; known ones (an instant) first."""
     every: dict[str, list[ParameterValue]] = {}
     for q in (*combinations, *parameters):
         every.setdefault(q.name.rpartition(" ")[2], []).append(q)

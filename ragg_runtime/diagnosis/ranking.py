@@ -149,8 +149,8 @@ def _instant(t_step: float) -> ParameterValue:
 def staged(
     steps: Sequence[Taken], chosen: Sequence[Ranked], others: Sequence[Ranked], target: Fitted
 ) -> list[Ranked]:
-    """The ranking where effects were derived into the model one after the other: each of them with what the model, with
-    those before it in, leaves without and with it; the rest as they stand against the model as it was.
+    """The ranking where effects were derived into the model: each by what the model with those before leaves without and with it;
+    the rest as they stand against the model as it was.
     """
     found = [_ranked_taken(t, target) for t in steps] + list(chosen)
     names = {r.effect for r in found}
@@ -284,11 +284,8 @@ def weighed(field: Field, steps: Sequence[Taken]) -> Probabilities:
 
 
 def with_probability(r: Ranked, found: Probabilities, columns: Container[str]) -> Ranked:
-    """The row with its effect's probability.
-
-    Of an effect that has ``columns`` but is in none of the sets, the model has another one that explains the same, and better, or
-    does as well without it: none. Random effects and those of the output channel are no columns, and not enumerated: there it
-    is the largest that the p-value allows at even odds, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
+    """The row with its effect's probability: none where the model has another effect that explains the same; of an effect without
+    columns the largest that the p-value allows, 1 / (1 - e p ln p) (T. Sellke, M. Bayarri, J. Berger, Am. Stat. 55, 2001).
     """
     if r.effect in found.of or r.effect in columns:
         return replace(r, probability=found.of.get(r.effect, 0.0))

@@ -148,10 +148,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Group:
-    """Effects that are one finding, the one that would be added first.
-
-    ``name`` says what they make, where that is all that the record shows: ``constant term at twice the spin rate``.
-    """
+    """Effects that are one finding, the one that would be added first; ``name``: what they make where only that shows."""
 
     effects: tuple[str, ...]
     name: str | None

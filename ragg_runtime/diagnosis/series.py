@@ -73,10 +73,7 @@ class Spectrum:
 
 
 def spectrum(x: Array, valid: NDArray[np.bool_], rate: float, points: int = 260) -> Spectrum | None:
-    """Welch spectrum over the valid stretches, averaged to ``points`` steps of log frequency.
-
-    ``None`` if no stretch holds 32 samples.
-    """
+    """Welch spectrum over the valid stretches of 32 samples and more, averaged to ``points`` steps of log frequency, or ``None``."""
     runs = stretches(valid, 32)
     if not runs:
         return None
@@ -127,10 +124,7 @@ def noise_rms(w: PreparedFlight, k_ggi: float) -> float:
 
 
 def demodulated_noise(w: PreparedFlight, k_ggi: float, spin: float, multiple: int, amplitude: float) -> float:
-    """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise), as the demodulator makes it.
-
-    A one-sided density S of the noise moves by the carrier to both sides, a quarter of amplitude^2 each.
-    """
+    """Standard deviation, Eo, of LP(amplitude cos(2 pi multiple spin t) noise): a quarter of amplitude^2 to either side."""
     rate = w.observation.record.rate
     f, H = signal.freqz(low_pass(rate), worN=4096, fs=rate)
     H2 = np.abs(H) ** 2

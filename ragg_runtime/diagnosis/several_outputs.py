@@ -38,15 +38,7 @@ class Seen:
 
 @dataclass(frozen=True)
 class Together:
-    """One flight's outputs beside each other.
-
-    Attributes
-    ----------
-    name
-        Of the flight.
-    seen
-        What each output saw, those of turning discs.
-    """
+    """One flight's outputs beside each other: its name, and what each output saw, those of turning discs."""
 
     name: str
     fitted: Fitted

@@ -1,10 +1,6 @@
 """Strong effects, one after the other, each derived into the model before the next is asked for.
 
-A signature is the effect to first order. Of an effect a thousand sigma strong the second order alone may be ten sigma
-strong: enough to prefer a wrong effect, to name another one beside the right, and to raise the noise that is estimated.
-So the strongest effect is chosen among those that come near it with each of them derived into the model and fitted
-nonlinearly; with the best in the model everything is done anew: calibration, noise, tests of the rest. These fits begin at
-the sheet: parameters that had to absorb what was missing may be far from it, in a valley that is long and curved.
+A signature is first order alone; of a strong effect the second order is significant too. Fits with effects begin at the sheet.
 """
 
 from __future__ import annotations
@@ -75,18 +71,8 @@ class Stage:
 
 @dataclass(frozen=True)
 class Taken:
-    """An effect that was derived into the model.
-
-    Attributes
-    ----------
-    effect, test
-        Id, and its linear test at the stage where it was taken.
-    before, after
-        The flights fitted without and with it, those taken before in the model.
-    rivals
-        Effects that would have done as well, derived in its place.
-    instant
-        Of a step, s.
+    """An effect that was derived into the model: its linear test, the fits before and after, ``rivals`` that would have done as
+    well, and the instant of a step, s.
     """
 
     effect: str
@@ -98,9 +84,7 @@ class Taken:
 
 
 def taken(first: Stage, extend: Extend | None) -> tuple[list[Taken], Stage]:
-    """The strong effects in the order of their strength, and the stage at which nothing strong is left, or nothing of the
-    catalogue is what is missing.
-    """
+    """The strong effects, the strongest first, and the stage at which none is left, or what is missing is not in the catalogue."""
     found: list[Taken] = []
     stage = first
     while extend is not None and stage.strong and len(found) < selection.MOST:
@@ -120,8 +104,7 @@ def _unneeded(field: Field, effect: str, which: Sequence[int]) -> list[str]:
 def _strongest(stage: Stage, extend: Extend) -> Taken | None:
     """The effect that explains most once it is in the model, of those that are possible at the size that they then have.
 
-    ``None`` where an impossible one leaves but noise and no other comes near it: what is missing acts as it does, and is none of
-    the catalogue. Nor is one of several of which none comes to an optimum.
+    ``None`` where only an impossible one leaves but noise, or none of several comes to an optimum.
     """
     f, tests = stage.fitted, {e: t for e, t in stage.choice.tests.items() if t.rank}
 
@@ -169,9 +152,7 @@ def impossible(f: Fitted, effects: Iterable[str]) -> tuple[str, ...]:
 def _best(
     stage: Stage, tests: Mapping[str, Test], score: Callable[[Sequence[str]], dict[str, float]]
 ) -> tuple[str, tuple[str, ...]]:
-    """Of some effects the one that leaves least by its ``score``, of those that do equally well the linear test's choice; with
-    it those that would have done as well.
-    """
+    """The effect that leaves least by its ``score``, the linear test's choice among equals, and those equals."""
     total = float(np.sum(stage.field.P[:, -1] ** 2))
     least = min(total - t.chi2 for t in tests.values())
     near = [e for e, t in tests.items() if total - t.chi2 <= NEAR * max(least, 1.0)]
@@ -231,12 +212,10 @@ class _Found:
 def with_steps(
     f: Fitted, known: Mapping[str, _Found] = MappingProxyType({})
 ) -> tuple[Field, Fitted, dict[str, float]]:
-    """The field of all deterministic candidates, steps at their most likely instant among them.
+    """The field of all deterministic candidates, steps at their most likely instant, the flight with the steps' columns put in, and
+    the instants by effect, s.
 
-    Looked for in one flight, in all its outputs at once: a step of one accelerometer is one of the ways to be tested.
-    Returns the field, the flight with the steps' columns put in, and the instants by effect, s. A step that no column
-    explained is part of the noise that was estimated: once its instant is ``known`` the noise is estimated again, and
-    everything with it.
+    Once the instant of a step is ``known`` the noise is estimated again, and everything with it.
     """
     available = testable_effects(f)
     steps = [e for e in f.model.candidates if e.kind == "step"]

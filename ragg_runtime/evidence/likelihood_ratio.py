@@ -1,9 +1,4 @@
-"""Evidence for a candidate effect: what its columns explain that the calibrated model cannot.
-
-All tests are made on a triangle of whitened columns: the base columns (with their prior) are projected
-out of the candidates and of the residual alike, so that an effect is credited only with what no
-parameter of the model could have absorbed.
-"""
+"""Evidence for a candidate effect: what its columns explain once the base columns, with their prior, are projected out of all."""
 
 from __future__ import annotations
 
@@ -32,10 +27,8 @@ COLLINEAR = 1e-6
 
 @dataclass(frozen=True)
 class Test:
-    """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom.
-
-    ``log_p`` is the natural logarithm of the p-value, corrected for the number of sub-blocks tried;
-    ``which`` are the columns (positions) of the best sub-block.
+    """A likelihood-ratio test of some columns: chi-square with ``rank`` degrees of freedom; ``log_p`` is corrected for the number
+    of sub-blocks tried, of which ``which`` are the best one's columns.
     """
 
     chi2: float
@@ -50,10 +43,7 @@ def project(T: Array, onto: int) -> Array:
 
 
 def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, int]:
-    """(chi-square, rank) of the last column of P explained by ``columns``.
-
-    A direction counts only if its norm exceeds ``floor`` (per column): others are not testable.
-    """
+    """(chi-square, rank) of the last column of P explained by ``columns`` of a norm above ``floor``."""
     if len(columns) == 1:
         x = np.ascontiguousarray(P[:, columns[0]])
         square = float(x @ x)
@@ -71,10 +61,8 @@ def explained(P: Array, columns: Sequence[int], floor: Array) -> tuple[float, in
 
 
 def sub_blocks(columns: Sequence[tuple[int, Column]]) -> list[tuple[tuple[int, ...], int]]:
-    """Ways in which an effect may be present, each with the number of its kind.
-
-    All its parameters; those of one accelerometer only; one parameter in all accelerometers; one single
-    value. An effect of one accelerometer, tested as a block of four, would waste power.
+    """Ways in which an effect may be present, each with the number of its kind: all its parameters; those of one accelerometer; one
+    parameter in all accelerometers; one single value.
     """
     return [(tuple(columns[k][0] for k in block), count) for block, count in _ways(_kinds(columns))]
 
@@ -110,10 +98,7 @@ def test(
     penalty: float = 0.0,
     freedom: float = np.inf,
 ) -> Test:
-    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``).
-
-    ``freedom``: degrees of freedom from which the noise is known.
-    """
+    """The best of an effect's sub-blocks, its p-value corrected for their number (and by ``penalty``); ``freedom`` is the noise's."""
     every = [n for n, _ in columns]
     # of hundreds of rows only those matter in which the effect's columns, triangular, are not zero
     small, low = np.asarray(np.linalg.qr(P[:, [*every, -1]], mode="r")), floor[every]

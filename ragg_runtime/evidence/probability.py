@@ -1,14 +1,9 @@
 """How probable each effect is: all sets of up to three effects, weighed by their evidence.
 
-On the triangle of a record, with base columns projected out, a set S of effects says y = X_S b + unit noise. With Zellner's
-prior b ~ N(0, g (X'X)^-1) the evidence of S against the empty set is exact,
-
-    log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g),
-
-with chi2_S what the set explains and k_S its number of coefficients (A. Zellner 1986; F. Liang et al., J. Am. Stat.
-Assoc. 103, 2008). How strong an effect is nobody knows beforehand: g is averaged over eight decades. Each effect is present with
-probability 1/E of E, independently of the others: one is missing on average, and the number of ways in which one might be
-wrong is paid for (J. Scott and J. Berger, Ann. Stat. 38, 2010).
+With Zellner's prior b ~ N(0, g (X'X)^-1) the evidence of a set S against the empty one is exact (A. Zellner 1986; F. Liang et al.,
+J. Am. Stat. Assoc. 103, 2008), log B_S(g) = chi2_S / 2 * g / (1 + g) - k_S / 2 * log(1 + g), with chi2_S what its k_S coefficients
+explain. g is averaged over eight decades; each of E effects is present with probability 1/E (J. Scott and J. Berger, Ann. Stat. 38,
+2010).
 """
 
 from __future__ import annotations
@@ -43,14 +38,8 @@ RIDGE = 1e-9
 
 @dataclass(frozen=True)
 class Probabilities:
-    """Posterior over sets of effects.
-
-    Attributes
-    ----------
-    of
-        Effect id -> probability that it is missing in the model.
-    credible
-        Smallest list of sets, the most probable first, that together hold :data:`HELD`; the empty set is ``()``.
+    """Posterior over sets of effects: probability ``of`` each effect, and the ``credible`` sets, the smallest list, the most
+    probable first, that holds :data:`HELD`; the empty set is ``()``.
     """
 
     of: Mapping[str, float]
@@ -59,17 +48,7 @@ class Probabilities:
 
 @dataclass(frozen=True)
 class Sets:
-    """Sets of effects and their weights; twenty thousand of them, so no set has an object of its own.
-
-    Attributes
-    ----------
-    effects
-        Effects, sorted.
-    holds
-        Which of them each set holds (sets, effects).
-    logs
-        Logarithm of each set's weight (sets,).
-    """
+    """Sets of effects: which of the sorted effects each ``holds`` (sets, effects), and the logarithm of its weight (sets,)."""
 
     effects: tuple[str, ...]
     holds: NDArray[np.bool_]

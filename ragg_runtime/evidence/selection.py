@@ -37,22 +37,9 @@ SWAPPED = 2.0
 class Field:
     """A triangle [base | candidates | residual] with the prior in, and the effects in it.
 
-    Attributes
-    ----------
-    T
-        Triangle.
-    n_base
-        Number of base columns.
-    candidates
-        Effect id -> columns (positions after the base).
-    penalty
-        Effect id -> logarithm of the number of variants (instants of a step) it was chosen from.
-    norms
-        Whitened norm of every candidate column before projection.
-    freedom
-        Degrees of freedom from which the noise is known.
-    within
-        A field of some of the effects on the same flights: what it says of them holds here.
+    ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
+    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``within``: a field of some of
+    the effects on the same flights, whose tests hold here.
     """
 
     T: Array
@@ -123,10 +110,8 @@ class Field:
 
 @dataclass(frozen=True)
 class Choice:
-    """Effects that together account for what the model lacks.
-
-    ``tests`` are the tests of single effects with nothing else in; ``conditional`` those of the rest once
-    the chosen ones are in; ``blocks`` the sub-block of each chosen effect.
+    """Effects that together account for what the model lacks, each with its ``blocks``; ``tests`` of single effects with nothing
+    else in, ``conditional`` ones of the rest beside the chosen.
     """
 
     chosen: tuple[str, ...]
@@ -142,9 +127,8 @@ def significant(t: Test, count: int, family: float = FAMILY) -> bool:
 
 
 def choose(f: Field, *, beside: bool = False) -> Choice:
-    """Forward selection; after each addition every chosen effect may be swapped for a better one.
-
-    ``beside``: of what is left beside effects that are in the model already, so that the first is a companion, too.
+    """Forward selection; after each addition every chosen effect may be swapped for a better one. ``beside``: others are in the
+    model.
     """
     first = f.tests()
     count = sum(t.rank > 0 for t in first.values())

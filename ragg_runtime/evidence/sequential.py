@@ -1,14 +1,8 @@
 """From when on a model no longer holds: a sequential test with bounded false-alarm rate.
 
-Block of time after block, the residual is predicted from the blocks before (recursive residuals: R. Brown, J. Durbin,
-J. Evans, J. R. Stat. Soc. B 37, 1975). If the parameters stay what they are, the standardised innovations z of a block are
-unit normal. Against that stands an e-value E_b, a likelihood ratio averaged over sizes of a change: of all innovations at once, and
-of one of them. The e-detector of Shin, Ramdas and Rinaldo (New Engl. J. Stat. Data Sci. 2, 2024), of CUSUM type,
-
-    M_b = E_b max(1, M_(b-1)),
-
-exceeds c in the first B blocks with probability at most B / c when nothing changes. Where M last rose from 1 is where the
-model ceased to hold; a model that fails from the first block on has not changed, it is wrong.
+Block after block, the residual is predicted from those before (recursive residuals: R. Brown, J. Durbin, J. Evans, J. R. Stat. Soc.
+B 37, 1975); e-values E_b of the innovations are joined by the e-detector of Shin, Ramdas and Rinaldo (New Engl. J. Stat. Data Sci.
+2, 2024), M_b = E_b max(1, M_(b-1)), which exceeds c in B blocks with probability at most B / c if nothing changes.
 """
 
 from __future__ import annotations
@@ -40,16 +34,8 @@ KNOWN = 200
 
 @dataclass(frozen=True)
 class Change:
-    """Where the model ceased to hold.
-
-    Attributes
-    ----------
-    flight
-        Name of the flight.
-    until
-        End of the last block of time in which the model held, s of the flight's ``time``.
-    log_evidence
-        Largest ln M: ln of the odds against "nothing has changed".
+    """Where the model ceased to hold: ``until`` the end of the last block of time in which it held, s of the flight's ``time``;
+    ``log_evidence`` is the largest ln M.
     """
 
     flight: str

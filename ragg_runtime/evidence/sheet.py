@@ -1,9 +1,4 @@
-"""Effects that are something else in disguise: the sheet's own parameters, and of a disc that stands still, constants.
-
-A prior holds each parameter of the accelerometers at the sheet's value. An effect that is what all of them have in common
-(``common_of``) is testable because of that prior alone, and one that another parameter imitates (``told_from``) as well: then it is the
-prior that the record contradicts, which need not be an effect. Both are seen on a triangle from which the prior is taken.
-"""
+"""Effects in disguise: the sheet's own parameters, and of a disc that stands still, constants; both seen without the prior."""
 
 from __future__ import annotations
 
@@ -16,9 +11,9 @@ from ragg_runtime.fit.fitted import Fitted
 Array = NDArray[np.float64]
 
 MOST = 0.5
-"""Share of a signature that must be left beside a parameter that the sheet does not know, to count as told from it; and of what such
-a parameter explains, accelerometer by accelerometer, that the effect must explain by itself: one arm of four that is off
-has a quarter in common with all, two have the half."""
+"""Least share of a signature beside a parameter unknown to the sheet, and of what that explains, that the effect must show by
+itself.
+"""
 
 
 def doubtful(f: Fitted, effect: str) -> str | None:

@@ -44,8 +44,7 @@ def best_steps(
 ) -> list[Step]:
     """For each effect the edge between two stretches of time, of which each output has a triangle, where its step explains most.
 
-    ``owned`` are the columns of each effect acting all the time (positions after the base); ``given`` those of
-    effects already chosen; ``prior`` (n_base,) the prior's centre; ``edges`` the samples between the stretches.
+    ``owned`` are each effect's columns, ``given`` those of chosen ones (positions after the base); ``prior`` (n_base,) the centre.
     """
     columns = [c for own in owned for c in own]
     k, m = n_base + len(given), len(columns)
@@ -114,9 +113,7 @@ def refined(
 
 
 def _near(sample: int, reach: int, length: int) -> tuple[int, int]:
-    """First and last sample about one at which a step may be: one in the first or last block of time is none that could be
-    told from how a record begins and ends.
-    """
+    """First and last sample about one at which a step may be: none in the first or last block of time."""
     block = max(1, length // BLOCKS)
     return max(block, sample - reach), min(length - block, sample + reach)
 
@@ -130,9 +127,7 @@ def sharpened(
 ) -> int:
     """Move the first sample of a step to where its own columns, put through the filter from there on, explain most.
 
-    :func:`refined` cuts whitened columns off before the step. Of a constant a filter of red noise leaves next to nothing,
-    but of a step its edge: cut off so, the edge is not there. Only of a flight of one segment; ``places`` of the columns are
-    those among all, ``projector`` of all outputs together.
+    Only of a flight of one segment; ``places`` of the columns are those among all, ``projector`` is of all outputs together.
     """
     length = len(prepared[0].observation.record.time)
     if length > ROWS:

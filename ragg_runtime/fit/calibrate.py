@@ -1,9 +1,4 @@
-"""Fit a model's parameters to flights, with the noise estimated on the way.
-
-Only some combinations of the parameters leave a trace in the output; the others stay where the test
-sheet puts them, because each parameter has a prior as wide as its plausible size about its nominal value.
-(Without it a null direction wanders by its second-order effects, and the fit with it.)
-"""
+"""Fit a model's parameters to flights, each with a prior as wide as its plausible size about the test sheet's value."""
 
 from __future__ import annotations
 
@@ -33,9 +28,7 @@ MISFIT = 1.1
 nothing of what is left, and all samples weigh the same, so that the rms is as small as it can be."""
 
 LEAN = 10.0
-"""There the noise counts as no less than what is left over this. The sheet's word then weighs so little that the rms is
-within 1 % of what it would be without it where parameters move by less than 250 scales, and enough to keep the fit out of
-long valleys far from the sheet, where the model does not hold.
+"""There the noise counts as no less than what is left over this: the prior then weighs little, but keeps parameters from drifting.
 """
 
 ROUNDS = 3
@@ -49,26 +42,9 @@ FALLING = 0.9
 class Calibration:
     """Parameters fitted to one or more flights.
 
-    Attributes
-    ----------
-    p
-        Parameter vector of the model's chain, SI.
-    columns, index
-        The fitted parameters and their places in ``p``.
-    covariance
-        (n, n) of the fitted parameters in units of their scales, prior included; where more than noise is left, what
-        is left counts as noise.
-    noise
-        Noise of every flight.
-    rows
-        Whitened samples in the fit.
-    chi2, excess
-        Chi-square where the fit ended, prior included; and that of the data alone over their number (of a fit of what is
-        loud, in what it counted as noise).
-    unheld
-        What the linearised problem would leave of the latter without the sheet's word.
-    converged, reason
-        Whether the fit ended at an optimum, and in words why it ended.
+    ``p`` is the parameter vector of the model's chain, SI; ``covariance`` (n, n) that of the fitted ones in units of their scales,
+    prior included; ``rows`` counts whitened samples; ``chi2`` includes the prior, ``excess`` is that of the data alone over their
+    number, and ``unheld`` what the linearised problem would leave of it without the prior.
     """
 
     p: Array
@@ -91,18 +67,8 @@ class Calibration:
 
 @dataclass(frozen=True)
 class _Fall(Linear):
-    """A fit linearised about a point, and sums over all samples.
-
-    Attributes
-    ----------
-    data
-        (n + 1, n + 1): triangle [base | residual], without the prior.
-    to_nominal
-        (n,): the prior's centre as seen from the point, in scales.
-    sums
-        Place of an output among the layout's -> (n + 1,), V: of the columns of G_out and of its residual.
-    rows
-        Whitened samples.
+    """A fit linearised about a point: triangle ``data`` (n + 1, n + 1) of [base | residual] without the prior, the prior's centre
+    ``to_nominal`` (n,) as seen from the point, in scales, and ``sums`` (n + 1,), V, of the columns and residual of each output.
     """
 
     data: Array
@@ -190,9 +156,7 @@ class _Task:
         return [estimate_noise(everything, o) for o in self.observations]
 
     def size(self, noise: Sequence[Noise]) -> float:
-        """Root of the mean power of what no column explains, V, lines among it: where all samples weigh the same it is
-        all noise.
-        """
+        """Root of the mean power of what no column explains, V, lines included."""
         floors = [float(np.mean([m.rms**2 for m in n.models])) for n in noise]
         records = [o.record for o in self.observations]
         powers = [f * swell(n, r) + n.line_power for f, n, r in zip(floors, noise, records, strict=True)]
@@ -255,10 +219,8 @@ def fit(
 ) -> Calibration:
     """Least squares on all flights at once, from the nominal values or from ``start``.
 
-    Fits from the nominal values begin on an excerpt of a long flight. First every sample weighs the same, as much as what a
-    linear fit leaves says. Where that fit ends the noise is estimated from what nothing explains. Then the fit goes on with
-    every column whitened; or, where much more is left than noise (or ``unweighted`` is asked for), unwhitened still. In the
-    end the null biases take the residual's mean (``design.levelled``).
+    First every sample weighs the same; from what is left the noise is estimated, and the fit goes on whitened, unless much more
+    than noise is left or ``unweighted`` is asked for. Long flights begin on an excerpt.
     """
     task = _Task.of(model, instrument, observations)
     x = np.zeros(len(task.index)) if start is None else (start - task.nominal)[task.index] / task.scale
@@ -277,9 +239,7 @@ def fit(
 
 
 def _loud(p: _Unweighted, x: Array, noise: Sequence[Noise], fixed: bool) -> Calibration:
-    """The fit from x, where ``noise`` is that of what nothing explains, of what leaves more than noise; the noise is estimated
-    anew at its end unless it is ``fixed``, or the end is where it began.
-    """
+    """The unwhitened fit from x of what leaves more than ``noise``, which is estimated anew at its end unless it is ``fixed``."""
     for _ in range(ROUNDS):
         left = p.left(x)
         found = p.fit(x, max(p.task.size(noise), left / LEAN))

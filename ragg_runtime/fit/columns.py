@@ -1,8 +1,6 @@
-"""Linearised fits: the columns of a model and of its candidate effects, whitened, as one triangle.
+"""Linearised fits: the columns of a model and of its candidate effects, whitened, as the triangle R of their QR decomposition.
 
-Everything that calibration and diagnosis ask of a flight is in the triangular factor R of its whitened
-columns: a flight of any length becomes a matrix of a few hundred rows, and flights are joined by
-stacking their triangles. (A QR update, not normal equations: the columns' sizes span fifteen decades.)
+Flights are joined by stacking triangles. Normal equations would not do: the columns' sizes span fifteen decades.
 """
 
 from __future__ import annotations
@@ -31,24 +29,11 @@ EFFECT_PRIOR = 10.0
 
 @dataclass(frozen=True)
 class Column:
-    """One scalar parameter as a column of a fit.
+    """One scalar parameter as a column of a fit: the derivative times ``scale``, the width of its prior, SI.
 
-    Attributes
-    ----------
-    name
-        As shown: ``K2``, ``cubic-input.K_iii``.
-    accelerometer
-        1 ... n, or ``None`` if shared.
-    scale
-        Width of the prior, SI: columns are derivatives times it.
-    unit, unit_factor
-        Display unit and its SI value.
-    effect
-        Id of the effect that brings it; ``None`` for the paper's instrument.
-    symbol, meaning
-        LaTeX, and in words; empty of a calibration as it was read from a file.
-    accelerometer_name
-        Its name on the sheet; empty if shared, and as read from a file.
+    ``accelerometer`` is 1 ... n, or ``None`` if shared; ``unit_factor`` the display unit's SI value; ``effect`` the id of the
+    effect that brings it, ``None`` for the paper's instrument. What a calibration file does not hold (``symbol`` in LaTeX,
+    ``meaning``, ``accelerometer_name``) is empty.
     """
 
     name: str
@@ -142,10 +127,7 @@ def _of_effect(e: Effect, known: Units, instrument: Instrument) -> list[tuple[Co
 
 
 def heard(columns: Sequence[Column], instrument: Instrument, place: int) -> slice | NDArray[np.intp]:
-    """Which of these columns, and of the residual after them, an output can hold anything of.
-
-    The others, of other outputs' accelerometers, are zero; of several discs they are most. All of them, as a slice, of one output.
-    """
+    """Which of these columns, and of the residual after them, are not zero in an output; a slice if there is one output."""
     if len(instrument.layout.outputs) == 1:
         return slice(None)
     return np.array([*own_columns(columns, instrument, place), len(columns)], dtype=np.intp)
@@ -164,9 +146,7 @@ def null_biases(columns: Sequence[Column]) -> list[int]:
 def levelled(coefficients: Array, sums: Array, biases: Sequence[int]) -> Array:
     """Coefficients (n,) with those at ``biases`` shifted until the residual of G_out has no mean.
 
-    ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted. Noise that
-    rises towards low frequencies leaves the mean of a record nearly free, and with it the null biases: by convention
-    they take it.
+    ``sums`` (n + 1,) are those of the columns and of the data over all samples; zeros: nothing is shifted.
     """
     own = sums[list(biases)]
     shifted = coefficients.copy()

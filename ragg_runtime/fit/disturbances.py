@@ -1,9 +1,4 @@
-"""Lines and jumps in what a fit leaves: no noise, and no shape of the motion either.
-
-They are found in the residual and fitted beside the model's columns before the noise is estimated. Left in, a line of
-a hundred times the noise would spread over all frequencies by its chance likeness with the columns, and a jump would
-pass for red noise. Of noise alone nothing is found.
-"""
+"""Lines and jumps in what a fit leaves, found in the residual and fitted beside the model's columns before the noise is estimated."""
 
 from __future__ import annotations
 
@@ -31,9 +26,7 @@ MOST = 8
 
 @dataclass(frozen=True)
 class Disturbance:
-    """A line of so many Hz, or a jump at so many s since the first sample of the stretch; ``size``: its amplitude over the
-    noise's rms.
-    """
+    """A line, Hz, or a jump, s since the first sample of the stretch; ``size``: its amplitude over the noise's rms."""
 
     kind: str
     at: float

@@ -46,14 +46,8 @@ WIDENED = 3
 class Scored:
     """How large one residual is.
 
-    Attributes
-    ----------
-    whole, held_out
-        The error object over everything, and over the blocks of time that a held-out fit does not see.
-    mean_square
-        Of each flight, V^2, within the band that is fitted (``fit.thinning``).
-    blocks
-        (flights, BLOCKS): rms in each block of time, V; NaN where it has no valid sample.
+    ``held_out`` is over the blocks of time that a held-out fit does not see; ``mean_square`` of each flight, V^2, within the fitted
+    band; ``blocks`` (flights, BLOCKS) the rms, V, NaN without valid samples.
     """
 
     whole: Error
@@ -276,10 +270,8 @@ def calibrated(
     start: Array | None = None,
     unweighted: bool = False,
 ) -> tuple[Instrument, Calibration]:
-    """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``).
-
-    A sheet that is held to be less sure than it says must bring what is left down to noise: where an effect is missing the
-    parameters would bend to that, the farther the wider they are, and another one would be taken for what they leave.
+    """The parameters, and the instrument with a sheet as sure as the record says it is (``off_sheet.widened``), if that brings what
+    is left down to noise.
     """
     c = calibrate.fit(model, instrument, observations, noise=noise, start=start, unweighted=unweighted)
     found = instrument, c
@@ -305,8 +297,7 @@ def fit(
 ) -> Fitted:
     """Calibrate a model on flights and prepare the evidence.
 
-    The noise is estimated unless given; the fit begins at the nominal values unless a parameter vector is given;
-    ``unweighted``: all samples weigh the same in it. Without ``candidates`` nothing is prepared for tests of effects.
+    ``noise`` is estimated unless given; ``unweighted``: all samples weigh the same. Without ``candidates`` no effect can be tested.
     """
     observations = certain(model, instrument, observations)
     instrument, c = calibrated(

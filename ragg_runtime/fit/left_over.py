@@ -26,20 +26,9 @@ ROUNDS = 6
 class Left:
     """What columns leave of the last one.
 
-    Attributes
-    ----------
-    rest
-        (rows,): at the valid samples.
-    rank
-        How many degrees of freedom the columns count as.
-    kept
-        Share of white noise that they leave at each frequency of the periodogram; empty where that is not asked for.
-    found
-        Lines and jumps that were fitted beside them.
-    shapes
-        (k, rows): what of the last one is each of these, by the fit.
-    columns, directions
-        All that was fitted (n, rows), and (n, n): columns times it are orthonormal.
+    ``rest`` (rows,) is at the valid samples; ``rank`` the degrees of freedom of the columns; ``kept`` the share of white noise that
+    they leave at each frequency of the periodogram; ``found`` the lines and jumps fitted beside them; ``shapes`` (k, rows) their
+    fitted series. ``columns`` (n, rows) times ``directions`` (n, n) are orthonormal.
     """
 
     rest: Array
@@ -60,9 +49,8 @@ def left_over(
 ) -> Left:
     """What columns leave of the last of flat (n + 1, rows), with lines and jumps in it fitted beside them.
 
-    No line is looked for in ``band``. ``through`` does to columns (k, rows) of lines and jumps what was done to those of
-    ``flat``: an edge of which an unknown gradient took its part would else leave that part as noise. Without ``rate`` (of a
-    demodulated channel) neither they nor ``kept`` are looked for.
+    No line is looked for in ``band``; ``through`` does to columns (k, rows) what was done to ``flat``. Without ``rate`` neither
+    lines nor ``kept`` are looked for.
     """
     some = not_zero(flat[:-1])
     if np.count_nonzero(some) < SPARSE * len(flat):
@@ -125,19 +113,14 @@ def _fitted(
 
 
 JUMP = 32.0
-"""Chi-square, in the noise that is estimated beside it, of a jump that the columns hide: of the most likely chance ones in 1,400
-records of 640 s of red noise (1/f below 0.05 and 0.2 Hz) 6 are above it, of 10 sigma true ones six of seven; the others pass
-for red noise, which then hides them from every test."""
+"""Least chi-square of a jump that the columns hide: above chance in 1,400 records of 640 s of red noise but for 6."""
 
 INSTANTS = 96
 """Instants among which it is sought, and again about the best of them, to the sample."""
 
 
 def _jump(left: Left, valid: NDArray[np.bool_], rate: float) -> Disturbance | None:
-    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do.
-
-    Columns that are slow bend to a jump until no difference of means shows it; what it explains beside them does.
-    """
+    """The jump that would explain most of what is left, columns fitted beside it anew; ``None`` if white noise would do."""
     n = len(left.rest)
     low, high = 0, n
     while True:
@@ -177,11 +160,8 @@ EVERY = 1024
 
 
 def _kept(columns: Array, directions: Array, valid: NDArray[np.bool_]) -> Array:
-    """Share of white noise that is left at each frequency once columns (n, rows) are fitted, gaps counted as lost.
-
-    A fit leaves |v|^2 - |Q'v|^2 of the power along any direction v, with Q what the columns span (their leverage); here v
-    is a windowed wave. Without it the noise would look quietest where the columns are: on a record of a minute by three
-    times. ``directions`` (n, k): columns times it are Q.
+    """Share of white noise left at each frequency once columns (n, rows) are fitted, |v|^2 - |Q'v|^2 of windowed waves v, gaps
+    counted as lost; columns times ``directions`` (n, k) are Q.
     """
     n = len(valid)
     window = hann(n)
@@ -217,11 +197,7 @@ class _Fit:
 
 
 def _least_squares(columns: Array) -> _Fit:
-    """The fit of columns (n + 1, rows) to the last of them.
-
-    Directions that are numerically absent must not be amplified; they are faded out, not cut off, lest rounding decide
-    on which side of an edge one is.
-    """
+    """The fit of columns (n + 1, rows) to the last of them; numerically absent directions are faded out."""
     R = triangle(columns)
     n = len(R) - 1
     norms = np.linalg.norm(R[:, :n], axis=0)

@@ -27,18 +27,8 @@ Array = NDArray[np.float64]
 class Point:
     """About what a flight is linearised.
 
-    Attributes
-    ----------
-    model, instrument
-        The model, and the test sheet that gives the columns their scales.
-    p
-        Parameter vector of the model's chain, SI.
-    with_candidates
-        Whether the columns of the candidate effects are wanted.
-    instants
-        Effect id -> instant of its step, s since the first sample; at all times where none is given.
-    only
-        Places of the candidates' columns that are wanted; ``None``: all.
+    ``instrument`` gives the columns their scales; ``p`` is the parameter vector of the model's chain, SI; ``instants`` are those of
+    steps, by effect, s since the first sample; ``only`` the places of the wanted candidates' columns (``None``: all).
     """
 
     model: Model
@@ -222,10 +212,8 @@ def linearised(at: Point, o: Observation) -> Array:
 
 
 def _left_of_the_whole(at: Point, thin: Thin, residual: Array) -> None:
-    """Put the residual (m, N) of a thinned record in place: that of the whole one, thinned.
-
-    What a thinned motion yields is the thinned yield of the motion only as far as it holds nothing fast: that is
-    enough for derivatives, not for the outputs, which are a million times the noise.
+    """Put the residual (m, N) of a thinned record in place: that of the whole one, thinned, for the outputs are a million times the
+    noise.
     """
     known = _known(at, thin)
 

@@ -73,9 +73,10 @@ def estimate_noise(
     samples: int = NOISE_SEGMENTS * ROWS,
     slow: bool = True,
 ) -> Noise:
-    """Noise of each output from what no column (base, candidate, unknown gradient) explains, in at ``most`` so many segments,
-    and of each the beginning where together they have more than so many ``samples``; ``slow``: and of all of a flight that is
-    longer than one.
+    """Noise of each output from what no column and no unknown gradient explains.
+
+    It is estimated in at ``most`` so many segments, of each the beginning where together they have more than so many ``samples``;
+    ``slow``: and from means over all of a flight that is longer than one.
     """
     if np.sum(o.record.valid) < SHORTEST:
         raise UserError(
@@ -230,10 +231,7 @@ def _through(piece: Piece, m: int, outputs: int, columns: Array) -> Array:
 
 
 def _of_channels(parts: Sequence[_Part], o: Observation) -> Noise:
-    """Within the demodulator's band the noise of G_out is taken as white; its size is estimated.
-
-    Of channels that were recorded more seldom than the motion a sample counts for more.
-    """
+    """Within the demodulator's band the noise of G_out is taken as white; a sample of a seldom recorded channel counts for more."""
     gain, more = o.recorded.noise_share(o.record), telling(o.record)
     squares = free = 0.0
     for p in parts:

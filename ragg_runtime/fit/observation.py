@@ -78,13 +78,10 @@ def observe(flight: Flight, instrument: Instrument, place: int = 0) -> Observati
 
 @dataclass(frozen=True)
 class Observation:
-    """What of a flight, or of a part of one, is fitted: m output series over N samples.
+    """What of a flight, or of a part of one, is fitted: m output series over N samples, V, in the form ``recorded``.
 
-    ``recorded`` says which form of the output they are; all are in V.
-
-    ``output`` is the output of the instrument that is observed; a flight with several makes as many observations,
-    ``place`` counts them; ``flight`` counts the flights that are looked at together. ``gains`` (m,) says how large the sheet's
-    scale factor of each series is over their mean. ``thin``: of what record this is a thinned one.
+    ``place`` counts the observations (one of each output of each flight), ``flight`` the flights; ``gains`` (m,) are the sheet's
+    scale factors over their mean; ``thin``: of what record this is a thinned one.
     """
 
     recorded: Recorded
@@ -145,18 +142,8 @@ class Observation:
 
 @dataclass(frozen=True)
 class Thin:
-    """Where the samples of a thinned observation come from: every so many of the ``whole``, through a low-pass.
-
-    Attributes
-    ----------
-    whole
-        The observation as it was recorded.
-    every
-        Samples of it from one that is kept to the next.
-    taps
-        (2 h + 1,): the low-pass, about its middle.
-    rows
-        Which of the samples that are kept these are.
+    """Where the samples of a thinned observation come from: every so many of the ``whole``, through the low-pass ``taps`` (2 h +
+    1,), about its middle; ``rows`` says which of those kept these are.
     """
 
     whole: Observation
@@ -196,10 +183,7 @@ def bridged(x: Array, valid: NDArray[np.bool_]) -> Array:
 
 
 def _at_top(values: Array, valid: NDArray[np.bool_]) -> bool:
-    """Whether so many samples stand at one extreme value that a range may have been reached.
-
-    Of most columns only one does, and what asks further takes ten times as long.
-    """
+    """Whether so many samples stand at one extreme value that a range may have been reached."""
     parts = [slice(k, k + ROWS) for k in range(0, len(values), ROWS)]
     tops = [float(np.nanmax(_sizes(values[some], valid[some]), initial=0.0)) for some in parts]
     near = max(tops, default=0.0) * (1 - 1e-9)
@@ -223,9 +207,7 @@ def _spacing(there: NDArray[np.bool_]) -> int:
 
 
 def telling(r: Record) -> float:
-    """How many times more a sample of the channels tells than one of a record of all of them: samples of noise in so narrow a
-    band are much alike, and those that are left out would have told little.
-    """
+    """How many times more a sample of the channels tells than one of a record at the full rate."""
     from scipy import signal  # slow to import, and only records of channels need it
 
     taps, n = r.low_pass.taps, len(r.time)

@@ -90,10 +90,8 @@ is (linearised), not even a curved valley takes most."""
 def widened(model: Model, instrument: Instrument, c: Calibration) -> Instrument | None:
     """The instrument with a sheet as sure of each kind of parameter as the record says it is, if that is less than it says.
 
-    The widths are those of which the record is likeliest (empirical Bayes; MacKay, Neural Computation 4, 1992): the square of the
-    distances over the number of parameters that the record tells. A kind that it does not tell stays as it is, and one that a missing
-    effect had pushed away is given back its sheet once that is in the model. ``None`` if nothing changes, or if more than noise is
-    left that no width takes.
+    The widths are those of greatest evidence (empirical Bayes; MacKay, Neural Computation 4, 1992): the squared distances over the
+    number of parameters that the record tells. ``None`` if nothing changes, or if no width brings what is left down to noise.
     """
     if c.unheld > max(QUIET, HELD * c.excess):
         return None
@@ -112,9 +110,7 @@ def as_said(instrument: Instrument) -> Instrument:
 def _widths(model: Model, instrument: Instrument, c: Calibration) -> dict[str, float]:
     """How many times less sure than it says the sheet is of each parameter, at least 1.
 
-    Those of one unit are a kind (lengths, angles, biases, scale factors, second-order coefficients): of a single one of these the
-    record often says too little. All of which the sheet states sigmas are one kind, its word, which is doubted only where nothing
-    speaks for a missing effect: an arm that is 40 % longer would else pass for scale factors of 13 sigma.
+    Those of one unit are a kind; all with a sigma on the sheet are another one, doubted only where nothing speaks for an effect.
     """
     kinds = {q.name: STATED if q.name in instrument.sigmas else q.si_unit for q in PARAMETERS}
     squares = dict.fromkeys(kinds.values(), 0.0)

@@ -27,24 +27,11 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Piece:
-    """A segment of a flight about one parameter vector.
+    """A segment of a flight about one parameter vector: N samples, m outputs.
 
-    Attributes
-    ----------
-    segment, observation
-        Which part of the flight, and the part itself (N samples, m outputs).
-    columns
-        (n + 1, m, N), V: base, candidates, each times its parameter's scale; the residual last.
-    n_base
-        How many of them are base columns.
-    white
-        (n + 1, rows): the same whitened, an unknown gradient projected out; one output after the other.
-    sample
-        (rows,): the flight's sample that a whitened row ends at.
-    windows
-        What an unknown gradient spans.
-    heard
-        Which of the columns the output can hold anything of; the others are zero.
+    ``columns`` (n + 1, m, N), V, are base (``n_base``) and candidates, each times its parameter's scale, and the residual;
+    ``white`` (n + 1, rows) the same whitened, one output after the other, an unknown gradient (``windows``) projected out;
+    ``sample`` (rows,) the flight's sample of each whitened row; ``heard`` the columns that are not zero.
     """
 
     segment: Segment
@@ -133,11 +120,9 @@ def passed(
     whitened: bool = True,
     effort: float = 0.0,
 ) -> Iterator[R]:
-    """What ``work`` makes of every segment of a flight, in order.
+    """What ``work`` makes of every segment of a flight (or of the ``chosen``, in order); it must not keep a piece of several.
 
-    ``chosen`` are some of the segments, in order: filters take what lies between them for zeros. If ``whitened`` is not
-    wanted, the columns alone are made. ``work`` must not keep a piece of several; it takes ``effort`` times as long as what
-    makes the piece.
+    ``effort``: how many times as long ``work`` takes as making the piece. Unless ``whitened``, the columns alone are made.
     """
     n_base = len(at.base)
     heard = design.heard([*at.base, *at.candidates], at.instrument, o.place)

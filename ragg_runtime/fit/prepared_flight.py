@@ -47,11 +47,7 @@ class PreparedFlight:
         return self.noise.psd(f, self.observation.signs)
 
     def each(self, work: Callable[[Piece], R], *, whitened: bool = True, effort: float = 0.0) -> Iterator[R]:
-        """What ``work`` makes of every segment, in order: one pass over the flight.
-
-        Segments of a long flight are never kept: ``work`` must not keep them either. What is not kept is only whitened if
-        that is wanted (``effort``: see ``passed``).
-        """
+        """What ``work`` makes of every segment, in order: one pass over the flight. It must not keep a segment."""
         if self._kept:
             return map(work, self._kept)
         if not whitened or len(self.observation.record.time) > ROWS:
@@ -60,9 +56,7 @@ class PreparedFlight:
         return map(work, self._kept)
 
     def lean(self, places: Sequence[int]) -> tuple[PreparedFlight, list[int]]:
-        """What makes the base's columns and those at ``places`` among all at least cost, and where it puts the latter: all of
-        them where they are kept.
-        """
+        """What makes the columns of the base and those at ``places`` at least cost, and where it puts the latter."""
         if self._kept:
             return self, list(places)
         n = len(self.at.base)
@@ -83,10 +77,7 @@ class PreparedFlight:
     def with_steps(
         self, instants: Mapping[str, float], places: Mapping[str, Sequence[int]]
     ) -> PreparedFlight:
-        """The same with steps (effect -> instant, s; effect -> places of its columns).
-
-        Kept columns go over to it, which saves a copy of them all: should this flight be asked again, it computes them anew.
-        """
+        """The same with steps (effect -> instant, s; effect -> places of its columns). Kept columns move to it."""
         moved = [k for e in instants for k in places[e]]
         kept = list(self._kept)
         self._kept.clear()
@@ -163,17 +154,8 @@ def to_nominal(model: Model, instrument: Instrument, c: Calibration) -> Array:
 class Projector:
     """Takes whatever base and given columns can explain out of whitened rows.
 
-    Directions that the data see worse than their prior of unit width are shrunk away by the prior: they
-    absorb nothing, and are left out.
-
-    Attributes
-    ----------
-    taken
-        Places of the columns that are projected out.
-    to_basis
-        (len(taken), k): whitened columns (rows, len(taken)) times it are orthonormal over all rows.
-    along
-        (k,): the residual's components along the basis.
+    Whitened columns (rows, len(taken)) times ``to_basis`` (len(taken), k) are orthonormal over all rows, without the directions
+    that the data see worse than the prior; ``along`` (k,) are the residual's components.
     """
 
     taken: NDArray[np.intp]

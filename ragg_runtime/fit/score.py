@@ -22,16 +22,8 @@ def least(rate: float) -> float:
 
 @dataclass(frozen=True)
 class Error:
-    """The *error* object of the interface.
-
-    Attributes
-    ----------
-    rms_V, rms_Eo
-        Root mean square of the residual before demodulation, V, and over k_ggi, Eo.
-    inline_Eo, cross_Eo
-        Standard deviations of the demodulated residual (NaN if the record is shorter than the low-pass).
-    inline_Eo_per_rtHz, cross_Eo_per_rtHz
-        Those over the root of the demodulator's bandwidth, 0.2 Hz.
+    """The *error* object of the interface: rms before demodulation, V and over k_ggi, Eo; standard deviations of the channels (NaN
+    if the record is shorter than the low-pass), and over the root of the bandwidth of 0.2 Hz.
     """
 
     rms_V: float
@@ -81,9 +73,7 @@ HOLES = 0.05
 
 
 def supported(selected: NDArray[np.bool_], valid: NDArray[np.bool_], taps: int) -> NDArray[np.bool_]:
-    """(groups, N - taps + 1): where a filter of so many taps has seen nothing but a selection (groups, N), and
-    most of that is valid (N,).
-    """
+    """(groups, N - taps + 1): where a filter of so many taps lies within a selection (groups, N), mostly valid (N,)."""
 
     def under(x: NDArray[np.bool_]) -> NDArray[np.int64]:
         seen = np.cumsum(np.pad(x.astype(np.int64), ((0, 0), (1, 0))), axis=1)
@@ -157,11 +147,9 @@ SERIES = 8
 
 
 class Tally:
-    """Sums of squares of k residual series over the segments of a flight, before and after demodulation.
+    """Sums of squares of k residual series over the segments of a flight, before and after demodulation, for ``groups`` of samples.
 
-    ``groups`` selections of samples are counted side by side. A demodulated sample counts where the low-pass has its whole
-    support within the selection (:func:`supported`). A tally of one segment is made :meth:`of` it; tallies of successive
-    ones are joined. ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`fit.thinning`).
+    ``beyond`` is a mean square, V^2, that each of the series has lost before (:mod:`fit.thinning`).
     """
 
     def __init__(

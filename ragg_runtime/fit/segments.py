@@ -1,8 +1,5 @@
-"""A flight in pieces that fit into memory: whatever its length, work is done on one segment after the other.
-
-A flight is divided into ``BLOCKS`` blocks of time (for held-out time and for steps). Segments are whole
-blocks, or equal parts of a long one, of at most ``ROWS`` samples; what a filter remembers of the segment
-before is carried over, so that the division leaves no trace in any figure.
+"""A flight in segments that fit into memory: whole blocks of time out of ``BLOCKS``, or equal parts of one, of at most ``ROWS``
+samples; filters carry on from one to the next.
 """
 
 from __future__ import annotations

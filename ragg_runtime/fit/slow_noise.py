@@ -1,10 +1,4 @@
-"""The slow noise of a long flight: what columns leave of its means over neighbouring samples.
-
-Noise is estimated from segments (``fit.noise``). One that is slower than a segment no segment shows, and of the slowest that
-it shows, the columns, fitted to each, take most: of 1/f noise a third at sixteen periods in a segment, and the density went on
-below that with a third of what is there. Means over as many samples as leave some thousands of a flight show it down to a few
-periods in the whole: columns fitted to all of them take little.
-"""
+"""The slow noise of a long flight, from what columns leave of its means over neighbouring samples: segments do not show it."""
 
 from __future__ import annotations
 
@@ -36,7 +30,7 @@ ENOUGH = 2
 
 
 def averages(at: Point, o: Observation, unwhitened: Noise) -> list[Averages] | None:
-    """What all columns leave of each output's means; ``None`` of a flight that is seen in one piece, or in too few means.
+    """What all columns leave of each output's means; ``None`` of a flight seen in one piece, or in too few means.
 
     ``unwhitened``: the noise that makes the columns as they are, or in combinations.
     """

@@ -55,9 +55,8 @@ def triangle(columns: Array) -> Array:
 
 
 def _entered(R: Array, part: Array, trapezoid: int = 0) -> Array:
-    """The factor of the rows of R (n, n), upper triangular, and of ``part`` (m, n), both in Fortran's order and used up.
-
-    The last ``trapezoid`` rows of ``part`` are an upper trapezoid, whose zeros stay.
+    """The factor of the rows of R (n, n), upper triangular, and of ``part`` (m, n), both in Fortran's order and used up; the last
+    ``trapezoid`` rows of ``part`` are an upper trapezoid.
     """
     if not part.size:
         return R

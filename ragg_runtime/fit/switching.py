@@ -1,11 +1,5 @@
-"""Samples that a fit does without: of which the sheet leaves open on which side of a switch an accelerometer is, and the ends of
-a record, where motion that is late is not in it.
-
-An effect that switches where a voltage passes zero (a step of its converter) puts each sample on one side or the other. Which
-is certain but for the few that are nearer to zero than the sheet knows its parameters; on the wrong side one of them is an
-outlier of the whole height, and no derivative says how to get it over. A fit with such an effect does without them.
-
-What stood in the record before it began or after it ended no fit can move to where it belongs.
+"""Samples that a fit does without: those of which the sheet leaves open on which side of a switch (a converter's step at zero
+voltage) an accelerometer is, and the ends of a record, which late motion does not cover.
 """
 
 from __future__ import annotations

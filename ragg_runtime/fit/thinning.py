@@ -1,10 +1,7 @@
-"""Long flights at a high rate, thinned: most of their samples tell nothing but noise.
+"""Long flights at a high rate, thinned: the columns of a fit hold nothing in most of the band.
 
-Whatever an effect does follows the motion, and an aircraft moves slowly: at 100 Hz all that the columns of a fit hold lies in a
-tenth of the band. What lies beyond is noise, which the estimate of the rest neither needs nor is helped by: by least squares
-it is orthogonal to every column. So output and motion pass a low-pass, and every so many samples are kept. What the model
-foresees is made of the whole record and thinned as the output is, for it is a million times the noise; its derivatives are
-those along the thinned motion. How far that goes the columns themselves say, on an excerpt: by both ways they must be the same.
+Output and motion pass a low-pass and every so many samples are kept. The model's output is made of the whole record and thinned;
+its derivatives are those along the thinned motion, which must agree with the whole ones on an excerpt.
 """
 
 from __future__ import annotations
@@ -44,9 +41,9 @@ LEAST_RATE, ABOVE = 8.0, 2.0
 """Hz, of the samples that are kept, and of what passes beyond the fourth multiple of the spin rate: the motion about it."""
 
 ALIKE, NEAR = 1e-3, 0.2
-"""Difference of a column made along the thinned motion from the thinned column, over the latter, up to which they are the same: of the
-model's parameters, and of candidates, of which one that is found is derived into the model (a step of the output itself, which
-goes on beyond any band, is so known to a twentieth of its power)."""
+"""Greatest relative difference between a column along the thinned motion and the thinned column: of the model's parameters, and of
+candidates, which are derived into the model once they are found.
+"""
 
 EXCERPTS, EXCERPT = 3, 12000
 """Segments on whose first samples the columns are compared, and most of these."""
@@ -65,9 +62,7 @@ BLOCK, TOGETHER = 1 << 12, 32
 
 
 def thinned(model: Model, instrument: Instrument, observations: Sequence[Observation]) -> list[Observation]:
-    """Observations as thin as their columns allow, about the sheet, those of one flight alike; themselves where they are short, or
-    nothing can be spared.
-    """
+    """Observations as thin as their columns allow about the sheet, those of one flight alike; short ones as they are."""
     at = Point(model, instrument, vector(model, instrument), with_candidates=True)
     most = [_most(at, o) for o in observations]
     found = []

@@ -1,11 +1,5 @@
-"""Nonlinear least squares by a trust region, the linearised problem being a triangle.
-
-Levenberg and Marquardt's method in Moré's form (The Levenberg-Marquardt algorithm, 1978): within a radius about the
-point the linearised problem is minimised exactly, by one parameter of damping found from the singular values of its
-triangle (n, n); the step is taken if the sum of squares at its end has fallen as much as the linearised problem said,
-and the radius follows how well it said so. Each trial costs one pass over the flights; all else costs nothing.
-
-Parameters come in units of their prior's width, which is their natural scale: the radius is a sphere in them.
+"""Nonlinear least squares by a trust region (Moré, The Levenberg-Marquardt algorithm, 1978), the linearised problem being a
+triangle (n, n) in units of the priors' widths.
 """
 
 from __future__ import annotations
@@ -31,9 +25,7 @@ RELATIVE = 1e-5
 """The same as a share of chi-square, where what is left is far more than noise: half of it is the share of the rms."""
 
 VALLEY = 1.0
-"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: the way there is a
-curved valley, or lost in the rounding of a record without noise, and what is at its end is not worth a standard deviation in
-one direction of the dozens that are fitted."""
+"""Chi-square still promised at which a search ends that gains less than :data:`SETTLED` in a step: a curved valley, or rounding."""
 
 SLOW = 0.01
 """The same where what is left is far more than noise, as a share of chi-square: half of it is the share of the rms, below the
@@ -61,15 +53,7 @@ thousand times narrower, and a hundred steps lead along it."""
 
 @dataclass(frozen=True)
 class Linear:
-    """A sum of squares about a point: |y - R step|^2 + rest.
-
-    Attributes
-    ----------
-    R, y
-        (n, n), (n,); R is regular.
-    rest
-        What no step removes.
-    """
+    """A sum of squares about a point: |y - R step|^2 + rest; R (n, n) is regular."""
 
     R: Array
     y: Array
@@ -135,21 +119,9 @@ L = TypeVar("L", bound=Linear)
 
 @dataclass(frozen=True)
 class Minimum(Generic[L]):
-    """Where the search ended.
+    """Where the search ended: ``x`` (n,), the problem linearised ``at`` it, and the ``trials`` it took.
 
-    Attributes
-    ----------
-    x
-        (n,): the point.
-    at
-        The problem linearised about ``x``.
-    converged, reason
-        Whether it is an optimum by :func:`settled`, and in words why the search ended.
-    trials
-        Points at which the problem was linearised.
-    faithful
-        Whether the last step did what was promised of it, and none before had to be shortened: then the linearised
-        problem can be trusted with a further one.
+    ``faithful``: the last step did what was promised of it, and none before had to be shortened.
     """
 
     x: Array
@@ -172,10 +144,7 @@ def settled(at: Linear) -> bool:
 
 
 def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) -> Minimum[L]:
-    """Minimise a sum of squares from ``start`` (n,); chi-square never rises.
-
-    ``linearise`` gives the problem about a point; where its cost is not finite the point is out of the model's reach.
-    """
+    """Minimise a sum of squares from ``start`` (n,); chi-square never rises. A point of infinite cost is out of the model's reach."""
     x = np.array(start, dtype=np.float64)
     at = linearise(x)
     radius, faithful, trials = np.inf, False, 1
@@ -213,11 +182,7 @@ def minimise(linearise: Callable[[Array], L], start: Array, most: int = MOST) ->
 
 
 def _followed(linearise: Callable[[Array], L], at: L, x: Array, step: Array) -> tuple[Array, L, int]:
-    """The end of a step from x, the problem about it, and how many points were tried.
-
-    A step along a curved valley ends on its slope. There a short step back to its floor is made (second-order correction;
-    Fletcher 1982), short enough not to leave along the valley again.
-    """
+    """The end of a step from x, with a second-order correction (Fletcher 1982), the problem about it, and the points tried."""
     end = x + step
     ahead = linearise(end)
     room = CORRECTION * float(np.linalg.norm(step))

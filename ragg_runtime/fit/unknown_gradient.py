@@ -1,9 +1,5 @@
-"""A gravity gradient that was not recorded: slow, unknown, neither an effect nor to hide one.
-
-Lines of the output that are no signal of the instrument are projected out in the same windows.
-It enters as T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30) with T_1, T_2 free to follow periods of half a minute and
-longer: cubic splines, projected out of data and columns alike. The splines of one window of time know nothing
-of the next, so that the work grows with the length of a flight and not with its square.
+"""A gravity gradient that was not recorded: T_1 sin 2 phi + T_2 cos 2 phi (Eq. 30), T_1 and T_2 cubic splines of periods of half a
+minute and longer, projected out of data and columns, window by window; lines of the output likewise.
 """
 
 from __future__ import annotations
@@ -47,18 +43,8 @@ TAKEN = 0.6 / KNOT_SECONDS
 
 @dataclass(frozen=True)
 class Window:
-    """What an unknown gradient spans in one window of a segment.
-
-    Attributes
-    ----------
-    samples
-        The window's samples, counted within the segment.
-    plain
-        (k, m valid): what spans it before whitening, one output after the other.
-    places
-        Rows of the segment's whitened columns.
-    white
-        (len(places), k): orthonormal basis in them.
+    """What an unknown gradient spans in one window of a segment: ``plain`` (k, m valid) before whitening, one output after the
+    other, and the orthonormal basis ``white`` (len(places), k) in the whitened rows ``places``.
     """
 
     samples: slice
@@ -168,9 +154,7 @@ def _lines(o: Observation, noise: Noise, rows: slice) -> Array:
 
 
 def _shares(o: Observation, X: Array) -> list[Array]:
-    """What each series of an observation sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each: a voltage as much as its
-    scale factor is large (by the sheet).
-    """
+    """What each series sees of T_1 sin 2 phi and T_2 cos 2 phi in turn, (k, N) each, by the sheet's scale factors."""
     alike = all(s * c == 1 for s, c in zip(o.output.signs, o.output.carriers, strict=True))
     if not o.recorded.separate or (alike and len(set(o.output.radii)) == 1):
         return [w * X for w in o.weights * o.gains]
