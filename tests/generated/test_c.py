@@ -103,10 +103,6 @@ def table_vi(t: Array) -> Array:
     return np.vstack([moving, turning, gradient])
 
 
-
-
-
-
 @pytest.mark.parametrize("start", [0.0, 1e6])
 def test_harmonic_models_equal_numpy(start: float, library: Mapping[str, compiled.Library]) -> None:
     draw = np.random.default_rng(20)

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import ast
-import inspect
 import json
-import re
 from pathlib import Path
 
 import numpy as np
@@ -19,16 +16,6 @@ from tests.generated import draws
 FOLDER = Path(str(generated.__file__)).parent
 MANIFEST = json.loads((FOLDER / "manifest.json").read_text())
 MODULES = {m.__name__.split(".")[-1]: m for m in (analytical, simplified, folded, chain, signatures)}
-
-
-
-
-
-
-
-
-
-
 
 
 def test_manifest_lists_every_file_and_model() -> None:
@@ -59,8 +46,6 @@ def test_manifest_describes_what_the_modules_hold() -> None:
             assert entry["amplitudes"] == list(module.AMPLITUDES)
         elif name != "folded":
             assert entry["rows"] == [n for n, _ in module.ROWS]
-
-
 
 
 def test_amplitudes_and_output_are_one_model() -> None:
