@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ragg_runtime.base import false_alarms
-from ragg_runtime.evidence import likelihood_ratio, sheet
+from ragg_runtime.evidence import likelihood_ratio, sheet, uneven
 from ragg_runtime.evidence.likelihood_ratio import Test
 from ragg_runtime.fit.columns import Column, grouped
 from ragg_runtime.fit.fitted import Fitted
@@ -38,7 +38,8 @@ class Field:
     """A triangle [base | candidates | residual] with the prior in, and the effects in it.
 
     ``candidates`` are columns after the base, by effect; ``penalty`` the logarithm of the number of variants an effect was chosen
-    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``within``: a field of some of
+    from; ``norms`` the candidates' whitened norms before projection; ``freedom`` that of the noise. ``blocks``: triangles
+    of the blocks of time with any sample, where the noise is uneven: they temper the tests (``uneven``). ``within``: a field of some of
     the effects on the same flights, whose tests hold here.
     """
 
@@ -48,6 +49,7 @@ class Field:
     rows: int
     penalty: Mapping[str, float] = field(default_factory=dict)
     freedom: float = np.inf
+    blocks: tuple[Array, ...] = ()
     within: Field | None = None
     norms: Array = field(init=False)
     P: Array = field(init=False)
@@ -100,8 +102,21 @@ class Field:
             for e, columns in self.candidates.items()
             if e not in given and e not in known
         }
+        if self.blocks and any(map(self._raises, found.values())):
+            others = [self.n_base + n for e in given for n, _ in self.candidates[e]]
+            beside = uneven.Beside(self.T, self.blocks, self.n_base, others)
+            found |= {e: self._tempered(t, beside, floor) for e, t in found.items() if self._raises(t)}
         found |= known
         return {e: found[e] for e in self.candidates if e in found}
+
+    def _raises(self, t: Test) -> bool:
+        """Whether a test says anything: those that do not stay as they are."""
+        return t.rank > 0 and t.log_p <= np.log(FAMILY)
+
+    def _tempered(self, t: Test, beside: uneven.Beside, floor: Array) -> Test:
+        """A test as sure as the scores in blocks of time are."""
+        tested = [self.n_base + k for k in t.which if np.linalg.norm(self.P[:, k]) > floor[k]]
+        return uneven.tempered(t, uneven.inflation(beside, tested), self.freedom, len(self.blocks))
 
     def joint(self, blocks: Sequence[Sequence[int]]) -> tuple[float, int]:
         """(chi-square, rank) of the union of column blocks."""
@@ -205,8 +220,9 @@ def field_of(
     candidates = grouped(f.candidates)
     kept = {e: tuple(c) for e, c in candidates.items() if e in available}
     freedom = sum(n.freedom for n in f.calibration.noise)
+    blocks = uneven.telling(t for own in f.triangles for t in own) if f.uneven else ()
     T = f.whole if T is None else T
-    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, within=within)
+    return Field(T, f.n_base, kept, f.calibration.rows, freedom=freedom, blocks=blocks, within=within)
 
 
 def testable_effects(f: Fitted) -> list[str]:

@@ -146,6 +146,11 @@ class Fitted:
         return int(self.triangles[0][0].shape[1]) - 1
 
     @property
+    def uneven(self) -> bool:
+        """Whether the noise changes its level in any observation."""
+        return any(n.level.parts for n in self.calibration.noise)
+
+    @property
     def beyond(self) -> tuple[float, ...]:
         """Mean square, V^2, of what thinning took of each observation, which remembers it: no column reaches there, it is noise."""
         return tuple(beyond(self.model, self.instrument, self.calibration.p, o) for o in self.observations)

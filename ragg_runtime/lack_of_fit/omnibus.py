@@ -21,6 +21,7 @@ from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.noise import line_width
 from ragg_runtime.fit.passes import Piece, flight_segments
 from ragg_runtime.fit.prepared_flight import PreparedFlight, Projector
+from ragg_runtime.fit.segments import BLOCKS
 from ragg_runtime.fit.significance import INDISTINGUISHABLE, log_sf_t
 from ragg_runtime.lack_of_fit.dictionary import Dictionary, Term
 from ragg_runtime.lack_of_fit.features import term_unit
@@ -206,6 +207,27 @@ class Scores:
         A = self.sums.along[list(places)]
         return G[np.ix_(row, row)] - A @ A.T
 
+    def inflation(self, places: Sequence[int]) -> Array:
+        """How much more than they should the scores of some terms vary between blocks of time, at least 1 (see ``uneven``)."""
+        edges, order = self.prepared.edges, np.sort(places)
+        along = self.sums.along[order]
+
+        def of_blocks(piece: Piece) -> Array:
+            Q = self.projector.basis(piece)
+            y = self.projector.left(piece, Q)
+            X = self.whitened(piece, places) - along @ Q.T
+            block = np.searchsorted(edges, piece.sample, side="right") - 1
+            found = np.zeros((2, BLOCKS, len(order)))
+            for b in np.unique(block):
+                here = block == b
+                found[:, b] = X[:, here] @ y[here], np.sum(X[:, here] ** 2, axis=1)
+            return found
+
+        score, square = sum(self.prepared.each(of_blocks), np.zeros((2, BLOCKS, len(order))))
+        left = score - square * (np.sum(score, axis=0) / np.sum(square, axis=0))  # beside the term itself
+        by = np.maximum(np.sum(left**2, axis=0) / np.sum(square, axis=0), 1.0)
+        return np.asarray(by[np.argsort(np.argsort(places))])
+
 
 def search(
     prepared: PreparedFlight, projector: Projector, further: Callable[[Piece, Array], T]
@@ -280,16 +302,23 @@ def _steady(s: Scores, most: int = MOST_TERMS) -> Omnibus:
     if first >= np.log(FAMILY):
         return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
     places = np.argsort(-np.abs(z), kind="stable")[: min(SHORTLIST, tried)]
+    sober = np.ones(len(places))
+    if s.prepared.noise.level.parts:
+        sober = np.sqrt(s.inflation([int(k) for k in places]))
+        freedom = min(freedom, BLOCKS - 1.0)
+        first = _log_p(z[places] / sober, tried, freedom)
+        if first >= np.log(FAMILY):
+            return Omnibus(log_p=first, tried=tried, terms=(), chi2=0.0, square=s.sums.square)
     G = s.gram([int(k) for k in places]) / np.outer(norm[places], norm[places])
     # a term of which next to nothing is left: where single precision does not know its own square, nothing is known beside another
     score, left = z[places].copy(), (np.abs(np.diag(G) - 1.0) < APART).astype(np.float64)
-    left[int(np.argmax(np.abs(score)))] = 1.0
+    left[int(np.argmax(np.abs(score) / sober))] = 1.0
     directions: list[Array] = []  # components of every term along each direction taken
     taken: list[Found] = []
     chi2 = 0.0
     while len(taken) < most:
         now = np.where(left > APART, score / np.sqrt(np.maximum(left, APART)), 0.0)
-        if _log_p(now, tried, freedom) >= np.log(FAMILY):
+        if _log_p(now / sober, tried, freedom) >= np.log(FAMILY):
             break
         near = np.flatnonzero(now**2 > np.max(now**2) - INDISTINGUISHABLE)
         k = int(min(near, key=lambda n: (s.dictionary.terms[places[n]].order, -abs(now[n]))))

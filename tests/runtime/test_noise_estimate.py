@@ -14,7 +14,6 @@ from ragg_runtime.fit.left_over import left_over
 from ragg_runtime.fit.significance import log_sf, log_sf_f, log_sf_t
 from ragg_runtime.fit.unknown_gradient import splines
 from ragg_runtime.model import model
-from ragg_runtime.model.record import Record
 from ragg_runtime.reference.scenario import scenario
 from ragg_runtime.signals.noise_level import estimated, in_words
 from ragg_runtime.signals.noise_spectrum import estimate
@@ -181,12 +180,3 @@ def test_tails_beyond_all_floats_are_known(ratio: float, d1: float, d2: float) -
         x = mpmath.mpf(d2) / (d2 + d1 * mpmath.mpf(ratio))
         expected = mpmath.log(mpmath.betainc(mpmath.mpf(d2) / 2, mpmath.mpf(d1) / 2, 0, x, regularized=True))
     assert log_sf_f(ratio, d1, d2) == pytest.approx(float(expected), rel=1e-3)
-
-
-def test_the_level_of_a_noise_may_follow_the_length_of_a_vector() -> None:
-    rng = np.random.default_rng(4)
-    omega = rng.normal(size=(3, 50))
-    wide = {f"omega_{k}": x for k, x in zip("xyz", omega, strict=True)}
-    r = Record(np.arange(50.0), wide, 1.0, np.ones(50, dtype=np.bool_), 0.0)
-    assert r.quantity("abs(omega)") == pytest.approx(np.linalg.norm(omega, axis=0))
-    assert r.quantity("abs(omega_x)") == pytest.approx(np.abs(omega[0]))
