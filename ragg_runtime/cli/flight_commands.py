@@ -31,8 +31,7 @@ from ragg_runtime.cli.shared import (
 )
 
 if TYPE_CHECKING:
-    from ragg_runtime.workflow import loop
-    from ragg_runtime.workflow.loop import Loaded
+    from ragg_runtime.workflow.loop import Added, Loaded
 
 
 @click.command(cls=Command)
@@ -237,7 +236,7 @@ def add(
     read = loop.read_flights(m, flights, mapping)
     under_way(f"deriving the model with {effect}, calibrating")
 
-    def tell(result: loop.Added) -> None:
+    def tell(result: Added) -> None:
         def page() -> str:
             from ragg_runtime.report.add_page import add_html
 
@@ -346,7 +345,7 @@ def compensate(
     """The gravity gradient as the instrument saw it: all removed that the model explains, demodulated."""
     from ragg_runtime.cli import terminal
     from ragg_runtime.report import in_words
-    from ragg_runtime.workflow import after
+    from ragg_runtime.workflow import after, loop
 
     out = Path(output)
     after.check_output(out)

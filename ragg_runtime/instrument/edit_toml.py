@@ -122,7 +122,7 @@ def _discs(layout: Layout) -> list[dict[str, Any]]:
         for d in layout.discs
     ]
     for p in layout.places:
-        place = {"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"}
+        place: dict[str, Any] = {"name": p.name, "angle": f"{p.angle!r} rad", "radius": f"{p.radius!r} m"}
         place |= {"height": f"{p.height!r} m", "direction": list(p.direction)}
         place |= {"sign": p.sign, "output": layout.output_names[p.output]}
         discs[p.disc]["accelerometer"].append(place)

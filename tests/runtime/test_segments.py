@@ -1,9 +1,7 @@
-"""Long flights: worked on in segments and from disk, with the figures of the whole."""
+"""Long flights: worked on in segments, with the figures of the whole."""
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,14 +9,13 @@ import pytest
 
 from ragg_runtime.diagnosis import comparison, contenders
 from ragg_runtime.diagnosis.contenders import Left
-from ragg_runtime.diagnosis.diagnose import diagnose
 from ragg_runtime.evidence import selection, steps
 from ragg_runtime.evidence.selection import field_of
 from ragg_runtime.fit import calibrate, fitted, noise, observation, passes, prepared_flight, score, slow_noise
 from ragg_runtime.fit.fitted import Fitted
 from ragg_runtime.fit.linearise import Point
 from ragg_runtime.fit.segments import BLOCKS, beginnings, segments, spread
-from ragg_runtime.flight import Flight, files, read_flight, write_flight
+from ragg_runtime.flight import Flight
 from ragg_runtime.lack_of_fit import omnibus
 from ragg_runtime.model import model
 from ragg_runtime.model.evaluate import vector
@@ -83,48 +80,6 @@ def test_the_division_leaves_no_trace(
     a, b = omnibus.remainder(whole), omnibus.remainder(parts)
     assert b.searches[0].terms[0].term == a.searches[0].terms[0].term
     assert b.searches[0].terms[0].z == pytest.approx(a.searches[0].terms[0].z, rel=1e-4)  # single precision
-
-
-@pytest.mark.parametrize("kind", ["parquet", "csv", "nc"])
-def test_a_flight_on_disk_is_the_flight_in_memory(
-    flown: tuple[Scenario, Flight], kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    _, flight = flown
-    path = tmp_path / f"flight.{kind}"
-    write_flight(flight, path)
-    expected = read_flight(path, G0)
-    monkeypatch.setattr(files, "IN_MEMORY", 100_000)
-    monkeypatch.setattr(files, "PART", 2000)
-    found = read_flight(path, G0)
-    base = found.time.base
-    while base is not None and not isinstance(base, np.memmap):
-        base = base.base
-    assert base is not None
-    np.testing.assert_array_equal(found.time, expected.time)
-    np.testing.assert_array_equal(found.valid, expected.valid)
-    for group in ("channels", "outputs"):
-        a, b = getattr(expected, group), getattr(found, group)
-        assert set(a) == set(b)
-        for n in a:
-            np.testing.assert_array_equal(b[n], a[n])
-    assert (found.name, found.digest, found.units) == (expected.name, expected.digest, expected.units)
-
-
-def test_the_diagnosis_of_a_flight_on_disk_is_the_same_to_the_last_digit(
-    flown: tuple[Scenario, Flight], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    s, flight = flown
-    path = tmp_path / "flight.parquet"
-    write_flight(flight, path)
-    for module in (passes, prepared_flight, observation):
-        monkeypatch.setattr(module, "ROWS", 4000)
-    said = []
-    for most in (1 << 30, 100_000):
-        monkeypatch.setattr(files, "IN_MEMORY", most)
-        d = diagnose(model.packaged(), s.sheet, [read_flight(path, G0)])
-        assert d.found == ("thermal-scale",)
-        said.append(json.dumps(d.as_json()))
-    assert said[0] == said[1]
 
 
 def test_single_missing_samples_do_not_silence_the_demodulator(flown: tuple[Scenario, Flight]) -> None:
